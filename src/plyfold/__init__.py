@@ -1,0 +1,1 @@
+"""Closed curves that cross themselves: immersed disks, their layerings, and the surfaces they bound."""
