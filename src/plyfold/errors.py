@@ -18,7 +18,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from plyfold.obstruction import Obstruction
 
 __all__ = [
     "CurveError",
@@ -96,8 +99,8 @@ class GeneralPositionError(PlyfoldError):
 class _ObstructedError(PlyfoldError):
     """An answer that was asked for does not exist; ``obstruction`` says why."""
 
-    def __init__(self, message: str, obstruction: Any, where: Iterable[Iterable[float]] = (), hint: str = "") -> None:
-        super().__init__(message, where, hint)
+    def __init__(self, obstruction: Obstruction, hint: str = "") -> None:
+        super().__init__(str(obstruction), obstruction.where, hint)
         self.obstruction = obstruction
 
 

@@ -1,0 +1,161 @@
+"""Exact signs: on which side of a line a point lies, and in which order crossings follow along an edge.
+
+Coordinates are doubles, and doubles are rational numbers, so every sign below has an exact value. It is computed in
+floating point with a bound on the rounding error; where the bound does not decide, it is computed again with
+:class:`fractions.Fraction`. Nothing here depends on the scale of the drawing.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ["compare_along_edge", "cross_sign", "orient"]
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+Signs: TypeAlias = npt.NDArray[np.int8]
+
+# Shewchuk's bound for orient2d is (3 + 16 u) u with u = 2^-53; doubled here, which costs a few exact calls more.
+_ORIENT_ERROR = 6.7e-16
+# Below this size a product of two differences may have underflowed, and the bound above does not hold.
+_UNDERFLOW = 1e-290
+# The parameter of a crossing is a quotient of two sums, each within 8 u of its magnitude.
+_PARAMETER_ERROR = 4e-15
+
+
+def orient(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> Signs:
+    """Tell on which side of the line through a and b the point c lies.
+
+    Parameters
+    ----------
+    a, b, c : array_like, shape (..., 2)
+        Points, broadcast against each other.
+
+    Returns
+    -------
+    ndarray of int8, shape (...)
+        +1 if a, b, c turn counter-clockwise (c is left of a → b), −1 if clockwise, 0 if they are on one line. Exact.
+
+    Notes
+    -----
+    Linear in the number of triples; about 1e7 triples a second where the floating-point filter decides.
+
+    Examples
+    --------
+    >>> orient([0, 0], [1, 0], [[0, 1], [5, 0], [0, -1]])
+    array([ 1,  0, -1], dtype=int8)
+    """
+    a, b, c = np.broadcast_arrays(*(np.asarray(p, dtype=np.float64) for p in (a, b, c)))
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+        left = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1])
+        right = (b[..., 1] - a[..., 1]) * (c[..., 0] - a[..., 0])
+        signs, unsure = _filtered_sign(left, right)
+    for place in zip(*np.nonzero(unsure), strict=True):
+        signs[place] = _orient_exactly(a[place], b[place], c[place])
+    return signs
+
+
+def _filtered_sign(left: Floats, right: Floats) -> tuple[Signs, npt.NDArray[np.bool_]]:
+    """Return the sign of left − right, and where rounding may have changed it."""
+    determinant = left - right
+    bound = _ORIENT_ERROR * (np.abs(left) + np.abs(right)) + _UNDERFLOW
+    return np.sign(determinant).astype(np.int8), ~(np.abs(determinant) > bound)
+
+
+def _orient_exactly(a: Floats, b: Floats, c: Floats) -> int:
+    ax, ay, bx, by, cx, cy = (Fraction(float(x)) for x in (*a, *b, *c))
+    return _sign((bx - ax) * (cy - ay) - (by - ay) * (cx - ax))
+
+
+def _sign(number: Fraction) -> int:
+    return (number > 0) - (number < 0)
+
+
+def cross_sign(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayLike) -> Signs:
+    """Return the sign of the cross product of the directions a → b and c → d.
+
+    Parameters
+    ----------
+    a, b, c, d : array_like, shape (..., 2)
+        Points, broadcast against each other.
+
+    Returns
+    -------
+    ndarray of int8, shape (...)
+        +1 if c → d points to the left of a → b, −1 if to the right, 0 if they are parallel. Exact.
+
+    Examples
+    --------
+    >>> cross_sign([0, 0], [1, 0], [7, 7], [7, 8])
+    array(1, dtype=int8)
+    """
+    a, b, c, d = np.broadcast_arrays(*(np.asarray(p, dtype=np.float64) for p in (a, b, c, d)))
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+        left = (b[..., 0] - a[..., 0]) * (d[..., 1] - c[..., 1])
+        right = (b[..., 1] - a[..., 1]) * (d[..., 0] - c[..., 0])
+        signs, unsure = _filtered_sign(left, right)
+    for place in zip(*np.nonzero(unsure), strict=True):
+        signs[place] = _sign(_cross(*(_exact(p[place]) for p in (a, b, c, d))))
+    return signs
+
+
+def _exact(point: Floats) -> tuple[Fraction, Fraction]:
+    return Fraction(float(point[0])), Fraction(float(point[1]))
+
+
+def _cross(
+    a: tuple[Fraction, Fraction],
+    b: tuple[Fraction, Fraction],
+    c: tuple[Fraction, Fraction],
+    d: tuple[Fraction, Fraction],
+) -> Fraction:
+    return (b[0] - a[0]) * (d[1] - c[1]) - (b[1] - a[1]) * (d[0] - c[0])
+
+
+def parameter_along_edge(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Floats]:
+    """Return where the edges a → b cross the edges c → d, as a fraction of a → b, with a bound on its error.
+
+    All four have shape (m, 2); each pair of edges is known to cross.
+    """
+    with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
+        ab, cd, ac = b - a, d - c, c - a
+        above = ac[:, 0] * cd[:, 1] - ac[:, 1] * cd[:, 0]
+        below = ab[:, 0] * cd[:, 1] - ab[:, 1] * cd[:, 0]
+        above_size = np.abs(ac[:, 0] * cd[:, 1]) + np.abs(ac[:, 1] * cd[:, 0]) + _UNDERFLOW
+        below_size = np.abs(ab[:, 0] * cd[:, 1]) + np.abs(ab[:, 1] * cd[:, 0]) + _UNDERFLOW
+        error = _PARAMETER_ERROR * (above_size + 2 * below_size) / np.abs(below)
+        parameter = np.clip(above / below, 0.0, 1.0)
+    lost = ~np.isfinite(error) | ~np.isfinite(parameter)
+    return np.where(lost, 0.5, parameter), np.where(lost, np.inf, error)
+
+
+def exact_parameter(a: Floats, b: Floats, c: Floats, d: Floats) -> Fraction:
+    """Return where the edge a → b crosses the edge c → d, as an exact fraction of a → b."""
+    p, q, r, s = _exact(a), _exact(b), _exact(c), _exact(d)
+    return _cross(p, r, r, s) / _cross(p, q, r, s)
+
+
+def compare_along_edge(edge: npt.ArrayLike, first: npt.ArrayLike, second: npt.ArrayLike) -> int:
+    """Tell which of two edges crosses a given edge first.
+
+    Parameters
+    ----------
+    edge, first, second : array_like, shape (2, 2)
+        Start and end of each edge; ``first`` and ``second`` both cross ``edge``.
+
+    Returns
+    -------
+    int
+        −1 if ``first`` crosses ``edge`` nearer to its start, +1 if ``second`` does, 0 if all three meet in one
+        point. Exact.
+
+    Examples
+    --------
+    >>> compare_along_edge([[0, 0], [9, 0]], [[2, -1], [2, 1]], [[4, 1], [4, -1]])
+    -1
+    """
+    (a, b), (c, d), (e, f) = (np.asarray(pair, dtype=np.float64) for pair in (edge, first, second))
+    return _sign(exact_parameter(a, b, c, d) - exact_parameter(a, b, e, f))
