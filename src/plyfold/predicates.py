@@ -48,26 +48,7 @@ def orient(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> Signs:
     >>> orient([0, 0], [1, 0], [[0, 1], [5, 0], [0, -1]])
     array([ 1,  0, -1], dtype=int8)
     """
-    a, b, c = np.broadcast_arrays(*(np.asarray(p, dtype=np.float64) for p in (a, b, c)))
-    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-        left = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1])
-        right = (b[..., 1] - a[..., 1]) * (c[..., 0] - a[..., 0])
-        signs, unsure = _filtered_sign(left, right)
-    for place in zip(*np.nonzero(unsure), strict=True):
-        signs[place] = _orient_exactly(a[place], b[place], c[place])
-    return signs
-
-
-def _filtered_sign(left: Floats, right: Floats) -> tuple[Signs, npt.NDArray[np.bool_]]:
-    """Return the sign of left − right, and where rounding may have changed it."""
-    determinant = left - right
-    bound = _ORIENT_ERROR * (np.abs(left) + np.abs(right)) + _UNDERFLOW
-    return np.sign(determinant).astype(np.int8), ~(np.abs(determinant) > bound)
-
-
-def _orient_exactly(a: Floats, b: Floats, c: Floats) -> int:
-    ax, ay, bx, by, cx, cy = (Fraction(float(x)) for x in (*a, *b, *c))
-    return _sign((bx - ax) * (cy - ay) - (by - ay) * (cx - ax))
+    return cross_sign(a, b, a, c)
 
 
 def _sign(number: Fraction) -> int:
@@ -94,10 +75,14 @@ def cross_sign(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.Arra
     """
     a, b, c, d = np.broadcast_arrays(*(np.asarray(p, dtype=np.float64) for p in (a, b, c, d)))
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-        left = (b[..., 0] - a[..., 0]) * (d[..., 1] - c[..., 1])
-        right = (b[..., 1] - a[..., 1]) * (d[..., 0] - c[..., 0])
-        signs, unsure = _filtered_sign(left, right)
-    for place in zip(*np.nonzero(unsure), strict=True):
+        left = np.asarray((b[..., 0] - a[..., 0]) * (d[..., 1] - c[..., 1]))
+        right = np.asarray((b[..., 1] - a[..., 1]) * (d[..., 0] - c[..., 0]))
+        determinant = left - right
+        bound = _ORIENT_ERROR * (np.abs(left) + np.abs(right)) + _UNDERFLOW
+        signs = np.asarray(np.sign(np.nan_to_num(determinant)), dtype=np.int8)
+    # Written so that NaN and infinity, the marks of overflow, count as undecided.
+    for row in np.argwhere(~(np.abs(determinant) > bound)):
+        place = tuple(row)
         signs[place] = _sign(_cross(*(_exact(p[place]) for p in (a, b, c, d))))
     return signs
 
