@@ -1,0 +1,191 @@
+"""General position (§2.1 and §4 of the paper): no vertex on a foreign edge, no three edges through one point.
+
+A drawing that is not in general position has no answer of its own: each way of moving the touching strands apart is
+another curve. The rule here is that strands which only touch come apart, strands which run through each other's
+vertices cross once, and strands which run along each other end up side by side. Nothing else may change: a move is
+accepted only if every pair of edges that crossed still does, and no pair crosses that was apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Literal
+
+import numpy as np
+
+from plyfold.arrangement.crossings import Contacts, Ints, Visits, find_contacts, order_visits
+from plyfold.curve import Curve, Repair
+from plyfold.errors import GeneralPositionError
+from plyfold.predicates import Floats, orient
+
+__all__ = ["in_general_position"]
+
+# Steps as fractions of the drawing's size: large enough for a mesh to survive, smaller where strands crowd.
+_STEPS = [2.0**-exponent for exponent in (20, 24, 28, 32, 36, 40, 44)]
+_GOLDEN_ANGLE = np.pi * (3 - np.sqrt(5))
+_ATTEMPTS = 6
+
+
+def in_general_position(curve: Curve, policy: Literal["perturb", "raise"]) -> tuple[Curve, Visits]:
+    """Return the curve with touching strands moved apart, and its visits to the crossings.
+
+    Parameters
+    ----------
+    curve : Curve
+    policy : {"perturb", "raise"}
+        Move vertices, or raise an error where one would have to be moved.
+
+    Returns
+    -------
+    Curve
+        The same curve if it is in general position; else one with a :class:`~plyfold.curve.Repair` per moved vertex.
+        Which vertices move, and where to, does not depend on the starting point or the direction of the curve.
+    Visits
+
+    Raises
+    ------
+    GeneralPositionError
+        With ``policy="raise"`` at every touching place; with ``"perturb"`` if the strands are too crowded to separate.
+    """
+    if policy not in ("perturb", "raise"):
+        raise ValueError(f'general_position must be "perturb" or "raise", not {policy!r}')
+    contacts = find_contacts(curve.points)
+    visits = order_visits(curve.points, contacts)
+    if _is_general(contacts, visits):
+        return curve, visits
+    if policy == "raise":
+        raise GeneralPositionError(
+            f"the curve is not in general position: {len(contacts.touches)} vertices lie on other edges, and "
+            f"{len(visits.triple)} times three edges meet in a point",
+            where=_places(curve.points, contacts, visits),
+            hint='move these vertices, or use general_position="perturb"',
+        )
+    return _separate(curve, contacts, visits)
+
+
+def _is_general(contacts: Contacts, visits: Visits) -> bool:
+    return len(contacts.touches) == 0 and len(visits.triple) == 0
+
+
+def _places(points: Floats, contacts: Contacts, visits: Visits) -> list[tuple[float, float]]:
+    touching = points[np.unique(contacts.touches[:, 0])]
+    meeting = visits.point[np.isin(visits.edge, visits.triple[:, 0])]
+    places = np.unique(np.concatenate([touching, meeting]), axis=0)
+    return [(float(x), float(y)) for x, y in places]
+
+
+def _separate(curve: Curve, contacts: Contacts, visits: Visits) -> tuple[Curve, Visits]:
+    """Try small moves of the touching vertices until the curve is in general position and nothing else has changed."""
+    allowed = _crossing_pairs(contacts) | _touching_pairs(contacts, len(curve.points))
+    for moved in _candidates(curve.points):
+        new_contacts = find_contacts(moved)
+        new_visits = order_visits(moved, new_contacts)
+        pairs = _crossing_pairs(new_contacts)
+        if _is_general(new_contacts, new_visits) and _crossing_pairs(contacts) <= pairs <= allowed:
+            repairs = _moves(curve.points, moved)
+            return Curve(moved, repairs=curve.repairs + repairs), new_visits
+    raise GeneralPositionError(
+        "strands touch or overlap, and are too crowded to be moved apart",
+        where=_places(curve.points, contacts, visits),
+        hint="move these vertices by hand",
+    )
+
+
+def _crossing_pairs(contacts: Contacts) -> set[tuple[int, int]]:
+    return {(e, f) for e, f in contacts.edges.tolist()}
+
+
+def _touching_pairs(contacts: Contacts, n: int) -> set[tuple[int, int]]:
+    """Return the pairs of edges that may cross after the move: those that touch before."""
+    pairs = {(e, f) for v, f in contacts.touches.tolist() for e in ((v - 1) % n, v)}
+    return {(min(pair), max(pair)) for pair in pairs}
+
+
+def _moves(before: Floats, after: Floats) -> tuple[Repair, ...]:
+    size = np.hypot(*(after - before).T)
+    return tuple(
+        Repair("vertex moved", (float(x), float(y)), float(size[v]))
+        for v, (x, y) in enumerate(before)
+        if (before[v] != after[v]).any()
+    )
+
+
+def _candidates(points: Floats) -> Iterator[Floats]:
+    """Yield ever more desperate ways to move the touching vertices, the same for every start and direction."""
+    order = _canonical_order(points)
+    frame = points[order]
+    contacts = find_contacts(frame)
+    displacement = _displacements(frame, contacts, order_visits(frame, contacts))
+    size = float(np.ptp(points, axis=0).max())
+    for attempt in range(_ATTEMPTS):
+        turned = _rotated(displacement, attempt * _GOLDEN_ANGLE)
+        for step in _STEPS:
+            moved = np.empty_like(points)
+            moved[order] = frame + step * size * turned
+            yield moved
+
+
+def _rotated(vectors: Floats, angle: float) -> Floats:
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return np.asarray(vectors @ np.array([[cosine, sine], [-sine, cosine]]))
+
+
+def _canonical_order(points: Floats) -> Ints:
+    """Return the vertices in an order that does not depend on the curve's start and direction."""
+    n = len(points)
+    lowest = np.flatnonzero((points == points[np.lexsort((points[:, 1], points[:, 0]))[0]]).all(axis=1))
+    turns = [(start + direction * np.arange(n)) % n for start in lowest for direction in (1, -1)]
+    return np.asarray(min(turns, key=lambda turn: points[turn].tolist()), dtype=np.int64)
+
+
+def _displacements(points: Floats, contacts: Contacts, visits: Visits) -> Floats:
+    """Return the direction in which each vertex is to move, shape (n, 2); zero for those that stay.
+
+    Of vertices that coincide the first stays and the others move by 1, 2, … steps, so that strands which run along
+    each other for several laps end up in order.
+    """
+    displacement = np.zeros_like(points)
+    rank = _rank_among_equals(points)
+    coincident = _coincident(points)
+    for vertex, edge in contacts.touches.tolist():
+        steps = rank[vertex] if coincident[vertex] else 1
+        displacement[vertex] = steps * _way_out(points, vertex, edge)
+    for triple in visits.triple.tolist():
+        last = max(triple)
+        along = points[(last + 1) % len(points)] - points[last]
+        displacement[last] = (1 + (last * _GOLDEN_ANGLE) % 1) * _unit(np.array([-along[1], along[0]]))
+    return displacement
+
+
+def _coincident(points: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    inverse, counts = np.unique(points, axis=0, return_inverse=True, return_counts=True)[1:]
+    return np.asarray(counts[inverse.reshape(-1)] > 1)
+
+
+def _rank_among_equals(points: Floats) -> Ints:
+    """Return for each vertex how many earlier vertices lie at the same place."""
+    inverse = np.unique(points, axis=0, return_inverse=True)[1].reshape(-1)
+    order = np.argsort(inverse, kind="stable")
+    group_start = np.searchsorted(inverse[order], inverse[order])
+    rank = np.empty(len(points), dtype=np.int64)
+    rank[order] = np.arange(len(points)) - group_start
+    return rank
+
+
+def _way_out(points: Floats, vertex: int, edge: int) -> Floats:
+    """Return the direction that takes a vertex off an edge it lies on."""
+    n = len(points)
+    here, before, after = points[vertex], points[vertex - 1], points[(vertex + 1) % n]
+    side_before, side_after = orient(points[edge], points[(edge + 1) % n], np.stack([before, after])).tolist()
+    if side_before * side_after == 0:  # runs along the edge: step aside
+        along = _unit(after - here) + _unit(here - before)
+        along = along if along.any() else here - before
+        return _unit(np.array([-along[1], along[0]]))
+    if side_before == side_after:  # touches: draw back
+        return _unit(_unit(before - here) + _unit(after - here))
+    return _unit(after - here)  # crosses: cross a little earlier
+
+
+def _unit(vector: Floats) -> Floats:
+    length = float(np.hypot(*vector))
+    return vector / length if length else vector

@@ -1,0 +1,157 @@
+"""An immersed disk: sheets over the cells, glued along the borders (§2.2 of the paper)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from plyfold.arrangement import Arrangement
+from plyfold.arrangement.planar_map import Ints
+from plyfold.errors import PlyfoldError
+
+__all__ = ["Group", "Immersion"]
+
+
+@dataclass(frozen=True)
+class Group:
+    """A sheet and the borders that lie on its boundary: one region of the disk layout.
+
+    Parameters
+    ----------
+    sheet, cell : int
+        The sheet (the paper's *face*) and the cell below it.
+    borders : tuple of int
+        Its own borders in order along the curve.
+    """
+
+    sheet: int
+    cell: int
+    borders: tuple[int, ...]
+
+    @property
+    def arcs(self) -> tuple[tuple[int, int], ...]:
+        """The paper's arcs: each border with the next one of the group; a border alone has a self-arc."""
+        if len(self.borders) < 3:
+            return ((self.borders[0], self.borders[-1]),)
+        return tuple(zip(self.borders, self.borders[1:] + self.borders[:1], strict=True))
+
+
+@dataclass(frozen=True, eq=False)
+class Immersion:
+    """One way in which a disk of cloth can lie flat with the curve as its outline.
+
+    Parameters
+    ----------
+    arrangement : Arrangement
+        The curve's crossings, borders and cells.
+    sheet_cell : (sheets,) int
+        The cell below each sheet. Cell c has ``winding[c]`` sheets, numbered consecutively from ``first_sheet[c]``.
+    first_sheet : (cells,) int
+        Number of each cell's first sheet.
+    own_sheet : (borders,) int
+        The sheet on the left of each border that has the border on the boundary of the disk.
+    gluing : (g, 3) int
+        Rows (border, sheet on its right, sheet on its left): the two sheets are glued along the border. Every sheet
+        on the right occurs once per border, and every sheet on the left except the border's own.
+
+    Examples
+    --------
+    >>> from plyfold.immersion import find_immersion
+    >>> ramp = find_immersion([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)])
+    >>> ramp.arrangement.winding.tolist(), ramp.n_sheets
+    ([0, 2, 0, 1, 1, 1], 5)
+    >>> [(group.cell, group.borders) for group in ramp.disk_layout()]
+    [(1, (1, 7)), (3, (2,)), (4, (3, 5)), (1, (0, 4)), (5, (6,))]
+    """
+
+    arrangement: Arrangement
+    sheet_cell: Ints
+    first_sheet: Ints
+    own_sheet: Ints
+    gluing: Ints
+
+    def __post_init__(self) -> None:
+        for array in (self.sheet_cell, self.first_sheet, self.own_sheet, self.gluing):
+            array.flags.writeable = False
+
+    @property
+    def n_sheets(self) -> int:
+        """Number of sheets: the winding numbers of all cells added up."""
+        return len(self.sheet_cell)
+
+    def sheets(self, cell: int) -> range:
+        """Return the sheets over a cell."""
+        first = int(self.first_sheet[cell])
+        return range(first, first + int(self.arrangement.winding[cell]))
+
+    @cached_property
+    def _upper(self) -> dict[tuple[int, int], int]:
+        return {(border, lower): upper for border, lower, upper in self.gluing.tolist()}
+
+    def disk_layout(self) -> tuple[Group, ...]:
+        """Return the disk layout: the borders of the disk, grouped by the sheet they lie on (§2.2 of [MGR11]_).
+
+        Returns
+        -------
+        tuple of Group
+            In order of their first borders. They are a non-crossing partition of the borders: drawn in a round
+            disk, arcs between borders of one group never meet those of another. Sheets without own borders are
+            not listed. Cost: O(k log k).
+
+        References
+        ----------
+        .. [MGR11] U. Mukherjee, M. Gopi, J. Rossignac, "Immersion and Embedding of Self-Crossing Loops",
+           Sketch-Based Interfaces and Modeling, 2011.
+        """
+        borders_of: dict[int, list[int]] = {}
+        for border, sheet in enumerate(self.own_sheet.tolist()):
+            borders_of.setdefault(sheet, []).append(border)
+        return tuple(Group(s, int(self.sheet_cell[s]), tuple(borders)) for s, borders in borders_of.items())
+
+    def check(self) -> None:
+        """Check the immersion against its definition, border by border and crossing by crossing.
+
+        Raises
+        ------
+        PlyfoldError
+            Naming the condition that failed and the border. That would be a mistake in plyfold.
+
+        Notes
+        -----
+        O(Σ w).
+        """
+        for condition, holds in self._conditions():
+            if not holds:
+                raise PlyfoldError(f"internal check failed: {condition}")
+
+    def _conditions(self) -> Iterator[tuple[str, bool]]:
+        arrangement = self.arrangement
+        yield "the curve turns once", arrangement.turning_number == 1
+        yield (
+            "as many sheets as windings",
+            np.array_equal(np.bincount(self.sheet_cell, minlength=arrangement.n_cells), arrangement.winding),
+        )
+        lower_cell, upper_cell = arrangement.right_cell.tolist(), arrangement.left_cell.tolist()
+        for border, own in enumerate(self.own_sheet.tolist()):
+            lower = self.sheets(lower_cell[border])
+            upper = [self._upper.get((border, sheet), -1) for sheet in lower] + [own]
+            yield f"border {border} glues one to one", sorted(upper) == list(self.sheets(upper_cell[border]))
+        yield "nothing else is glued", len(self.gluing) == arrangement.winding[arrangement.right_cell].sum()
+        for visit in np.flatnonzero(arrangement.ccw).tolist():
+            yield f"the gluings agree around the crossing at visit {visit}", self._agree_around(visit)
+
+    def _agree_around(self, a: int) -> bool:
+        """Compare the two ways from the bottom cell to the top cell around a crossing."""
+        n, own = self.arrangement.n_borders, self.own_sheet
+        b = int(self.arrangement.partner[a])
+        a_top, a_bottom, b_top, b_bottom = (a - 1) % n, a, b, (b - 1) % n
+        bottom = self.sheets(int(self.arrangement.right_cell[a_bottom]))
+        up = self._upper
+        return (
+            all(up[b_top, up[a_bottom, s]] == up[a_top, up[b_bottom, s]] for s in bottom)
+            and up[b_top, int(own[a_bottom])] == own[a_top]
+            and up[a_top, int(own[b_bottom])] == own[b_top]
+        )
