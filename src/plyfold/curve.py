@@ -1,0 +1,232 @@
+"""Closed polylines, the input of everything else (the self-crossing loop of the paper, §2.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+import numpy.typing as npt
+
+from plyfold.errors import CurveError
+from plyfold.points import Repair, as_points
+from plyfold.predicates import orient
+from plyfold.strokes import join_strokes
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
+__all__ = ["Curve", "Repair", "as_curve"]
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Curve:
+    """A closed polyline: the points in order, the last one joined to the first.
+
+    Parameters
+    ----------
+    points : array-like, shape (n, 2)
+        Vertices in order, x to the right and y up, in any unit. If the last point repeats the first, it is left out;
+        other points that repeat the one before them are left out and recorded in ``repairs``.
+    repairs : iterable of Repair, optional
+        What was changed before the points came here.
+
+    Attributes
+    ----------
+    points : ndarray, shape (n, 2), float64, read-only
+        At least three vertices, no two consecutive ones equal, not all on one line.
+    repairs : tuple of Repair
+        Everything that was changed in the input.
+
+    Raises
+    ------
+    CurveError
+        If the shape is wrong, a coordinate is not finite, fewer than three points differ, or all lie on one line
+        (decided exactly; a figure eight with signed area 0 is a fine curve).
+
+    Notes
+    -----
+    O(n log n). Curves are compared by identity.
+
+    Examples
+    --------
+    >>> square = Curve([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)])
+    >>> len(square)
+    4
+    >>> [str(repair) for repair in Curve([(0, 0), (1, 0), (1, 0), (0, 1)]).repairs]
+    ['repeated point dropped at (1, 0)']
+    """
+
+    points: npt.NDArray[np.float64]
+    repairs: tuple[Repair, ...]
+
+    def __init__(self, points: npt.ArrayLike, repairs: Iterable[Repair] = ()) -> None:
+        kept, dropped = _without_repetitions(_without_closing_point(as_points(points)))
+        _refuse_degenerate(kept)
+        kept.setflags(write=False)
+        object.__setattr__(self, "points", kept)
+        object.__setattr__(self, "repairs", (*repairs, *dropped))
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    @classmethod
+    def from_strokes(cls, strokes: Iterable[npt.ArrayLike], max_gap: float | None = None) -> Curve:
+        """Join strokes, given in any order and direction, into one closed curve.
+
+        Parameters
+        ----------
+        strokes : iterable of array-likes, each of shape (m, 2)
+            Pen strokes that together cover the loop (§4 of [MGR11]_).
+        max_gap : float, optional
+            Longest gap that may be bridged; by default a tenth of the diagonal of the bounding box.
+
+        Returns
+        -------
+        Curve
+            It starts with the first stroke in its given direction; every bridged gap is in ``repairs``.
+
+        Raises
+        ------
+        StrokeError
+            If there is no stroke, or a gap is longer than ``max_gap``; it names both ends.
+        CurveError
+            If the joined points are not a usable curve.
+
+        Notes
+        -----
+        See :func:`plyfold.strokes.join_strokes`, which does the work, for the cost.
+
+        References
+        ----------
+        .. [MGR11] U. Mukherjee, M. Gopi, J. Rossignac, "Immersion and Embedding of Self-Crossing Loops",
+           Sketch-Based Interfaces and Modeling, 2011.
+
+        Examples
+        --------
+        >>> curve = Curve.from_strokes([[(0, 0), (4, 0)], [(0, 3), (0, 0)], [(4, 0), (0, 3)]])
+        >>> curve.points.tolist()
+        [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]
+        """
+        points, repairs = join_strokes(strokes, max_gap)
+        return cls(points, repairs)
+
+    def reversed(self) -> Curve:
+        """Return the same curve run the other way from the same first point.
+
+        Returns
+        -------
+        Curve
+
+        Notes
+        -----
+        O(n log n).
+
+        Examples
+        --------
+        >>> Curve([(0, 0), (1, 0), (0, 1)]).reversed().points.tolist()
+        [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]]
+        """
+        return Curve(np.roll(self.points[::-1], 1, axis=0), self.repairs)
+
+
+def as_curve(value: object) -> Curve:
+    """Return whatever stands for a closed curve as a `Curve`.
+
+    Parameters
+    ----------
+    value : Curve, array-like of shape (n, 2), shapely geometry, or a value with a ``curve``
+        Of the geometries: a ``LinearRing`` or a ``Polygon`` without holes; a ``LineString`` or ``MultiLineString``
+        is taken as strokes, so its ends must nearly meet; a collection of one counts as that one.
+
+    Returns
+    -------
+    Curve
+
+    Raises
+    ------
+    CurveError
+        If the value is not a usable curve.
+    StrokeError
+        If the ends of an open geometry are too far apart.
+
+    Notes
+    -----
+    O(n log n).
+
+    Examples
+    --------
+    >>> import shapely
+    >>> len(as_curve(shapely.box(0, 0, 1, 1)))
+    4
+    """
+    if isinstance(value, Curve):
+        return value
+    if hasattr(value, "geom_type"):
+        return _curve_of_geometry(cast("BaseGeometry", value))
+    if hasattr(value, "curve"):
+        return _curve_of_owner(value.curve)
+    return Curve(cast("npt.ArrayLike", value))
+
+
+def _curve_of_owner(curve: object) -> Curve:
+    if isinstance(curve, Curve):
+        return curve
+    raise CurveError("this arrangement has no coordinates", hint="make it from a curve instead of a Gauss code")
+
+
+def _curve_of_geometry(geometry: BaseGeometry) -> Curve:
+    if geometry.is_empty:
+        raise CurveError(f"the {geometry.geom_type} is empty", hint="give a ring or line with points")
+    match geometry.geom_type:
+        case "Polygon":
+            return _curve_of_polygon(geometry)
+        case "LinearRing":
+            return Curve(_planar(geometry))
+        case "LineString":
+            return Curve.from_strokes([_planar(geometry)])
+        case "MultiLineString":
+            return Curve.from_strokes([_planar(line) for line in geometry.geoms])
+    if len(parts := getattr(geometry, "geoms", [])) == 1:
+        return as_curve(parts[0])
+    hint = "give a LinearRing, a LineString or a Polygon without holes"
+    raise CurveError(f"a {geometry.geom_type} is not one closed curve", hint=hint)
+
+
+def _curve_of_polygon(polygon: BaseGeometry) -> Curve:
+    if len(polygon.interiors):
+        hole = _planar(polygon.interiors[0])
+        raise CurveError("the polygon has a hole", where=hole[:1], hint="give its exterior alone")
+    return Curve(_planar(polygon.exterior))
+
+
+def _planar(line: BaseGeometry) -> npt.NDArray[np.float64]:
+    places: npt.NDArray[np.float64] = np.asarray(line.coords, dtype=np.float64)
+    return places[:, :2]
+
+
+def _without_closing_point(points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    closed = len(points) > 1 and np.array_equal(points[0], points[-1])
+    return points[:-1] if closed else points
+
+
+def _without_repetitions(points: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.float64], list[Repair]]:
+    """Keep the first of each run of equal points; a run across the end belongs to the first point."""
+    fresh = (points != np.roll(points, 1, axis=0)).any(axis=1)
+    fresh[:1] = True
+    last = np.flatnonzero(fresh)[-1:]
+    fresh[last] = (last == 0) | (points[last] != points[:1]).any(axis=1)
+    places = dict.fromkeys((x, y) for x, y in points[~fresh].tolist())
+    return points[fresh], [Repair("repeated point dropped", place, 0.0) for place in places]
+
+
+def _refuse_degenerate(points: npt.NDArray[np.float64]) -> None:
+    distinct = np.unique(points, axis=0)
+    if len(distinct) < 3:
+        count = "no points" if len(distinct) == 0 else f"only {len(distinct)} different point(s)"
+        raise CurveError(f"the curve has {count}", where=distinct, hint="a closed curve needs at least three")
+    # In lexicographic order the extreme points differ, and on a line they are its two ends.
+    if not orient(distinct[0], distinct[-1], distinct).any():
+        hint = "a curve that runs back and forth on one line bounds nothing"
+        raise CurveError("all points lie on one line", where=[distinct[0], distinct[-1]], hint=hint)

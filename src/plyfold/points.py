@@ -1,0 +1,159 @@
+"""Points as every stage expects them, finite doubles in an (n, 2) array, and the record of what was changed for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from plyfold.errors import CurveError
+
+__all__ = ["LARGEST_COORDINATE", "Repair", "as_points", "diagonal"]
+
+LARGEST_COORDINATE = 1e150
+"""Products of two coordinates up to this size stay inside the range of a double."""
+
+_LARGEST_EXACT_INTEGER = 2**53
+_NUMERIC_KINDS = "biuf"
+
+
+@dataclass(frozen=True)
+class Repair:
+    """One thing that was changed in the input so that it could be used.
+
+    Parameters
+    ----------
+    kind : str
+        What was done, for example ``"gap bridged"`` or ``"repeated point dropped"``.
+    where : tuple of two floats
+        The place, in the coordinates of the input.
+    size : float
+        How far it reached, in the units of the input; 0 if nothing moved.
+
+    Examples
+    --------
+    >>> print(Repair("gap bridged", (1.0, 2.5), 0.25))
+    gap bridged at (1, 2.5), size 0.25
+    """
+
+    kind: str
+    where: tuple[float, float]
+    size: float
+
+    def __str__(self) -> str:
+        size = f", size {self.size:.6g}" if self.size else ""
+        return f"{self.kind} at ({self.where[0]:.12g}, {self.where[1]:.12g}){size}"
+
+
+def as_points(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Return ``values`` as an (n, 2) array of finite doubles.
+
+    Parameters
+    ----------
+    values : array-like, shape (n, 2)
+        Points in order; x to the right, y up.
+
+    Returns
+    -------
+    ndarray, shape (n, 2), float64
+        A new array, so the caller's data stays untouched. Negative zeros become zeros.
+
+    Raises
+    ------
+    CurveError
+        If the shape is wrong, an entry is no number, not finite or beyond ``LARGEST_COORDINATE``,
+        or an integer is too long for a double to hold it.
+
+    Notes
+    -----
+    O(n).
+
+    Examples
+    --------
+    >>> as_points([(0, 0), (2, 1)])
+    array([[0., 0.],
+           [2., 1.]])
+    """
+    raw = _raw_array(values)
+    if raw.ndim != 2 or raw.shape[1] != 2:
+        raise CurveError(
+            f"points need the shape (n, 2), and these have {raw.shape}", hint="give one x and one y per point"
+        )
+    points = _doubles(raw)
+    _refuse_infinite(points)
+    _refuse_huge(points)
+    _refuse_rounded_integers(raw, points)
+    return points
+
+
+def diagonal(points: npt.NDArray[np.float64]) -> float:
+    """Return the diagonal of the bounding box of ``points``, shape (n, 2)."""
+    return float(np.hypot(*np.ptp(points, axis=0)))
+
+
+def _raw_array(values: npt.ArrayLike) -> npt.NDArray[Any]:
+    if isinstance(values, np.ma.MaskedArray):
+        values = np.ma.filled(values.astype(float), np.nan)
+    try:
+        raw = np.asarray(values)
+    except ValueError as error:
+        raise CurveError("the points are not all of the same length", hint="give one x and one y per point") from error
+    if raw.size == 0:
+        return raw.astype(float).reshape(-1, 2)
+    if raw.dtype.kind not in _NUMERIC_KINDS + "O":
+        raise CurveError(f"the points are not real numbers but of type {raw.dtype}", hint="give plain numbers")
+    return raw
+
+
+def _doubles(raw: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
+    if raw.dtype.kind == "O" and any(isinstance(entry, str | bytes) for entry in raw.flat):
+        raise CurveError("some coordinates are text", hint="give plain numbers")
+    try:
+        with np.errstate(over="ignore"):
+            return raw.astype(np.float64) + 0.0
+    except (TypeError, ValueError, OverflowError) as error:
+        raise CurveError(f"some coordinates are not real numbers: {error}", hint="give plain numbers") from error
+
+
+def _refuse_infinite(points: npt.NDArray[np.float64]) -> None:
+    finite = np.isfinite(points).all(axis=1)
+    if finite.all():
+        return
+    bad = np.flatnonzero(~finite)
+    first = int(bad[0])
+    others = f" (and {len(bad) - 1} more points like it)" if len(bad) > 1 else ""
+    good = np.flatnonzero(finite)
+    nearest = good[np.argmin(np.abs(good - first))] if len(good) else None
+    x, y = points[first]
+    raise CurveError(
+        f"point {first} is not finite: ({x:g}, {y:g}){others}"
+        + ("" if nearest is None else f"; next to point {nearest}"),
+        where=[] if nearest is None else [points[nearest]],
+        hint="remove the point or give it finite coordinates",
+    )
+
+
+def _refuse_huge(points: npt.NDArray[np.float64]) -> None:
+    huge = np.flatnonzero((np.abs(points) > LARGEST_COORDINATE).any(axis=1))
+    if len(huge):
+        raise CurveError(
+            f"point {huge[0]} has a coordinate beyond {LARGEST_COORDINATE:g}",
+            where=[points[huge[0]]],
+            hint="scale the curve down: no answer depends on its size",
+        )
+
+
+def _refuse_rounded_integers(raw: npt.NDArray[Any], points: npt.NDArray[np.float64]) -> None:
+    """Integers beyond 2^53 may change when they become doubles, and then touching strands could part unseen."""
+    if raw.dtype.kind not in "iuO":
+        return
+    for row, column in np.argwhere(np.abs(points) >= _LARGEST_EXACT_INTEGER):
+        given = raw[row, column]
+        if isinstance(given, int | np.integer) and int(given) != int(points[row, column]):
+            raise CurveError(
+                f"point {row} has an integer coordinate that double precision cannot hold: {given}",
+                where=[points[row]],
+                hint="subtract a common offset from all points first",
+            )
