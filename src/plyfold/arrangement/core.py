@@ -73,7 +73,7 @@ class Arrangement:
 
     Examples
     --------
-    >>> from plyfold import arrangement
+    >>> from plyfold.arrangement import arrangement
     >>> eight = arrangement([(0, 0), (2, 2), (2, 0), (0, 2)])
     >>> eight.n_crossings, eight.turning_number, sorted(eight.winding.tolist())
     (1, 0, [-1, 0, 1])
@@ -122,9 +122,9 @@ class Arrangement:
 
         Examples
         --------
-        >>> limacon = Arrangement.from_gauss([1, 0], [True, False], outer=3)
+        >>> limacon = Arrangement.from_gauss([1, 0], [True, False], outer=1)
         >>> limacon.turning_number, limacon.winding.tolist()
-        (2, [0, 2, 1])
+        (2, [0, 1, 2])
         """
         code = _checked_code(partner, ccw, outer)
         if whitney_turning_number(*code) < 0:
@@ -231,6 +231,10 @@ class Arrangement:
 
         point = shapely.point_on_surface(shapely.Polygon(self.cell_outline(cell)))
         return float(point.x), float(point.y)
+
+    def __repr__(self) -> str:
+        kind = "a Gauss code" if self.curve is None else f"a curve of {len(self.curve)} points"
+        return f"<Arrangement of {kind}: {self.n_crossings} crossings, turning number {self.turning_number}>"
 
     def _drawn(self) -> Curve:
         if self.curve is None:

@@ -62,9 +62,9 @@ class Immersion:
     >>> from plyfold.immersion import find_immersion
     >>> ramp = find_immersion([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)])
     >>> ramp.arrangement.winding.tolist(), ramp.n_sheets
-    ([0, 2, 0, 1, 1, 1], 5)
+    ([0, 2, 1, 1, 1, 0], 5)
     >>> [(group.cell, group.borders) for group in ramp.disk_layout()]
-    [(1, (1, 7)), (3, (2,)), (4, (3, 5)), (1, (0, 4)), (5, (6,))]
+    [(1, (0, 6)), (3, (1, 5)), (1, (2, 4)), (2, (3,)), (4, (7,))]
     """
 
     arrangement: Arrangement
@@ -76,6 +76,9 @@ class Immersion:
     def __post_init__(self) -> None:
         for array in (self.sheet_cell, self.first_sheet, self.own_sheet, self.gluing):
             array.flags.writeable = False
+
+    def __repr__(self) -> str:
+        return f"<Immersion: {self.n_sheets} sheets over {self.arrangement.n_cells - 1} cells>"
 
     @property
     def n_sheets(self) -> int:

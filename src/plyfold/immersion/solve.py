@@ -80,7 +80,7 @@ def immersions(curve: CurveLike) -> Iterator[Immersion]:
     >>> milnor = [(88, 39), (62, 102), (-17, -15), (-17, -13), (44, -7), (-75, 180),
     ...           (-88, -39), (-62, -102), (17, 15), (17, 13), (-44, 7), (75, -180)]
     >>> [len(immersion.disk_layout()) for immersion in immersions(milnor)]
-    [8, 8]
+    [9, 9]
     """
     arranged = arrangement(curve)
     if _visible_obstruction(arranged) is None:

@@ -42,6 +42,9 @@ class Layering:
     def __post_init__(self) -> None:
         self.level.flags.writeable = False
 
+    def __repr__(self) -> str:
+        return f"<Layering: {self.immersion.n_sheets} sheets on up to {self.level.max(initial=0)} levels>"
+
     def check(self) -> None:
         """Check that every cell's levels are 1 … w and that every gluing keeps the order.
 

@@ -10,8 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from plyfold.arrangement.planar_map import Ints
 from plyfold.immersion import Immersion
@@ -51,6 +49,9 @@ class PairGraph:
 
 def pair_graph(immersion: Immersion) -> PairGraph:
     """Return the graph of pairs of an immersion. Cost: O(Σ w²) over cells and borders."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
     winding = immersion.arrangement.winding
     first_pair = np.concatenate([[0], np.cumsum(winding**2)])
     total = int(first_pair[-1])
@@ -90,6 +91,9 @@ def _index(immersion: Immersion, first_pair: Ints, lower: Ints, upper: Ints) -> 
 
 def chain_to_reverse(graph: PairGraph, pair: int) -> list[int]:
     """Return a shortest chain of pairs, each glued to the next, from a pair to its own reverse."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import breadth_first_order
+
     total = len(graph.label)
     matrix = coo_array((np.ones(len(graph.edges), dtype=np.int8), graph.edges.T), shape=(total, total)).tocsr()
     _, before = breadth_first_order(matrix, pair, directed=False)
