@@ -1,0 +1,134 @@
+"""The 3D page: one HTML file that shows a surface in any browser, with no network and from any place.
+
+Everything is inside the file: the triangles as base64 arrays, the vendored part of three.js and a small script.
+"""
+
+from __future__ import annotations
+
+import base64
+import html
+import json
+from collections.abc import Mapping
+from functools import cache
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from plyfold.draw import colours
+
+if TYPE_CHECKING:
+    from plyfold.surface import Surface
+
+__all__ = ["frame", "mesh_data", "page"]
+
+_PALE_INK = "#0b0f17"
+
+
+def page(surface: Surface, title: str = "plyfold", figures: Mapping[str, object] | None = None) -> str:
+    """Return a self-contained HTML page that shows the surface: orbit, zoom, top view, see-through, explode.
+
+    Parameters
+    ----------
+    surface : Surface
+        What to show.
+    title : str
+        Heading of the page.
+    figures : mapping of str to object, optional
+        Names and values for the caption, for example ``{"crossings": 4}``; by default the size of the surface.
+
+    Returns
+    -------
+    str
+        The page, about 0.6 MB plus 32 bytes for each triangle. Coordinates are stored relative to the middle of the
+        drawing as 32-bit floats, so the page is right for drawings of any size and place.
+
+    Examples
+    --------
+    >>> from plyfold import lift
+    >>> text = page(lift([(0, 0), (4, 0), (0, 3)]), title="A triangle")
+    >>> "<title>A triangle</title>" in text
+    True
+    """
+    shown = _default_figures(surface) if figures is None else figures
+    return _fill(
+        _static("viewer.html"),
+        {
+            "title": html.escape(title),
+            "description": html.escape(f"{title}: a surface in three dimensions. Arrow keys turn it, + and - zoom."),
+            "figures": _definition_list(shown),
+            "css": _static("viewer.css"),
+            "surface": json.dumps(mesh_data(surface), separators=(",", ":")),
+            "three": _static("three.min.js"),
+            "viewer": _static("viewer.js"),
+        },
+    )
+
+
+def frame(surface: Surface, title: str = "plyfold", height: int = 480) -> str:
+    """Return the page inside an ``<iframe>``, as notebooks show it (``height`` in pixels)."""
+    inner = html.escape(page(surface, title))
+    return f'<iframe srcdoc="{inner}" style="width:100%;height:{int(height)}px;border:0" title="{html.escape(title)}"></iframe>'
+
+
+def mesh_data(surface: Surface) -> dict[str, Any]:
+    """Return what the page's script reads: arrays in base64 (little-endian), scale, centre and colours.
+
+    A vertex is ``centre + scale * stored``, with the drawing about 2 across in stored units; ``stretch`` is the
+    vertical scale to begin with.
+    """
+    centre, scale = _middle(surface.vertices)
+    stored = (surface.vertices - centre) / scale
+    level = np.asarray(surface.layering.level)
+    levels = int(level.max())
+    return {
+        "centre": centre.tolist(),
+        "scale": scale,
+        "stretch": 1.0,
+        "vertices": _base64(stored, "<f4"),
+        "faces": _base64(surface.faces, "<u4"),
+        "sheet": _base64(surface.sheet, "<u4"),
+        "level": _base64(level, "<u4"),
+        "boundary": _base64(surface.boundary, "<u4"),
+        "palette": {
+            "cloth": [colours.CLOTH_LOW, colours.CLOTH_HIGH],
+            "back": colours.BACK,
+            "ink": colours.INK,
+            "paleInk": _PALE_INK,
+            "layers": [colours.layer_colour(i + 1, levels) for i in range(levels)],
+            "sheets": [colours.sheet_colour(i) for i in range(3 * len(colours.SHEETS))],
+        },
+    }
+
+
+def _middle(vertices: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.float64], float]:
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    return low + (high - low) / 2, float((high - low)[:2].max() / 2)
+
+
+def _base64(values: npt.ArrayLike, kind: str) -> str:
+    return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode("ascii")
+
+
+def _default_figures(surface: Surface) -> dict[str, object]:
+    return {"triangles": f"{len(surface.faces):,}", "layers": int(np.max(surface.layering.level))}
+
+
+def _definition_list(figures: Mapping[str, object]) -> str:
+    rows = "".join(f"<div><dt>{html.escape(k)}</dt><dd>{html.escape(str(v))}</dd></div>" for k, v in figures.items())
+    return f"<dl>{rows}</dl>" if rows else ""
+
+
+@cache
+def _static(name: str) -> str:
+    return files("plyfold.draw").joinpath("static", name).read_text(encoding="utf-8")
+
+
+def _fill(template: str, values: Mapping[str, str]) -> str:
+    """Put the values where the template says ``{{name}}``, each once, without reading the values again."""
+    out = []
+    for piece in template.split("{{"):
+        name, found, rest = piece.partition("}}")
+        out.append(values[name] + rest if found and name in values else piece)
+    return "".join(out)
