@@ -112,6 +112,12 @@ def polygons(name, count):
     return [POLYGONS[name](rng) for _ in range(count)]
 
 
+def turned_inside_out(code):
+    """The curve on the sphere with each of its cells as the unbounded one, if it may bound a disk then."""
+    variants = [oriented(code._replace(outer=min(darts))) for darts in planar_maps.cells(code.partner, code.ccw)]
+    return [variant for variant in variants if may_bound_disk(variant)]
+
+
 def assert_same_crossings(arranged, polygon):
     """Everything exact is equal, and crossings lie where the fractions say, up to rounding."""
     found = crossings.crossings(polygon)
@@ -138,6 +144,16 @@ class TestRandomCurves:
         for polygon in polygons(name, 40):
             verdicts = judge(polygon)
             assert verdicts or name not in ("ribbons", "glued disks"), "these bound disks by construction"
+
+    def test_other_cells_of_random_polygons_made_the_outside(self):
+        """Many of these pass the cheap conditions and bound no disk; random polygons seldom get that far."""
+        rng = np.random.default_rng(11)
+        verdicts = [
+            judge(Arrangement.from_gauss(*code))
+            for _ in range(150)
+            for code in turned_inside_out(crossings.crossings(random_curves.random_polygon(rng, 11)).code)
+        ]
+        assert min(verdicts.count([]), verdicts.count([True])) >= 20
 
     @pytest.mark.slow
     def test_many_random_disks(self):
