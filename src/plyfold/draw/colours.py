@@ -50,10 +50,9 @@ SHEETS = (
     "#63539f",
 )
 
-_WINDING = ("#dcebf8", "#12467f")
-_NEGATIVE = ("#fbd9d6", "#a01526")
+_WINDING = ("#dcebf8", "#abcff1", "#76aee4", "#4889d0", "#2768b0", "#134886")
+_NEGATIVE = ("#fbd9d6", "#f2a49d", "#dd6a66", "#bf3a44", "#9b1c30")
 _LAYERS = ("#1b4f98", "#bfe3f2")
-_STEP = 0.72
 
 
 def rgb(colour: str) -> tuple[float, float, float]:
@@ -82,7 +81,7 @@ def mix(first: str, second: str, share: float) -> str:
 def winding_colour(winding: int) -> str:
     """Return the fill of a cell: white for 0, stronger blues for 1, 2, 3, ..., reds for -1, -2, ....
 
-    The colour of a number does not depend on the picture it is in.
+    The last shade stands for everything beyond it, and the colour of a number does not depend on the picture.
 
     Examples
     --------
@@ -91,20 +90,21 @@ def winding_colour(winding: int) -> str:
     """
     if winding == 0:
         return PAPER
-    light, strong = _WINDING if winding > 0 else _NEGATIVE
-    return mix(light, strong, 1 - _STEP ** (abs(int(winding)) - 1))
+    shades = _WINDING if winding > 0 else _NEGATIVE
+    return shades[min(abs(int(winding)), len(shades)) - 1]
 
 
 def sheet_colour(sheet: int) -> str:
-    """Return the colour of a sheet; after the last hue they come round again, each time paler.
+    """Return the colour of a sheet; after the last hue they come round again, first paler and then darker.
 
     Examples
     --------
     >>> sheet_colour(0), sheet_colour(8)
-    ('#2f7fc1', '#7aadd7')
+    ('#2f7fc1', '#86b5db')
     """
     turn, hue = divmod(int(sheet), len(SHEETS))
-    return mix(SHEETS[hue], PAPER, 0.36 * (turn % 3))
+    other, share = ((PAPER, 0.0), (PAPER, 0.42), (INK, 0.38))[turn % 3]
+    return mix(SHEETS[hue], other, share)
 
 
 def layer_colour(level: int, levels: int) -> str:

@@ -68,8 +68,10 @@ def page(surface: Surface, title: str = "plyfold", figures: Mapping[str, object]
 
 def frame(surface: Surface, title: str = "plyfold", height: int = 480) -> str:
     """Return the page inside an ``<iframe>``, as notebooks show it (``height`` in pixels)."""
-    inner = html.escape(page(surface, title))
-    return f'<iframe srcdoc="{inner}" style="width:100%;height:{int(height)}px;border:0" title="{html.escape(title)}"></iframe>'
+    style = f"width:100%;height:{int(height)}px;border:0"
+    return (
+        f'<iframe srcdoc="{html.escape(page(surface, title))}" style="{style}" title="{html.escape(title)}"></iframe>'
+    )
 
 
 def mesh_data(surface: Surface) -> dict[str, Any]:

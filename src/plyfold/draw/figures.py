@@ -1,0 +1,117 @@
+"""Whole figures: everything that is known about a curve on one page, and saving without overwriting."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+
+from plyfold.arrangement import Arrangement
+from plyfold.draw.colours import INK
+from plyfold.draw.plots import plot_arrangement, plot_disk_layout, plot_layers, plot_surface
+from plyfold.immersion import Immersion
+from plyfold.layering import Layering
+from plyfold.surface import Surface
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from matplotlib.figure import Figure, SubFigure
+
+    from plyfold.obstruction import Obstruction
+
+Panels: TypeAlias = list[tuple[str, Callable[..., object]]]
+
+__all__ = ["overview", "save", "summary"]
+
+_PANEL = 3.7
+
+
+def overview(value: Arrangement | Immersion | Layering | Surface, obstruction: Obstruction | None = None) -> Figure:
+    """Draw all that is known: the arrangement, the disk layout, the layers, and the surface from two sides.
+
+    Parameters
+    ----------
+    value : Arrangement, Immersion, Layering or Surface
+        The furthest stage that was reached; those before it are drawn too.
+    obstruction : Obstruction, optional
+        Why it went no further; marked in the drawing.
+
+    Returns
+    -------
+    matplotlib Figure
+
+    Examples
+    --------
+    >>> from plyfold import find_immersion
+    >>> len(overview(find_immersion([(0, 0), (1, 0), (0, 1)])).axes)
+    2
+    """
+    from matplotlib.figure import Figure
+
+    if isinstance(value, Surface):
+        flat, lifted = _panels(value.layering, obstruction), _views(value)
+        figure = Figure(figsize=(3 * _PANEL, 2.1 * _PANEL), layout="constrained")
+        rows = figure.subfigures(2, 1, squeeze=False, height_ratios=[1.0, 1.05])[:, 0]
+        _fill(rows[0], flat)
+        _fill(rows[1], lifted)
+    else:
+        flat = _panels(value, obstruction)
+        figure = Figure(figsize=(_PANEL * len(flat), _PANEL + 0.3), layout="constrained")
+        _fill(figure, flat)
+    return figure
+
+
+def summary(surface: Surface, path: str | PathLike[str], force: bool = False) -> None:
+    """Save the :func:`overview` of a surface: one picture of the whole way. See :func:`save` for the rest."""
+    save(overview(surface), path, force)
+
+
+def save(figure: Figure, path: str | PathLike[str], force: bool = False) -> None:
+    """Save a figure; the file appears complete or not at all.
+
+    Parameters
+    ----------
+    figure : matplotlib Figure
+    path : path
+        The ending chooses the format: ``.png``, ``.svg`` or ``.pdf``.
+    force : bool
+        Replace an existing file.
+
+    Raises
+    ------
+    FileExistsError
+        If the file exists and ``force`` is not set.
+    """
+    target = Path(path)
+    if target.exists() and not force:
+        raise FileExistsError(f"{target} exists already")
+    with tempfile.TemporaryDirectory(dir=target.parent, prefix=".plyfold-") as folder:
+        draft = Path(folder) / target.name
+        figure.savefig(draft, dpi=160, facecolor="white")
+        draft.replace(target)
+
+
+def _panels(value: Arrangement | Immersion | Layering, obstruction: Obstruction | None) -> Panels:
+    """Return the title and the picture of every stage up to this one."""
+    if isinstance(value, Layering):
+        return [*_panels(value.immersion, obstruction), ("The layers", partial(plot_layers, value))]
+    if isinstance(value, Immersion):
+        return [*_panels(value.arrangement, obstruction), ("The disk layout", partial(plot_disk_layout, value))]
+    picture = partial(plot_arrangement, value, obstruction=obstruction, borders=True)
+    return [("The curve, its winding numbers and borders", picture)]
+
+
+def _views(surface: Surface) -> Panels:
+    return [
+        ("The lifted surface", partial(plot_surface, surface, view="above")),
+        ("The same from the side", partial(plot_surface, surface, view="side")),
+    ]
+
+
+def _fill(figure: Figure | SubFigure, panels: Panels) -> None:
+    for ax, (title, draw) in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
+        draw(ax=ax)
+        ax.set_title(title, color=INK, fontsize=11)

@@ -1,0 +1,58 @@
+"""Where to put numbers and arrows in a picture of an arrangement."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from plyfold.arrangement import Arrangement
+
+__all__ = ["arrows", "border_middle", "label_circle", "middle_and_size"]
+
+Floats = npt.NDArray[np.float64]
+
+
+def middle_and_size(points: Floats) -> tuple[Floats, float]:
+    """Return the middle of the bounding box and its longer side, without overflow or loss for far-away drawings."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    return low + (high - low) / 2, float((high - low).max())
+
+
+def label_circle(arrangement: Arrangement, cell: int) -> tuple[float, float, float]:
+    """Return the middle and radius of a large circle inside a bounded cell: the room for its label.
+
+    It is the largest inscribed circle to about one part in a hundred, found in coordinates of the cell's own size.
+    """
+    import shapely
+
+    outline = arrangement.cell_outline(cell)
+    middle, size = middle_and_size(outline)
+    polygon = shapely.Polygon((outline - middle) / size)
+    try:
+        radius = shapely.maximum_inscribed_circle(polygon, tolerance=0.005)
+    except shapely.GEOSException:
+        return (*arrangement.cell_point(cell), 0.0)
+    x, y = middle + size * np.array(radius.coords[0])
+    return float(x), float(y), size * float(radius.length)
+
+
+def border_middle(points: Floats) -> tuple[Floats, Floats]:
+    """Return a point about half-way along a polyline, in the middle of an edge, and the unit direction there."""
+    step = np.diff(points, axis=0)
+    length = np.hypot(step[:, 0], step[:, 1])
+    travelled = np.cumsum(length)
+    edge = min(int(np.searchsorted(travelled, travelled[-1] / 2, side="right")), len(step) - 1)
+    return points[edge] + step[edge] / 2, step[edge] / length[edge]
+
+
+def arrows(arrangement: Arrangement, most: int = 6) -> list[tuple[Floats, Floats]]:
+    """Return places and unit directions for arrows along the curve: the middles of its longest borders."""
+    lines = [arrangement.border_points(i) for i in range(arrangement.n_borders)]
+    if arrangement.n_crossings == 0:
+        lines = [np.concatenate([lines[0], lines[0][:1]])]
+    lengths = [float(np.hypot(*np.diff(line, axis=0).T).sum()) for line in lines]
+    longest = sorted(range(len(lines)), key=lambda i: -lengths[i])[:most]
+    return [border_middle(lines[i]) for i in longest if lengths[i] > 0.25 * lengths[longest[0]]]

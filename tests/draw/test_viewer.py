@@ -1,0 +1,191 @@
+import base64
+import json
+import shutil
+import subprocess
+from html.parser import HTMLParser
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from plyfold.draw.viewer import frame, mesh_data, page
+
+
+def small_surface(scale=1.0, shift=0.0):
+    """Two triangles on two levels, far from the origin if asked."""
+    plane = np.array([(0, 0, 0), (4, 0, 0), (4, 3, 0.5), (0, 3, 0.5)]) * scale + shift
+    return SimpleNamespace(
+        vertices=plane,
+        faces=np.array([(0, 1, 2), (0, 2, 3)]),
+        sheet=np.array([0, 1]),
+        boundary=np.array([0, 1, 2, 3]),
+        gap=1.0,
+        layering=SimpleNamespace(level=np.array([1, 2])),
+    )
+
+
+class Page(HTMLParser):
+    """Collects the scripts, and every address that the page would load."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.scripts, self.addresses, self.open = {}, [], []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        attributes = dict(attrs)
+        self.addresses += [value for name, value in attrs if name in {"src", "href", "action", "poster", "data"}]
+        if tag not in {"meta", "link", "input", "br"}:
+            self.open.append((tag, attributes))
+
+    def handle_endtag(self, tag):
+        opened, attributes = self.open.pop()
+        assert opened == tag
+        if tag == "script":
+            self.scripts[attributes.get("id") or attributes.get("type") or "plain"] = self.text
+
+    def handle_data(self, data):
+        self.text = data
+
+
+def decoded(data, name, kind):
+    return np.frombuffer(base64.b64decode(data[name]), kind)
+
+
+@pytest.fixture(scope="module")
+def written():
+    return page(small_surface(), title="Ramp & co", figures={"crossings": 4, "<b>": "x"})
+
+
+def test_page_loads_nothing(written):
+    assert Page(written).addresses == []
+    assert "@import" not in written
+    assert "url(" not in written.split("</style>")[0]
+
+
+def test_page_closes_every_element_and_holds_four_scripts(written):
+    parsed = Page(written)
+    assert parsed.open == []
+    assert set(parsed.scripts) == {"surface", "three", "plain", "module"}
+
+
+def test_scripts_arrive_whole(written):
+    """No closing tag inside a script cuts it short."""
+    static = Path(__file__).parents[2] / "src/plyfold/draw/static"
+    parsed = Page(written)
+    assert parsed.scripts["three"] == (static / "three.min.js").read_text()
+    assert (static / "viewer.js").read_text() in parsed.scripts["module"]
+
+
+def test_title_and_figures_are_escaped(written):
+    assert "<title>Ramp &amp; co</title>" in written
+    assert "<dt>crossings</dt><dd>4</dd>" in written
+    assert "<b>" not in written
+
+
+def test_page_holds_the_mesh_of_the_surface(written):
+    assert json.loads(Page(written).scripts["surface"]) == mesh_data(small_surface())
+
+
+@pytest.mark.parametrize(("scale", "shift"), [(1.0, 0.0), (1e-8, 0.0), (1e8, 0.0), (1.0, 1e6), (1e-3, -1e4)])
+def test_data_decode_to_the_mesh(scale, shift):
+    surface = small_surface(scale, shift)
+    data = mesh_data(surface)
+    vertices = np.array(data["centre"]) + data["scale"] * decoded(data, "vertices", "<f4").reshape(-1, 3).astype(float)
+    assert np.abs(vertices - surface.vertices).max() < 1e-6 * 4 * scale
+    assert (decoded(data, "faces", "<u4").reshape(-1, 3) == surface.faces).all()
+    assert (decoded(data, "boundary", "<u4") == surface.boundary).all()
+    assert (decoded(data, "sheet", "<u4") == surface.sheet).all()
+    assert (decoded(data, "level", "<u4") == surface.layering.level).all()
+
+
+def test_there_is_a_colour_for_every_level():
+    assert len(mesh_data(small_surface())["palette"]["layers"]) == 2
+
+
+def test_frame_holds_the_page(written):
+    class Frame(HTMLParser):
+        def handle_starttag(self, tag, attrs):
+            self.attributes = dict(attrs)
+
+    parsed = Frame()
+    parsed.feed(frame(small_surface(), title="Ramp", height=300))
+    assert parsed.attributes["srcdoc"] == page(small_surface(), title="Ramp")
+    assert "height:300px" in parsed.attributes["style"]
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="node checks the syntax")
+@pytest.mark.parametrize("script", ["three", "plain", "module"])
+def test_scripts_are_sound_javascript(written, script, tmp_path):
+    file = tmp_path / "script.mjs"
+    file.write_text(Page(written).scripts[script])
+    done = subprocess.run(["node", "--check", file], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+# ---- in a real browser, where there is one ---------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def browser():
+    sync_api = pytest.importorskip("playwright.sync_api")
+    program = shutil.which("chromium")
+    if program is None:
+        pytest.skip("no chromium")
+    arguments = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+    with sync_api.sync_playwright() as driver:
+        running = driver.chromium.launch(executable_path=program, args=arguments)
+        yield running
+        running.close()
+
+
+@pytest.fixture
+def shown(browser, written, tmp_path):
+    """The page opened from a file, with everything it complained about and asked for."""
+    file = tmp_path / "page.html"
+    file.write_text(written)
+    tab = browser.new_page(viewport={"width": 700, "height": 500})
+    tab.complaints, tab.asked = [], []
+    tab.on("console", lambda message: tab.complaints.append(message.text))
+    tab.on("pageerror", lambda error: tab.complaints.append(str(error)))
+    tab.on("request", lambda request: tab.asked.append(request.url))
+    tab.goto(file.as_uri())
+    tab.get_by_role("button", name="Fit").wait_for()
+    yield tab
+    tab.close()
+
+
+def colour_at(tab, x, y):
+    """Red, green and blue of a pixel of a screenshot."""
+    from io import BytesIO
+
+    from PIL import Image
+
+    tab.wait_for_timeout(300)
+    return Image.open(BytesIO(tab.screenshot())).convert("RGB").getpixel((x, y))
+
+
+def test_browser_shows_the_surface_without_a_complaint_or_a_request(shown):
+    red, _, blue = colour_at(shown, 350, 250)
+    assert blue > red + 40
+    assert shown.complaints == []
+    assert all(address.startswith(("file:", "blob:")) for address in shown.asked)
+
+
+def test_top_view_equals_the_drawing(shown):
+    shown.keyboard.press("Tab")
+    shown.keyboard.press("t")
+    assert shown.get_by_role("button", name="Top view").get_attribute("aria-pressed") == "true"
+    # The drawing is 4 wide and 3 tall; the view fits 3 / 0.78 into 500 pixels.
+    pixels = 500 * 0.78 / 3
+    for x, y, inside in [(-1.9, 0.9, True), (1.9, -1.0, True), (0, 1.6, False), (2.1, 0, False)]:
+        red, _, blue = colour_at(shown, round(350 + pixels * x), round(250 - pixels * y))
+        assert (blue > red + 40) == inside
+
+
+def test_see_through_lets_light_through(shown):
+    solid = colour_at(shown, 350, 250)
+    shown.get_by_role("button", name="See-through").click()
+    assert sum(colour_at(shown, 350, 250)) > sum(solid) + 60
