@@ -16,10 +16,11 @@ __all__ = ["Image", "Mesh", "shade"]
 Bools = npt.NDArray[np.bool_]
 
 _LIGHTS = 16
-_LAMP_WIDTH = 0.14
+_LAMP_WIDTH = 0.12
 _SHADOW_PIXELS = 500
 _TO_LIGHT = np.array([-0.42, 0.30, 1.0])
-_FLOOR_DARKNESS = 0.2
+_FLOOR_DARKNESS = 0.18
+_FLATTEST = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +48,12 @@ class Mesh:
     def heights(self) -> tuple[float, float]:
         """Lowest and highest z."""
         return float(self.vertices[:, 2].min()), float(self.vertices[:, 2].max())
+
+    @property
+    def floor(self) -> float:
+        """Height of the floor: a little below the lowest point."""
+        low, high = self.heights
+        return low - 0.1 * (high - low) - 0.02 * float(np.ptp(self.vertices[:, 0]))
 
     def box(self, view: View) -> tuple[Floats, Floats]:
         """Return the lower left and upper right corner of the mesh as seen."""
@@ -148,10 +155,19 @@ def shade(mesh: Mesh, view: View, pixels: int = 900) -> Image:
     >>> image.colours.shape, bool(image.hidden(np.array([(0.2, 0.2, -1.0)]))[0])
     ((40, 40, 4), True)
     """
-    low, high = mesh.box(view)
-    margin = 0.16 * float((high - low).max())
-    seen = look(view.project(mesh.vertices), mesh.faces, Pixels.over(low - margin, high + margin, 2 * pixels))
+    seen = look(view.project(mesh.vertices), mesh.faces, _canvas(mesh, view, 2 * pixels))
     return Image(_over(_average(_body(mesh, view, seen)), _floor(mesh, view, seen.pixels.halved())), view, seen)
+
+
+def _canvas(mesh: Mesh, view: View, pixels: int) -> Pixels:
+    """Return pixels with room for the mesh, and for its shadow unless the floor is seen from below."""
+    low, high = mesh.box(view)
+    if view.axes[2, 2] > _FLATTEST:
+        fall = (mesh.vertices[:, 2:] - mesh.floor) * _TO_LIGHT / _TO_LIGHT[2]
+        below = view.project(mesh.vertices - fall)[:, :2]
+        low, high = np.minimum(low, below.min(axis=0)), np.maximum(high, below.max(axis=0))
+    margin = 0.05 * float((high - low).max())
+    return Pixels.over(low - margin, high + margin, pixels)
 
 
 def _body(mesh: Mesh, view: View, seen: Seen) -> Floats:
@@ -205,11 +221,10 @@ def _average(image: Floats) -> Floats:
 
 def _floor(mesh: Mesh, view: View, pixels: Pixels) -> Floats:
     """Return the opacity of the shadow on a floor a little below the surface, as seen in each pixel."""
-    if view.axes[2, 2] < 0.05:
+    if view.axes[2, 2] < _FLATTEST:
         return np.zeros((pixels.rows, pixels.columns))
-    low, high = mesh.heights
     flat = pixels.centres().reshape(-1, 2) @ view.axes[:2]
-    towards_eye = (low - 0.02 - 0.1 * (high - low) - flat[:, 2]) / view.axes[2, 2]
+    towards_eye = (mesh.floor - flat[:, 2]) / view.axes[2, 2]
     where = flat + towards_eye[:, None] * view.axes[2]
     return _FLOOR_DARKNESS * mesh.lamp.shadow(where).reshape(pixels.rows, pixels.columns)
 
