@@ -1,4 +1,4 @@
-"""Where to put numbers and arrows in a picture of an arrangement."""
+"""Where to put things in a picture: the middle and size of a drawing, places for numbers and arrows."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy.typing as npt
 if TYPE_CHECKING:
     from plyfold.arrangement import Arrangement
 
-__all__ = ["arrows", "border_middle", "label_circle", "middle_and_size"]
+__all__ = ["arrows", "border_middle", "label_circle", "middle_and_size", "natural_stretch"]
 
 Floats = npt.NDArray[np.float64]
 
@@ -19,6 +19,13 @@ def middle_and_size(points: Floats) -> tuple[Floats, float]:
     """Return the middle of the bounding box and its longer side, without overflow or loss for far-away drawings."""
     low, high = points.min(axis=0), points.max(axis=0)
     return low + (high - low) / 2, float((high - low).max())
+
+
+def natural_stretch(vertices: Floats) -> float:
+    """Return a vertical scale that makes a surface at least a quarter as high as wide, so that layers stand apart."""
+    _, width = middle_and_size(vertices[:, :2])
+    height = float(np.ptp(vertices[:, 2]))
+    return max(1.0, 0.25 * width / height) if height > 0 else 1.0
 
 
 def label_circle(arrangement: Arrangement, cell: int) -> tuple[float, float, float]:

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from plyfold.draw.colours import ACCENT, INK, OBSTRUCTION, mix, sheet_colour, text_colour, winding_colour
 from plyfold.draw.depth_buffer import View
 from plyfold.draw.hyperbolic import BorderCircle
-from plyfold.draw.places import arrows, border_middle, label_circle, middle_and_size
+from plyfold.draw.places import arrows, border_middle, label_circle, middle_and_size, natural_stretch
 from plyfold.draw.render import Image, Mesh, shade
 
 if TYPE_CHECKING:
@@ -282,16 +282,11 @@ def _layer(axes: Axes, layering: Layering, level: int, frame: _Frame, lift: Floa
 
 def _unit_mesh(surface: Surface, stretch: float | None) -> Mesh:
     """Return the surface scaled to size 1 in the plane, with the heights stretched."""
-    low, high = surface.vertices.min(axis=0), surface.vertices.max(axis=0)
-    unit = (surface.vertices - (low + (high - low) / 2)) / float((high - low)[:2].max())
-    factor = _stretch(unit) if stretch is None else stretch
+    middle, _ = middle_and_size(surface.vertices)
+    _, size = middle_and_size(surface.vertices[:, :2])
+    unit = (surface.vertices - middle) / size
+    factor = natural_stretch(surface.vertices) if stretch is None else stretch
     return Mesh(unit * (1.0, 1.0, factor), surface.faces)
-
-
-def _stretch(unit: Floats) -> float:
-    """Return a vertical scale that gives the surface a height of at least a quarter of its width."""
-    height = float(np.ptp(unit[:, 2]))
-    return max(1.0, 0.25 / height) if height > 0 else 1.0
 
 
 def _boundary(axes: Axes, corners: Floats, image: Image) -> None:

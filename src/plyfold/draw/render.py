@@ -84,7 +84,7 @@ class Lamp:
         """Return the brightness of points with unit normals: the sky, and the lamp unless in its shadow."""
         lamp = (facing @ self.looks[0][0].axes[2]).clip(0)
         sky = 0.5 + 0.5 * facing[:, 2]
-        return 0.32 + 0.30 * sky + 0.48 * lamp * (1 - self.shadow(where + self._slack * facing))
+        return np.asarray(0.32 + 0.30 * sky + 0.48 * lamp * (1 - self.shadow(where + self._slack * facing)))
 
     def shadow(self, where: Floats) -> Floats:
         """Return the share of the lights that each point does not see."""

@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.draw import colours
+from plyfold.draw.places import middle_and_size, natural_stretch
 
 if TYPE_CHECKING:
     from plyfold.surface import Surface
@@ -80,14 +81,15 @@ def mesh_data(surface: Surface) -> dict[str, Any]:
     A vertex is ``centre + scale * stored``, with the drawing about 2 across in stored units; ``stretch`` is the
     vertical scale to begin with.
     """
-    centre, scale = _middle(surface.vertices)
+    centre, _ = middle_and_size(surface.vertices)
+    scale = middle_and_size(surface.vertices[:, :2])[1] / 2
     stored = (surface.vertices - centre) / scale
     level = np.asarray(surface.layering.level)
     levels = int(level.max())
     return {
         "centre": centre.tolist(),
         "scale": scale,
-        "stretch": 1.0,
+        "stretch": natural_stretch(surface.vertices),
         "vertices": _base64(stored, "<f4"),
         "faces": _base64(surface.faces, "<u4"),
         "sheet": _base64(surface.sheet, "<u4"),
@@ -102,11 +104,6 @@ def mesh_data(surface: Surface) -> dict[str, Any]:
             "sheets": [colours.sheet_colour(i) for i in range(3 * len(colours.SHEETS))],
         },
     }
-
-
-def _middle(vertices: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.float64], float]:
-    low, high = vertices.min(axis=0), vertices.max(axis=0)
-    return low + (high - low) / 2, float((high - low)[:2].max() / 2)
 
 
 def _base64(values: npt.ArrayLike, kind: str) -> str:
