@@ -40,9 +40,9 @@ class Mesh:
     def normals(self) -> Floats:
         """Normals of the vertices, weighted by area, not of unit length; shape (n, 3)."""
         a, b, c = (self.vertices[self.faces[:, i]] for i in range(3))
-        normal, corners = np.repeat(np.cross(b - a, c - a), 3, axis=0), self.faces.ravel()
-        sums: list[Floats] = [np.bincount(corners, part, len(self.vertices)) for part in normal.T]
-        return np.stack(sums, axis=1)
+        sums = np.zeros(self.vertices.shape)
+        np.add.at(sums, self.faces.ravel(), np.repeat(np.cross(b - a, c - a), 3, axis=0))
+        return sums
 
     @property
     def heights(self) -> tuple[float, float]:
