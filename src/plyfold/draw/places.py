@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy.typing as npt
 if TYPE_CHECKING:
     from plyfold.arrangement import Arrangement
 
-__all__ = ["arrows", "border_middle", "label_circle", "middle_and_size", "natural_stretch"]
+__all__ = ["arrows", "border_middle", "label_circle", "line_weight", "middle_and_size", "natural_stretch"]
 
 Floats = npt.NDArray[np.float64]
 
@@ -19,6 +20,11 @@ def middle_and_size(points: Floats) -> tuple[Floats, float]:
     """Return the middle of the bounding box and its longer side, without overflow or loss for far-away drawings."""
     low, high = points.min(axis=0), points.max(axis=0)
     return low + (high - low) / 2, float((high - low).max())
+
+
+def line_weight(crossings: int) -> float:
+    """Return how heavy lines and dots should be: 1 for simple curves, less for those with many crossings."""
+    return min(1.0, math.sqrt(40 / max(crossings, 1)))
 
 
 def natural_stretch(vertices: Floats) -> float:

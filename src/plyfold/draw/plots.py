@@ -14,7 +14,7 @@ import numpy.typing as npt
 from plyfold.draw.colours import ACCENT, INK, OBSTRUCTION, mix, sheet_colour, text_colour, winding_colour
 from plyfold.draw.depth_buffer import View
 from plyfold.draw.hyperbolic import BorderCircle
-from plyfold.draw.places import arrows, border_middle, label_circle, middle_and_size, natural_stretch
+from plyfold.draw.places import arrows, border_middle, label_circle, line_weight, middle_and_size, natural_stretch
 from plyfold.draw.render import Image, Mesh, shade
 
 if TYPE_CHECKING:
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 __all__ = ["plot_arrangement", "plot_disk_layout", "plot_layers", "plot_surface"]
 
 Floats = npt.NDArray[np.float64]
+Places = tuple[tuple[float, float], ...]
 T = TypeVar("T", bound=np.generic)
 Direction = Literal["above", "side"] | tuple[float, float]
 
@@ -71,10 +72,12 @@ def plot_arrangement(
     axes = _blank(ax)
     frame = _Frame(_points(arrangement))
     _fill_cells(axes, arrangement, frame)
-    _line(axes, _closed(frame(_points(arrangement))), INK, 1.6)
+    weight = line_weight(arrangement.n_crossings)
+    _line(axes, _closed(frame(_points(arrangement))), INK, 1.6 * weight)
     _arrowheads(axes, arrangement, frame)
-    _dots(axes, frame(arrangement.crossings), ACCENT, 16, edgecolors="white", linewidths=0.6, zorder=4)
-    _winding_numbers(axes, arrangement, frame)
+    rim = {"edgecolors": "white", "linewidths": 0.6 * weight, "zorder": 4}
+    _dots(axes, frame(arrangement.crossings), ACCENT, 16 * weight**2, **rim)
+    _winding_numbers(axes, arrangement, frame, () if obstruction is None else obstruction.where)
     if borders:
         _border_numbers(axes, arrangement, frame)
     if obstruction is not None:
@@ -237,11 +240,12 @@ def _arrowheads(axes: Axes, arrangement: Arrangement, frame: _Frame) -> None:
         _polygon(axes, tip + head, INK, zorder=3)
 
 
-def _winding_numbers(axes: Axes, arrangement: Arrangement, frame: _Frame) -> None:
+def _winding_numbers(axes: Axes, arrangement: Arrangement, frame: _Frame, marked: Places) -> None:
+    """Write the winding number into every cell that has room for it, unless a marked place takes the room."""
     for cell in range(1, arrangement.n_cells):
         x, y, radius = label_circle(arrangement, cell)
         size = min(12.0, 260 * radius / frame.size)
-        if size >= 4:
+        if size >= 4 and not any(np.hypot(x - a, y - b) < radius for a, b in marked):
             winding = int(arrangement.winding[cell])
             colour = text_colour(winding_colour(winding))
             _text(axes, frame((x, y))[0], f"{winding}".replace("-", "−"), size, color=colour)

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.draw.colours import ACCENT, INK, text_colour, winding_colour
-from plyfold.draw.places import arrows, label_circle, middle_and_size
+from plyfold.draw.places import arrows, label_circle, line_weight, middle_and_size
 
 if TYPE_CHECKING:
     from plyfold.arrangement import Arrangement
@@ -89,7 +89,8 @@ def _cells(arrangement: Arrangement, sheet: _Sheet) -> Iterator[str]:
 
 def _curve(arrangement: Arrangement, sheet: _Sheet) -> str:
     assert arrangement.curve is not None
-    style = f"fill='none' stroke='{INK}' stroke-width='{_STROKE}' stroke-linejoin='round'"
+    width = _STROKE * line_weight(arrangement.n_crossings)
+    style = f"fill='none' stroke='{INK}' stroke-width='{width:.3g}' stroke-linejoin='round'"
     return f"<path d='{_path(sheet.pixels(arrangement.curve.points))}' {style}/>"
 
 
@@ -105,8 +106,9 @@ def _arrow(tip: npt.NDArray[np.float64], forward: npt.NDArray[np.float64]) -> st
 
 
 def _crossings(arrangement: Arrangement, sheet: _Sheet) -> Iterator[str]:
+    radius = 3 * line_weight(arrangement.n_crossings)
     for x, y in sheet.pixels(arrangement.crossings).round(2).tolist():
-        yield f"<circle cx='{x:g}' cy='{y:g}' r='3' fill='{ACCENT}' stroke='white' stroke-width='0.8'/>"
+        yield f"<circle cx='{x:g}' cy='{y:g}' r='{radius:.3g}' fill='{ACCENT}' stroke='white' stroke-width='0.8'/>"
 
 
 def _labels(arrangement: Arrangement, sheet: _Sheet) -> Iterator[str]:
