@@ -222,15 +222,20 @@ class Arrangement:
         return np.concatenate(pieces)
 
     def cell_point(self, cell: int) -> tuple[float, float]:
-        """Return a point strictly inside a cell, as far as doubles allow; for cell 0, one outside the curve."""
+        """Return a point inside a cell; for cell 0, one outside the curve.
+
+        The winding number of the point is checked exactly. Of a sliver so thin that no double lies inside, a point on
+        its boundary is returned.
+        """
+        points = self._drawn().points
         if cell == 0:
-            low, high = self._drawn().points.min(axis=0), self._drawn().points.max(axis=0)
+            low, high = points.min(axis=0), points.max(axis=0)
             x, y = low - 0.05 * (high - low).max()
             return float(x), float(y)
-        import shapely
-
-        point = shapely.point_on_surface(shapely.Polygon(self.cell_outline(cell)))
-        return float(point.x), float(point.y)
+        outline = self.cell_outline(cell)
+        candidates = _inner_points(outline)
+        inside = (place for place in candidates if winding_number(points, place) == self.winding[cell])
+        return next(inside, (float(outline[0, 0]), float(outline[0, 1])))
 
     def __repr__(self) -> str:
         kind = "a Gauss code" if self.curve is None else f"a curve of {len(self.curve)} points"
@@ -330,6 +335,42 @@ def polygon_turning_number(points: Floats) -> int:
     upper = (step[:, 1] > 0) | ((step[:, 1] == 0) & (step[:, 0] > 0))
     upper_before = np.roll(upper, 1)
     return int(((turn > 0) & ~upper_before & upper).sum()) - int(((turn < 0) & upper_before & ~upper).sum())
+
+
+def winding_number(points: Floats, place: tuple[float, float]) -> int | None:
+    """Return how often a closed polyline winds around a place, exactly; None if the place lies on it.
+
+    Parameters
+    ----------
+    points : (n, 2) float
+        Vertices of the polyline.
+    place : (x, y)
+
+    Examples
+    --------
+    >>> winding_number(np.array([(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)]), (1, 1))
+    1
+    """
+    following = np.roll(points, -1, axis=0)
+    low, high = np.minimum(points, following), np.maximum(points, following)
+    side = orient(points, following, np.asarray(place, dtype=np.float64))
+    if ((side == 0) & (low <= place).all(axis=1) & (place <= high).all(axis=1)).any():
+        return None
+    below, below_next = points[:, 1] <= place[1], following[:, 1] <= place[1]
+    return int((below & ~below_next & (side > 0)).sum()) - int((~below & below_next & (side < 0)).sum())
+
+
+def _inner_points(outline: Floats) -> Iterator[tuple[float, float]]:
+    """Yield places that should lie inside a polygon, the most central first."""
+    import shapely
+
+    polygon = shapely.Polygon(outline)
+    point = shapely.point_on_surface(polygon)
+    yield float(point.x), float(point.y)
+    for corner in range(len(outline)):
+        ear = outline[[corner - 1, corner, (corner + 1) % len(outline)]]
+        x, y = ear[1] + (ear - ear[1]).sum(axis=0) / 3
+        yield float(x), float(y)
 
 
 def arrangement(curve: CurveLike, general_position: Literal["perturb", "raise"] = "perturb") -> Arrangement:

@@ -23,7 +23,11 @@ __all__ = ["in_general_position"]
 # Steps as fractions of the drawing's size: large enough for a mesh to survive, smaller where strands crowd.
 _STEPS = [2.0**-exponent for exponent in (20, 24, 28, 32, 36, 40, 44)]
 _GOLDEN_ANGLE = np.pi * (3 - np.sqrt(5))
-_ATTEMPTS = 6
+_ATTEMPTS = 12
+# A vertex must come clear of the edge it lay on by this fraction of the step, so that no rounding decides the answer.
+_CLEARANCE = 0.02
+# Steps have to be this many times the rounding of the coordinates, for the same reason.
+_LEAST_STEP = 1000
 
 
 def in_general_position(curve: Curve, policy: Literal["perturb", "raise"]) -> tuple[Curve, Visits]:
@@ -76,14 +80,15 @@ def _places(points: Floats, contacts: Contacts, visits: Visits) -> list[tuple[fl
 
 def _separate(curve: Curve, contacts: Contacts, visits: Visits) -> tuple[Curve, Visits]:
     """Try small moves of the touching vertices until the curve is in general position and nothing else has changed."""
-    allowed = _crossing_pairs(contacts) | _touching_pairs(contacts, len(curve.points))
-    for moved in _candidates(curve.points):
+    required = _crossing_pairs(contacts)
+    allowed = required | _touching_pairs(contacts, len(curve.points))
+    for moved, step in _candidates(curve.points):
+        if _clearance(moved, contacts.touches) < _CLEARANCE * step:
+            continue
         new_contacts = find_contacts(moved)
         new_visits = order_visits(moved, new_contacts)
-        pairs = _crossing_pairs(new_contacts)
-        if _is_general(new_contacts, new_visits) and _crossing_pairs(contacts) <= pairs <= allowed:
-            repairs = _moves(curve.points, moved)
-            return Curve(moved, repairs=curve.repairs + repairs), new_visits
+        if _is_general(new_contacts, new_visits) and required <= _crossing_pairs(new_contacts) <= allowed:
+            return Curve(moved, repairs=curve.repairs + _moves(curve.points, moved)), new_visits
     raise GeneralPositionError(
         "strands touch or overlap, and are too crowded to be moved apart",
         where=_places(curve.points, contacts, visits),
@@ -101,6 +106,16 @@ def _touching_pairs(contacts: Contacts, n: int) -> set[tuple[int, int]]:
     return {(min(pair), max(pair)) for pair in pairs}
 
 
+def _clearance(points: Floats, touches: Ints) -> float:
+    """Return the least distance of a vertex from the line of an edge that it used to lie on."""
+    vertex, edge = touches.T
+    start = points[edge]
+    along = points[(edge + 1) % len(points)] - start
+    away = points[vertex] - start
+    distance = np.abs(along[:, 0] * away[:, 1] - along[:, 1] * away[:, 0]) / np.hypot(*along.T)
+    return float(distance.min(initial=np.inf))
+
+
 def _moves(before: Floats, after: Floats) -> tuple[Repair, ...]:
     size = np.hypot(*(after - before).T)
     return tuple(
@@ -110,24 +125,31 @@ def _moves(before: Floats, after: Floats) -> tuple[Repair, ...]:
     )
 
 
-def _candidates(points: Floats) -> Iterator[Floats]:
-    """Yield ever more desperate ways to move the touching vertices, the same for every start and direction."""
+def _candidates(points: Floats) -> Iterator[tuple[Floats, float]]:
+    """Yield ever more desperate ways to move the touching vertices, the same for every start and direction.
+
+    First every vertex moves in the direction that its touch asks for; then in directions scattered at random, though
+    the same in every run.
+    """
     order = _canonical_order(points)
     frame = points[order]
     contacts = find_contacts(frame)
     displacement = _displacements(frame, contacts, order_visits(frame, contacts))
     size = float(np.ptp(points, axis=0).max())
+    least = _LEAST_STEP * np.spacing(np.abs(points).max())
     for attempt in range(_ATTEMPTS):
-        turned = _rotated(displacement, attempt * _GOLDEN_ANGLE)
-        for step in _STEPS:
-            moved = np.empty_like(points)
-            moved[order] = frame + step * size * turned
-            yield moved
+        turned = _rotated(displacement, attempt * _GOLDEN_ANGLE * (1 + np.arange(len(points))))
+        for step in size * np.array(_STEPS):
+            if step > least:
+                moved = np.empty_like(points)
+                moved[order] = frame + step * turned
+                yield moved, float(step)
 
 
-def _rotated(vectors: Floats, angle: float) -> Floats:
+def _rotated(vectors: Floats, angle: Floats) -> Floats:
     cosine, sine = np.cos(angle), np.sin(angle)
-    return np.asarray(vectors @ np.array([[cosine, sine], [-sine, cosine]]))
+    x, y = vectors.T
+    return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=1)
 
 
 def _canonical_order(points: Floats) -> Ints:
@@ -141,25 +163,22 @@ def _canonical_order(points: Floats) -> Ints:
 def _displacements(points: Floats, contacts: Contacts, visits: Visits) -> Floats:
     """Return the direction in which each vertex is to move, shape (n, 2); zero for those that stay.
 
-    Of vertices that coincide the first stays and the others move by 1, 2, … steps, so that strands which run along
-    each other for several laps end up in order.
+    Of vertices that coincide the first stays, unless it lies in the middle of an edge too, and the others move by
+    1, 2, … steps, so that strands which run along each other for several laps end up in order.
     """
     displacement = np.zeros_like(points)
+    n = len(points)
     rank = _rank_among_equals(points)
-    coincident = _coincident(points)
-    for vertex, edge in contacts.touches.tolist():
-        steps = rank[vertex] if coincident[vertex] else 1
-        displacement[vertex] = steps * _way_out(points, vertex, edge)
+    vertex, edge = contacts.touches.T
+    inside = (points[vertex] != points[edge]).any(axis=1) & (points[vertex] != points[(edge + 1) % n]).any(axis=1)
+    steps = rank + np.isin(np.arange(n), vertex[inside])
+    for v, e in contacts.touches.tolist():
+        displacement[v] = steps[v] * _way_out(points, v, e)
     for triple in visits.triple.tolist():
         last = max(triple)
         along = points[(last + 1) % len(points)] - points[last]
         displacement[last] = (1 + (last * _GOLDEN_ANGLE) % 1) * _unit(np.array([-along[1], along[0]]))
     return displacement
-
-
-def _coincident(points: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    inverse, counts = np.unique(points, axis=0, return_inverse=True, return_counts=True)[1:]
-    return np.asarray(counts[inverse.reshape(-1)] > 1)
 
 
 def _rank_among_equals(points: Floats) -> Ints:
@@ -177,9 +196,8 @@ def _way_out(points: Floats, vertex: int, edge: int) -> Floats:
     n = len(points)
     here, before, after = points[vertex], points[vertex - 1], points[(vertex + 1) % n]
     side_before, side_after = orient(points[edge], points[(edge + 1) % n], np.stack([before, after])).tolist()
-    if side_before * side_after == 0:  # runs along the edge: step aside
-        along = _unit(after - here) + _unit(here - before)
-        along = along if along.any() else here - before
+    if side_before * side_after == 0:  # runs along the edge: step aside, to the left
+        along = here - before if side_before == 0 else after - here
         return _unit(np.array([-along[1], along[0]]))
     if side_before == side_after:  # touches: draw back
         return _unit(_unit(before - here) + _unit(after - here))
