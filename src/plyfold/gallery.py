@@ -1,0 +1,226 @@
+"""Named curves with their known answers, used by the tests, the pictures and anyone who wants a curve to begin with.
+
+>>> from plyfold import gallery
+>>> ramp = gallery.CURVES["exit-ramp"]
+>>> len(ramp.curve), ramp.crossings, ramp.immersions
+(98, 4, 1)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from plyfold.curve import Curve
+
+__all__ = ["CURVES", "NamedCurve", "ribbon", "rounded"]
+
+Points = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class NamedCurve:
+    """A curve with its known answers.
+
+    Parameters
+    ----------
+    name, title : str
+        A short name for the command line, and what the curve shows.
+    draw : callable
+        Returns the points, shape (n, 2).
+    crossings : int
+        Number of crossings, k.
+    turning_number : int
+        After orienting the curve so that it is not negative.
+    immersions : int
+        In how many ways the curve bounds an immersed disk.
+    embeddable : int
+        How many of these can be layered.
+    """
+
+    name: str
+    title: str
+    draw: Callable[[], Points]
+    crossings: int
+    turning_number: int
+    immersions: int
+    embeddable: int
+
+    @cached_property
+    def curve(self) -> Curve:
+        """The curve itself."""
+        return Curve(self.draw())
+
+
+def ribbon(centre: npt.ArrayLike, width: float) -> Points:
+    """Return the outline of a ribbon: along its right side, and back along its left side.
+
+    Parameters
+    ----------
+    centre : array_like, shape (m, 2)
+        Centre line; it must bend more gently than half the width.
+    width : float
+
+    Returns
+    -------
+    ndarray, shape (2 m, 2)
+        However often the centre line crosses itself, the outline bounds an immersed disk: the ribbon.
+
+    Examples
+    --------
+    >>> ribbon([(0, 0), (4, 0)], width=2).tolist()
+    [[0.0, -1.0], [4.0, -1.0], [4.0, 1.0], [0.0, 1.0]]
+    """
+    line = np.asarray(centre, dtype=np.float64)
+    along = np.gradient(line, axis=0)
+    along /= np.hypot(*along.T)[:, None]
+    side = width / 2 * np.stack([-along[:, 1], along[:, 0]], axis=1)
+    return np.concatenate([line - side, (line + side)[::-1]])
+
+
+def rounded(corners: npt.ArrayLike, rounds: int = 3) -> Points:
+    """Round a closed polygon by cutting its corners, each round at a quarter of both edges (Chaikin).
+
+    Parameters
+    ----------
+    corners : array_like, shape (n, 2)
+    rounds : int
+
+    Returns
+    -------
+    ndarray, shape (n 2^rounds, 2)
+
+    Examples
+    --------
+    >>> len(rounded([(0, 0), (4, 0), (4, 4), (0, 4)], rounds=2))
+    16
+    """
+    points = np.asarray(corners, dtype=np.float64)
+    for _ in range(rounds):
+        following = np.roll(points, -1, axis=0)
+        points = np.stack([0.75 * points + 0.25 * following, 0.25 * points + 0.75 * following], axis=1).reshape(-1, 2)
+    return points
+
+
+def _polar(radius: npt.ArrayLike, angle: npt.NDArray[np.float64]) -> Points:
+    return np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
+
+
+def _turns(number: float, points: int, start: float = 0.1) -> npt.NDArray[np.float64]:
+    """Return angles over a number of full turns, the end left out; the start keeps samples off the crossings."""
+    return start + 2 * np.pi * number * np.arange(points) / points
+
+
+def _circle() -> Points:
+    return _polar(1.0, _turns(1, 64))
+
+
+def _figure_eight() -> Points:
+    t = _turns(1, 80)
+    return np.stack([np.sin(t), 0.8 * np.sin(t) * np.cos(t)], axis=1)
+
+
+def _limacon() -> Points:
+    t = _turns(1, 80)
+    return _polar(0.6 + np.cos(t), t)
+
+
+def _doubled_circle() -> Points:
+    t = _turns(2, 120)
+    return _polar(1 + 0.12 * np.sin(t / 2), t)
+
+
+def _kinked_circle() -> Points:
+    corners = [(3, 0), (5, 2.5), (6.5, 1), (3.5, 1.2), (3, 4), (-2, 4.5), (-2, 1), (1, 1), (1, 3), (-4, 3), (-4, -2)]
+    return rounded(corners)
+
+
+def _exit_ramp() -> Points:
+    t = np.linspace(-2.15, 2.15, 49)
+    return ribbon(np.stack([t**3 - 3 * t, 2.2 * t**2], axis=1), 1.6)
+
+
+def _spiral(turns: float, pitch: float, start_radius: float, width: float) -> Points:
+    t = np.linspace(0, 2 * np.pi * turns, int(40 * turns) + 1)
+    return ribbon(_polar(start_radius + pitch * t / (2 * np.pi), t), width)
+
+
+def _horseshoe() -> Points:
+    return _spiral(1.08, 0.4, 2.0, 1.0)
+
+
+def _two_turn_spiral() -> Points:
+    return _spiral(2.0, 0.75, 2.0, 1.0)
+
+
+def _stacked_spiral() -> Points:
+    return _spiral(3.2, 0.45, 2.0, 1.2)
+
+
+def _knotted_ribbon() -> Points:
+    t = np.linspace(0.15, 2 * np.pi - 0.15, 100)
+    return ribbon(np.stack([np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t)], axis=1), 0.6)
+
+
+def _two_loops() -> Points:
+    t = np.linspace(-np.pi, 3 * np.pi, 80)
+    return ribbon(np.stack([1.4 * t - 3 * np.sin(t), -3 * np.cos(t)], axis=1), 0.8)
+
+
+def _pretzel() -> Points:
+    t = np.linspace(0.05, 2 * np.pi - 0.35, 130)
+    return ribbon(np.stack([4 * np.cos(2 * t + 0.6), 3 * np.sin(3 * t)], axis=1), 0.5)
+
+
+def _pentagram() -> Points:
+    t = np.linspace(0.1, 2 * np.pi - 0.1, 130)
+    return ribbon(_polar(3 + 1.1 * np.cos(5 * t), 2 * t), 0.5)
+
+
+def _milnor() -> Points:
+    half = [(88, 39), (62, 102), (-17, -15), (-17, -13), (44, -7), (-75, 180)]
+    return _with_half_turn(half)
+
+
+def _ten_gon() -> Points:
+    return _with_half_turn([(-12, 53), (3, 21), (-134, -108), (149, -92), (-78, 180)])
+
+
+def _with_half_turn(half: Sequence[tuple[float, float]]) -> Points:
+    return np.concatenate([np.array(half, dtype=np.float64), -np.array(half, dtype=np.float64)])
+
+
+def _bennequin() -> Points:
+    right = [(-18, -81), (62, -52), (19, 31), (34, 30), (-175, 9), (59, -176), (79, 25), (14, 80), (-36, 1)]
+    left = [(-43, 14), (80, -156), (124, 139), (-61, 56), (-76, -28), (17, -32), (9, -44), (95, 147), (-182, 37)]
+    return np.array(right + left, dtype=np.float64)
+
+
+# After each figure of the paper (Mukherjee, Gopi, Rossignac 2011): a loop of its kind, not a copy of it.
+CURVES: Mapping[str, NamedCurve] = {
+    named.name: named
+    for named in (
+        NamedCurve("circle", "a circle", _circle, 0, 1, 1, 1),
+        NamedCurve("figure-eight", "a figure eight: it turns 0 times", _figure_eight, 1, 0, 0, 0),
+        NamedCurve("limacon", "Pascal's limaçon: it turns twice", _limacon, 1, 2, 0, 0),
+        NamedCurve("doubled-circle", "a circle run through twice: it turns twice", _doubled_circle, 1, 2, 0, 0),
+        NamedCurve("kinked-circle", "a kink and a curl: it turns once, and is no disk", _kinked_circle, 2, 1, 0, 0),
+        NamedCurve("horseshoe", "a horseshoe whose ends overlap (figure 5)", _horseshoe, 2, 1, 1, 1),
+        NamedCurve("exit-ramp", "a ribbon that crosses itself once (figure 6)", _exit_ramp, 4, 1, 1, 1),
+        NamedCurve("two-loops", "a ribbon with two loops (figure 4)", _two_loops, 8, 1, 1, 1),
+        NamedCurve("pretzel", "a woven ribbon (figure 7)", _pretzel, 24, 1, 1, 1),
+        NamedCurve("knotted-ribbon", "an open trefoil of ribbon (figure 1)", _knotted_ribbon, 12, 1, 1, 1),
+        NamedCurve("pentagram", "an open star of ribbon (figure 13)", _pentagram, 20, 1, 1, 1),
+        NamedCurve("two-turn-spiral", "a spiral ramp of two turns (figure 12, left)", _two_turn_spiral, 2, 1, 1, 1),
+        NamedCurve("stacked-spiral", "a spiral ramp three deep (figure 12, middle)", _stacked_spiral, 4, 1, 1, 1),
+        NamedCurve("milnor", "Milnor's doodle: two immersions (figure 3)", _milnor, 6, 1, 2, 2),
+        NamedCurve("ten-gon", "a polygon of ten points with two immersions", _ten_gon, 10, 1, 2, 2),
+        NamedCurve(
+            "bennequin", "five immersions, of which two cannot be lifted (figure 12, right)", _bennequin, 12, 1, 5, 3
+        ),
+    )
+}
