@@ -11,6 +11,7 @@ from plyfold.curve import Curve
 from plyfold.immersion import Immersion, bounds_disk, count_immersions, find_immersion, immersions
 from plyfold.layering import Layering, find_layering
 from plyfold.obstruction import Obstruction
+from plyfold.surface import Surface, lift
 
 __version__ = "0.1.0"
 
@@ -20,10 +21,12 @@ __all__ = [
     "Immersion",
     "Layering",
     "Obstruction",
+    "Surface",
     "arrangement",
     "bounds_disk",
     "count_immersions",
     "find_immersion",
     "find_layering",
     "immersions",
+    "lift",
 ]

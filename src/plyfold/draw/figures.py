@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable
 from functools import partial
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -12,6 +12,7 @@ from plyfold.arrangement import Arrangement
 from plyfold.draw.colours import INK
 from plyfold.draw.plots import plot_arrangement, plot_disk_layout, plot_layers, plot_surface
 from plyfold.immersion import Immersion
+from plyfold.io.saving import refuse_existing, save_bytes
 from plyfold.layering import Layering
 from plyfold.surface import Surface
 
@@ -85,13 +86,10 @@ def save(figure: Figure, path: str | PathLike[str], force: bool = False) -> None
     FileExistsError
         If the file exists and ``force`` is not set.
     """
-    target = Path(path)
-    if target.exists() and not force:
-        raise FileExistsError(f"{target} exists already")
-    with tempfile.TemporaryDirectory(dir=target.parent, prefix=".plyfold-") as folder:
-        draft = Path(folder) / target.name
-        figure.savefig(draft, dpi=160, facecolor="white")
-        draft.replace(target)
+    refuse_existing(path, force)
+    drawn = BytesIO()
+    figure.savefig(drawn, format=Path(path).suffix[1:].lower(), dpi=160, facecolor="white")
+    save_bytes(path, drawn.getvalue(), force)
 
 
 def _panels(value: Arrangement | Immersion | Layering, obstruction: Obstruction | None) -> Panels:

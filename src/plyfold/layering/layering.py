@@ -109,6 +109,8 @@ def find_layering(immersion: Immersion, time_limit: float | None = None) -> Laye
     >>> bool(find_layering(find_immersion([(0, 0), (1, 0), (0, 1)])))
     True
     """
+    if time_limit is not None and time_limit <= 0:
+        raise _unknown(time_limit)
     graph = pair_graph(immersion)
     contradictions = graph.contradictions()
     if len(contradictions):
@@ -162,10 +164,14 @@ def _solve(cycles: list[list[int]], time_limit: float | None) -> set[int] | None
         if timer is not None:
             timer.cancel()
         if answer is None:
-            raise TimeLimitError(
-                f"whether the surface can be layered is unknown after {time_limit:g} seconds", hint="allow more time"
-            )
+            raise _unknown(time_limit)
         return set(solver.get_model()) if answer else None
+
+
+def _unknown(time_limit: float | None) -> TimeLimitError:
+    return TimeLimitError(
+        f"whether the surface can be layered is unknown after {time_limit or 0:g} seconds", hint="allow more time"
+    )
 
 
 def _levels(immersion: Immersion, graph: PairGraph, literal: Ints, true: set[int]) -> Ints:

@@ -1,0 +1,167 @@
+"""Heights that look like cloth: as smooth as can be, with the sheets apart.
+
+The height z minimises a bending and a membrane energy over the glued disk,
+
+    E(z) = ½ ∫ ℓ² (Δz)² + |∇z|²,
+
+while sheets above each other keep a distance: z_upper − z_lower ≥ gap over every point of the drawing. Bending alone
+would let far ends droop, and a membrane alone would crease where the sheets part. Only derivatives of z occur, since
+anything that pulls z towards a plane makes spikes where sheets cross.
+
+The distance is enforced by contact springs that become ever stiffer. For each stiffness the energy is convex and
+piecewise quadratic, so Newton's method ends after a few steps. What the springs leave over, a last projection
+removes: then the distance holds at every vertex, in floating point too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from plyfold.arrangement.planar_map import Ints
+from plyfold.predicates import Floats
+from plyfold.surface.glue import LiftedMesh
+
+__all__ = ["smooth_heights"]
+
+Progress: TypeAlias = Callable[[str, float], None]
+
+# ℓ, below which bending rules and above which the membrane does, as a fraction of the drawing's size.
+_BENDING_LENGTH = 0.15
+_STIFFNESS = (1e3, 1e5, 1e7)
+_NEWTON_STEPS = 25
+
+
+def smooth_heights(points: Floats, mesh: LiftedMesh, gap: float, progress: Progress | None = None) -> Floats:
+    """Return smooth heights that keep stacked vertices apart.
+
+    Parameters
+    ----------
+    points : (p, 2) float
+        The points of the planar triangulation.
+    mesh : LiftedMesh
+        The glued disk.
+    gap : float
+        Least distance of two sheets over the same point, in units of the drawing.
+    progress : callable, optional
+        Called with a few words and the fraction done.
+
+    Returns
+    -------
+    (v,) float
+        Heights of the mesh's vertices, the lowest 0; all 0 if no two sheets overlap. For each row (lower, upper) of
+        ``mesh.stacked``, ``z[lower] + gap <= z[upper]`` holds exactly.
+
+    Notes
+    -----
+    A few dozen sparse factorisations: about half a second for 4,000 triangles.
+    """
+    if len(mesh.stacked) == 0:
+        return np.zeros(len(mesh.planar_vertex))
+    problem = _contact_problem(points, mesh)
+    # With the gap as the unit of height, the numbers are of the order of 1.
+    z = mesh.level.astype(np.float64)
+    for done, stiffness in enumerate(_STIFFNESS):
+        for step, better in enumerate(_newton_steps(problem, z, stiffness)):
+            z = better
+            if progress is not None:
+                progress("smoothing heights", (done + step / _NEWTON_STEPS) / len(_STIFFNESS))
+    return _kept_apart(z, mesh, gap)
+
+
+@dataclass(frozen=True, eq=False)
+class _ContactProblem:
+    """The quadratic energy ½ zᵀ K z, and the springs between stacked vertices."""
+
+    energy: Any
+    difference: Any
+    area: Floats
+
+
+def _contact_problem(points: Floats, mesh: LiftedMesh) -> _ContactProblem:
+    from scipy.sparse import csr_array, diags_array
+
+    size = float(np.ptp(points[mesh.planar_vertex], axis=0).max())
+    corners = points[mesh.planar_vertex] / size
+    membrane, area = _cotangent_laplacian(corners, mesh.faces)
+    # The Laplacian at the boundary counts too: it is the slope across the edge, and left free it would let the
+    # points of contact, which lie on edges, crease the cloth.
+    bending = membrane @ diags_array(1 / area) @ membrane
+    n, c = len(corners), len(mesh.stacked)
+    signs = np.tile([-1.0, 1.0], c)
+    difference = csr_array((signs, (np.repeat(np.arange(c), 2), mesh.stacked.ravel())), shape=(c, n))
+    return _ContactProblem(_BENDING_LENGTH**2 * bending + membrane, difference, area[mesh.stacked].mean(axis=1))
+
+
+def _cotangent_laplacian(corners: Floats, faces: Ints) -> tuple[Any, Floats]:
+    """Return the stiffness matrix of ½ ∫ |∇z|² and the area that belongs to each vertex."""
+    from scipy.sparse import coo_array
+
+    triangle = corners[faces]
+    n = len(corners)
+    edges = np.roll(triangle, -1, axis=1) - np.roll(triangle, 1, axis=1)
+    double_area = edges[:, 0, 0] * edges[:, 1, 1] - edges[:, 0, 1] * edges[:, 1, 0]
+    local = np.einsum("tix,tjx->tij", edges, edges) / (2 * double_area)[:, None, None]
+    rows, columns = np.repeat(faces, 3, axis=1).ravel(), np.tile(faces, (1, 3)).ravel()
+    stiffness = coo_array((local.ravel(), (rows, columns)), shape=(n, n)).tocsr()
+    area = np.bincount(faces.ravel(), np.repeat(double_area / 6, 3), minlength=n)
+    return stiffness, area.astype(np.float64)
+
+
+def _newton_steps(problem: _ContactProblem, z: Floats, stiffness: float) -> Iterator[Floats]:
+    """Yield ever better minimisers of the energy with contact springs, until the active springs stay the same."""
+    from scipy.sparse import diags_array
+    from scipy.sparse.linalg import splu
+
+    spring = stiffness * problem.area
+    active = problem.difference @ z <= 1
+    for _ in range(_NEWTON_STEPS):
+        pressed = problem.difference.T @ diags_array(np.where(active, spring, 0.0))
+        matrix = (problem.energy + pressed @ problem.difference).tocsc()
+        # Heights are known up to a constant: hold one vertex.
+        solver = splu(
+            matrix[1:, 1:], permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+        )
+        z = np.concatenate([[0.0], solver.solve(pressed.sum(axis=1)[1:])])
+        yield z
+        now = problem.difference @ z <= 1
+        if (now == active).all():
+            return
+        active = now
+
+
+def _kept_apart(z: Floats, mesh: LiftedMesh, gap: float) -> Floats:
+    """Return the nearest heights in which stacked vertices keep their distance, in units of the drawing."""
+    apart = z.copy()
+    order = np.lexsort((mesh.level, mesh.planar_vertex))
+    first = np.unique(mesh.planar_vertex[order], return_index=True)[1]
+    length = np.diff(np.append(first, len(order)))
+    for layers in np.unique(length[length > 1]).tolist():
+        stack = order[first[length == layers][:, None] + np.arange(layers)]
+        apart[stack] = _nondecreasing(z[stack] - np.arange(layers)) + np.arange(layers)
+    apart = np.asarray(gap * (apart - apart.min()))
+    # The same distances once more, now as floating point has them.
+    for lower, upper in (mesh.stacked[mesh.level[mesh.stacked[:, 0]] == level].T for level in range(mesh.level.max())):
+        apart[upper] = np.maximum(apart[upper], apart[lower] + gap)
+    return apart
+
+
+def _nondecreasing(rows: Floats) -> Floats:
+    """Return for each row the nearest one that never falls (isotonic regression, by its min–max formula).
+
+    Examples
+    --------
+    >>> _nondecreasing(np.array([[1.0, 4.0, 2.0]])).tolist()
+    [[1.0, 3.0, 3.0]]
+    """
+    count, length = rows.shape
+    total = np.concatenate([np.zeros((count, 1)), np.cumsum(rows, axis=1)], axis=1)
+    best = np.full((count, length), -np.inf)
+    for start in range(length):
+        mean = (total[:, start + 1 :] - total[:, [start]]) / np.arange(1, length - start + 1)
+        least_beyond = np.minimum.accumulate(mean[:, ::-1], axis=1)[:, ::-1]
+        best[:, start:] = np.maximum(best[:, start:], least_beyond)
+    return best
