@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.predicates import Floats, exact_parameter, orient, parameter_along_edge
+from plyfold.predicates import Floats, Signs, exact_parameter, orient, parameter_along_edge
 
 __all__ = ["Contacts", "Visits", "find_contacts", "order_visits"]
 
@@ -74,14 +74,22 @@ def find_contacts(points: Floats) -> Contacts:
     Contacts
         Exact. Cost: O(n log n) plus the number of pairs of edges whose bounding boxes meet.
     """
+    n = len(points)
     following = np.roll(points, -1, axis=0)
     first, second = _overlapping_boxes(points, following)
+    apart = (second - first > 1) & (second - first < n - 1)
+    first, second = first[apart], second[apart]
     a, b, c, d = points[first], following[first], points[second], following[second]
     side_c, side_d, side_a, side_b = orient(a, b, c), orient(a, b, d), orient(c, d, a), orient(c, d, b)
     proper = (side_c * side_d < 0) & (side_a * side_b < 0)
+    touches = [
+        _touches(points, second, first, side_c),
+        _touches(points, (second + 1) % n, first, side_d),
+        _touches(points, first, second, side_a),
+        _touches(points, (first + 1) % n, second, side_b),
+        *_spikes(points, following),
+    ]
     edges = np.stack([first[proper], second[proper]], axis=1)
-    sides = ((first, second, side_c, side_d), (second, first, side_a, side_b))
-    touches = [_touches(points, *side) for side in sides]
     return Contacts(edges, side_d[proper] > 0, np.unique(np.concatenate(touches), axis=0))
 
 
@@ -95,17 +103,20 @@ def _overlapping_boxes(start: Floats, end: Floats) -> tuple[Ints, Ints]:
     return first[keep].astype(np.int64), second[keep].astype(np.int64)
 
 
-def _touches(points: Floats, edge: Ints, other: Ints, side_start: npt.ArrayLike, side_end: npt.ArrayLike) -> Ints:
-    """Return rows (vertex, edge) where an end of ``other`` lies on ``edge`` without belonging to it."""
+def _touches(points: Floats, vertex: Ints, edge: Ints, side: Signs) -> Ints:
+    """Return the rows (vertex, edge) where a vertex on the line of an edge lies on the edge itself."""
+    a, b, v = points[edge], points[(edge + 1) % len(points)], points[vertex]
+    hit = (side == 0) & ((np.minimum(a, b) <= v) & (v <= np.maximum(a, b))).all(axis=1)
+    return np.stack([vertex[hit], edge[hit]], axis=1)
+
+
+def _spikes(points: Floats, following: Floats) -> list[Ints]:
+    """Return the rows (vertex, edge) of edges that run straight back over the edge before them."""
     n = len(points)
-    rows = []
-    for vertex, side in ((other, np.asarray(side_start)), ((other + 1) % n, np.asarray(side_end))):
-        foreign = (vertex != edge) & (vertex != (edge + 1) % n)
-        a, b, v = points[edge], points[(edge + 1) % n], points[vertex]
-        between = ((np.minimum(a, b) <= v) & (v <= np.maximum(a, b))).all(axis=1)
-        hit = (side == 0) & foreign & between
-        rows.append(np.stack([vertex[hit], edge[hit]], axis=1))
-    return np.concatenate(rows)
+    edge = np.arange(n)
+    after = np.roll(following, -1, axis=0)
+    side = orient(points, following, after)
+    return [_touches(points, edge, (edge + 1) % n, side), _touches(points, (edge + 2) % n, edge, side)]
 
 
 def order_visits(points: Floats, contacts: Contacts) -> Visits:

@@ -1,0 +1,45 @@
+# `make demo` and `make test` each work alone, on a machine with Python 3.11 or later and make.
+PYTHON ?= python3
+VENV   ?= .venv
+BIN    := $(VENV)/bin
+READY  := $(VENV)/.ready
+DEMO   ?= examples/ramp.svg
+
+.PHONY: demo test test-slow lint pictures benchmark clean
+
+demo: $(READY)  ## Lift an example: out/ gets a GLB, a 3D page and a picture of every stage
+	@mkdir -p out
+	@$(BIN)/plyfold check $(DEMO)
+	@echo
+	@$(BIN)/plyfold lift $(DEMO) --force -o out/demo.glb -o out/demo.html
+	@$(BIN)/plyfold draw $(DEMO) --force -o out/demo.png
+	@echo
+	@echo "Open out/demo.html in a browser to turn the surface; out/demo.png shows every stage."
+
+test: $(READY) lint  ## Style, types, and every test but the slow ones
+	$(BIN)/python -m pytest -n 2
+
+test-slow: $(READY)  ## The tests that take minutes: every curve with six crossings
+	$(BIN)/python -m pytest -n 2 -m slow
+
+lint: $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+pictures: $(READY)  ## Rebuild the pictures of the README
+	$(BIN)/python docs/pictures.py
+
+benchmark: $(READY)  ## Times and ratios against GEOS, from one run
+	$(BIN)/python benchmarks/stages.py
+
+$(READY): pyproject.toml
+	@if command -v uv >/dev/null 2>&1; then \
+	    uv venv --quiet --allow-existing --python "$(PYTHON)" $(VENV) && uv pip install --quiet --python $(BIN)/python -e ".[test]"; \
+	else \
+	    "$(PYTHON)" -m venv $(VENV) && $(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[test]"; \
+	fi
+	@touch $(READY)
+
+clean:
+	rm -rf $(VENV) out .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -1,0 +1,47 @@
+"""Rebuild the pictures of the README: ``make pictures``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+import plyfold as pf
+from plyfold.draw.figures import save, summary
+from plyfold.draw.plots import plot_arrangement, plot_surface
+from plyfold.gallery import CURVES
+
+HERE = Path(__file__).parent
+COLUMNS = 4
+
+
+def overview() -> None:
+    """Draw every stage for the example of ``make demo``."""
+    surface = pf.lift(pf.read(HERE.parent / "examples" / "ramp.svg"))
+    summary(surface, HERE / "images" / "overview.png", force=True)
+
+
+def gallery() -> None:
+    """Draw each named curve with its cells, and its surface beside it where there is one."""
+    rows = -(-len(CURVES) // COLUMNS)
+    figure = Figure(figsize=(4.6 * COLUMNS, 2.9 * rows), layout="constrained")
+    axes = figure.subplots(rows, 2 * COLUMNS).ravel()
+    for ax in axes:
+        ax.axis("off")
+    for place, named in enumerate(CURVES.values()):
+        flat, lifted = axes[2 * place : 2 * place + 2]
+        found = pf.find_immersion(named.curve)
+        obstruction = found if isinstance(found, pf.Obstruction) else None
+        plot_arrangement(pf.arrangement(named.curve), ax=flat, obstruction=obstruction)
+        flat.set_title(named.name, loc="left", fontsize=12, weight="bold")
+        if named.embeddable:
+            plot_surface(pf.lift(named.curve), ax=lifted)
+        else:
+            lifted.text(0.5, 0.5, str(found), ha="center", va="center", wrap=True, transform=lifted.transAxes)
+    save(figure, HERE / "images" / "gallery.png", force=True)
+
+
+if __name__ == "__main__":
+    (HERE / "images").mkdir(exist_ok=True)
+    overview()
+    gallery()
