@@ -16,7 +16,7 @@ LARGEST_COORDINATE = 1e150
 """Products of two coordinates up to this size stay inside the range of a double."""
 
 _LARGEST_EXACT_INTEGER = 2**53
-_NUMERIC_KINDS = "biuf"
+_NUMERIC_KINDS = "iuf"
 
 
 @dataclass(frozen=True)

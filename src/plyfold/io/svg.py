@@ -1,0 +1,235 @@
+"""SVG drawings, through svgelements, which knows transforms, ``use``, units and viewBox."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterable, Iterator
+from pyexpat import ErrorString, ExpatError, ParserCreate
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import numpy.typing as npt
+
+from plyfold.curve import Curve
+from plyfold.errors import FileFormatError, InputError
+from plyfold.io.outline import Arc, Bezier, Outline, bounding_diagonal
+
+__all__ = ["read_svg"]
+
+_TOLERANCE_SHARE = 1 / 2000
+_FINEST_SHARE = 1e-9
+_LONGEST_DECLARATION = 256
+_MOST_ELEMENTS = 1_000_000
+_SVG = "{http://www.w3.org/2000/svg}"
+_LINK = "{http://www.w3.org/1999/xlink}href"
+_TEMPLATES = ("symbol", "marker", "mask")
+_SHAPE_HINT = "draw one closed path, polygon, polyline, rect, circle or ellipse"
+
+_Points = npt.NDArray[np.float64]
+
+
+def read_svg(data: bytes, id: str | None = None, tolerance: float | None = None) -> Curve:
+    """Read one closed curve from an SVG document.
+
+    Parameters
+    ----------
+    data : bytes
+        The document.
+    id : str, optional
+        The element to read, a shape or a group; by default all that is drawn.
+    tolerance : float, optional
+        Bound on the distance between the drawing and the polyline, in the units of the result (the document's pixels,
+        after all transforms); by default 1/2000 of the diagonal of the bounding box.
+
+    Returns
+    -------
+    Curve
+        With y up. A single open piece, or several, are joined as strokes.
+
+    Raises
+    ------
+    FileFormatError
+        If the document is broken, holds no shape, or several of which one must be chosen.
+    StrokeError
+        If open pieces leave a gap too wide to be meant.
+
+    Notes
+    -----
+    Linear in the size of the document, plus one vertex per √tolerance.
+
+    Examples
+    --------
+    >>> read_svg(b'<svg><polygon points="0,0 4,0 0,3"/></svg>').points.tolist()
+    [[0.0, 0.0], [4.0, 0.0], [0.0, -3.0]]
+    """
+    with np.errstate(all="ignore"):  # infinite coordinates are refused below
+        outlines = [outline for shape in _shapes(data, id) for outline in _outlines(shape)]
+        if not outlines:
+            raise FileFormatError("nothing is drawn in it that has an outline", hint=_SHAPE_HINT)
+        tolerance = _checked_tolerance(tolerance, bounding_diagonal(outlines))
+    if any(outline.closed for outline in outlines):
+        return Curve(_only(outlines).flattened(tolerance))
+    return Curve.from_strokes(outline.flattened(tolerance) for outline in outlines)
+
+
+def _checked_tolerance(tolerance: float | None, size: float) -> float:
+    if not 0 < size < np.inf:
+        raise FileFormatError(f"the drawing measures {size:g} across", hint="check its coordinates and transforms")
+    if tolerance is None:
+        return size * _TOLERANCE_SHARE
+    if not size * _FINEST_SHARE <= tolerance < np.inf:
+        hint = f"the drawing measures {size:.6g} across; the finest tolerance is {_FINEST_SHARE:g} of that"
+        raise InputError(f"a tolerance of {tolerance:g} cannot be kept", hint=hint)
+    return tolerance
+
+
+def _only(outlines: list[Outline]) -> Outline:
+    if len(outlines) == 1:
+        return outlines[0]
+    names = list(dict.fromkeys(outline.name for outline in outlines))
+    if len(names) == 1:
+        raise FileFormatError(f"{names[0]} has {len(outlines)} separate pieces", hint="keep one closed piece in it")
+    raise FileFormatError(f"it holds several shapes: {_listed(names)}", hint="choose one by its id, or give it an id")
+
+
+def _listed(names: Iterable[str]) -> str:
+    names = list(names)
+    return ", ".join(names[:20]) + (f" and {len(names) - 20} more" if len(names) > 20 else "")
+
+
+def _shapes(data: bytes, id: str | None) -> list[Any]:
+    """Return the drawn shapes, all or those in the chosen element, as svgelements has them."""
+    from svgelements import SVG, Shape
+
+    document = _safe_document(data)
+    try:
+        drawing = SVG.parse(io.BytesIO(document), reify=False, on_error="raise")
+        by_id = {name: _shapes_within(element, Shape) for name, element in drawing.objects.items()}
+        drawn = _shapes_within(drawing, Shape)
+    except Exception as error:  # svgelements lets through whatever a bad number or attribute runs into
+        raise FileFormatError(f"broken SVG ({type(error).__name__}: {error})", hint=_SHAPE_HINT) from error
+    if id is None:
+        return drawn
+    if not by_id.get(id):
+        names = _listed(name for name, shapes in by_id.items() if shapes)
+        raise FileFormatError(f"no shape in it has the id {id!r}", hint=f"ids with shapes: {names or 'none'}")
+    return by_id[id]
+
+
+def _shapes_within(element: Any, shape_type: type) -> list[Any]:
+    if isinstance(element, shape_type):
+        return [element]
+    return list(element.select(lambda part: isinstance(part, shape_type))) if hasattr(element, "select") else []
+
+
+def _outlines(shape: Any) -> Iterator[Outline]:
+    """Yield the pieces of one shape in final coordinates: transforms applied, y up."""
+    transform = shape.transform
+    matrix = np.array([(transform.a, transform.c), (-transform.b, -transform.d)])
+    shift = np.array((transform.e, -transform.f))
+    name = repr(shape.id) if shape.id else f"a {type(shape).__name__.lower()} without id"
+    for run, closed in _runs(shape.segments(transformed=False)):
+        segments = tuple(_segment(part).transformed(matrix, shift) for part in run)
+        start = matrix @ np.array(run[0].start) + shift
+        yield Outline(start, segments, closed or np.array_equal(start, segments[-1].end), name)
+
+
+def _runs(segments: Iterable[Any]) -> Iterator[tuple[list[Any], bool]]:
+    """Split a path at its moves and closings into runs of segments, and tell whether each was closed."""
+    from svgelements import Close, Move
+
+    run: list[Any] = []
+    for segment in segments:
+        if not isinstance(segment, Move | Close):
+            run.append(segment)
+        elif run:
+            yield run, isinstance(segment, Close)
+            run = []
+    if run:
+        yield run, False
+
+
+def _segment(part: Any) -> Bezier | Arc:
+    from svgelements import Arc as SvgArc
+    from svgelements import CubicBezier, QuadraticBezier
+
+    if isinstance(part, CubicBezier):
+        return Bezier(np.array([part.start, part.control1, part.control2, part.end]))
+    if isinstance(part, QuadraticBezier):
+        return Bezier(np.array([part.start, part.control, part.end]))
+    if isinstance(part, SvgArc) and part.sweep and part.rx and part.ry:
+        center = np.array(part.center)
+        axes = np.column_stack([np.array(part.prx) - center, np.array(part.pry) - center])
+        return Arc(center, axes, float(part.get_start_t()), float(part.sweep), np.array(part.end))
+    return Bezier(np.array([part.start, part.end]))
+
+
+def _safe_document(data: bytes) -> bytes:
+    """Return the document rid of what must not be drawn, after refusing what would make its reader run away."""
+    try:
+        _refuse_entity_bombs(data)
+        root = ElementTree.fromstring(data)
+        if root.tag.removeprefix(_SVG) != "svg":
+            raise FileFormatError(f"it is XML, but no SVG: its root is <{root.tag[:40]}>", hint=_SHAPE_HINT)
+        _refuse_use_bombs(root)
+        _tidy(root)
+        return ElementTree.tostring(root)
+    except (ExpatError, ElementTree.ParseError) as error:
+        line = error.lineno if isinstance(error, ExpatError) else error.position[0]
+        raise FileFormatError(f"line {line}: broken XML ({ErrorString(error.code)})", hint="export it again") from error
+    except RecursionError as error:
+        raise FileFormatError("its elements are nested too deep", hint="ungroup the drawing") from error
+    except (ValueError, LookupError) as error:
+        raise FileFormatError(f"broken XML ({error})", hint="save the SVG as UTF-8") from error
+
+
+def _refuse_entity_bombs(data: bytes) -> None:
+    """Refuse entities that hold entities, and long ones: a few lines of them can stand for gigabytes."""
+    parser = ParserCreate()
+
+    def check_entity(name: str, _: object, value: str | None, *__: object) -> None:
+        if value is not None and ("&" in value or "%" in value or len(value) > _LONGEST_DECLARATION):
+            raise FileFormatError(f"the XML entity {name[:40]!r} is nested or too long", hint="export the SVG again")
+
+    def check_default(_: object, name: str, __: object, default: str | None, ___: object) -> None:
+        check_entity(name, None, default)
+
+    parser.EntityDeclHandler = check_entity
+    parser.AttlistDeclHandler = check_default
+    parser.Parse(data, True)
+
+
+def _refuse_use_bombs(root: ElementTree.Element) -> None:
+    """Refuse ``use`` elements that contain themselves, or multiply each other beyond measure."""
+    target = {element.get("id"): element for element in root.iter()}
+    sizes: dict[ElementTree.Element, float] = {}
+
+    def size(element: ElementTree.Element) -> float:
+        if element not in sizes:
+            sizes[element] = np.inf  # stays so for whoever comes back here from below
+            used = target.get(_link(element))
+            parts = [*element, *([] if used is None else [used])]
+            sizes[element] = 1 + sum(map(size, parts))
+        return sizes[element]
+
+    if size(root) > _MOST_ELEMENTS:
+        hint = "replace the use elements by copies of what they show"
+        raise FileFormatError("use elements contain themselves, or multiply beyond measure", hint=hint)
+
+
+def _link(element: ElementTree.Element) -> str:
+    """Return the id that a ``use`` element shows; empty for other elements."""
+    return element.get("href", element.get(_LINK, ""))[1:] if element.tag.endswith("use") else ""
+
+
+def _tidy(root: ElementTree.Element) -> None:
+    """Put templates, which are only shown where they are used, among the definitions; drop paths without data."""
+    for parent in list(root.iter()):
+        for position, child in enumerate(list(parent)):
+            kind = str(child.tag).removeprefix(_SVG)
+            if kind == "path" and not child.get("d", "").strip():
+                child.tag = "desc"
+            elif kind in _TEMPLATES:
+                parent[position] = definitions = ElementTree.Element(_SVG + "defs")
+                definitions.append(child)
