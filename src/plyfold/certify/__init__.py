@@ -1,0 +1,52 @@
+"""Proofs by inspection: a mesh is a disk, lies over the curve, and does not cut itself.
+
+The checks read nothing but the finished mesh and the curve, share no code with the rest of the library, and decide by
+integers, by comparisons of doubles and by exact signs. What passes is right, however it was made.
+"""
+
+from __future__ import annotations
+
+import numpy.typing as npt
+
+from plyfold.certify.disk import check_disk_mesh
+from plyfold.certify.exact import CertificateError, finite
+from plyfold.certify.immersed import check_immersed_disk
+from plyfold.certify.layered import check_layered
+
+__all__ = ["CertificateError", "check_disk_mesh", "check_immersed_disk", "check_layered", "check_surface"]
+
+
+def check_surface(
+    curve_points: npt.ArrayLike,
+    vertices: npt.ArrayLike,
+    faces: npt.ArrayLike,
+    boundary: npt.ArrayLike,
+    gap: float = 0.0,
+) -> None:
+    """Check that a mesh in space is an embedded disk that seen from above is immersed and bounded by the curve.
+
+    Parameters
+    ----------
+    curve_points : array_like, shape (n, 2)
+        The closed curve with the surface on its left.
+    vertices : array_like, shape (v, 3)
+    faces : array_like of int, shape (m, 3)
+        Vertices of each triangle, counter-clockwise seen from above.
+    boundary : array_like of int, shape (b,)
+        Vertices along the curve, from the curve's first point.
+    gap : float, optional
+        Least vertical distance.
+
+    Raises
+    ------
+    CertificateError
+        If :func:`check_immersed_disk` or :func:`check_layered` fails.
+
+    Examples
+    --------
+    >>> roof = [(0, 0, 0), (1, 0, 1), (1, 1, 0), (0, 1, 1)]
+    >>> check_surface([(0, 0), (1, 0), (1, 1), (0, 1)], roof, [[0, 1, 2], [0, 2, 3]], [0, 1, 2, 3])
+    """
+    positions = finite(vertices, 3)
+    check_immersed_disk(curve_points, positions[:, :2], faces, boundary)
+    check_layered(positions, faces, gap)

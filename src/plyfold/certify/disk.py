@@ -1,0 +1,149 @@
+"""Check that a triangle mesh is a disk."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from plyfold.certify.exact import CertificateError, Ints, as_faces
+
+__all__ = ["Sides", "check_disk_mesh", "disk_sides"]
+
+
+def check_disk_mesh(faces: npt.ArrayLike, n_vertices: int) -> None:
+    """Check that triangles make a disk.
+
+    Parameters
+    ----------
+    faces : array_like of int, shape (m, 3)
+        Vertices of each triangle, all in the same sense of rotation.
+    n_vertices : int
+        Number of vertices; each must occur.
+
+    Raises
+    ------
+    CertificateError
+        If a triangle names a vertex twice, an edge has three triangles or two that disagree in orientation, the
+        triangles at a vertex are not one fan, the mesh has several parts, its Euler characteristic is not 1 or its
+        boundary is not one loop.
+
+    Notes
+    -----
+    Coordinates play no part. O(m log m); 1e5 triangles take about 0.1 s.
+
+    Examples
+    --------
+    >>> check_disk_mesh([[0, 1, 2], [0, 2, 3]], n_vertices=4)
+    >>> check_disk_mesh([[0, 1, 2], [0, 1, 3]], n_vertices=4)
+    Traceback (most recent call last):
+    plyfold.certify.exact.CertificateError: two triangles lie on the same side of the edge from vertex 0 to vertex 1
+    """
+    disk_sides(faces, n_vertices)
+
+
+@dataclass(frozen=True, eq=False)
+class Sides:
+    """The sides 3t, 3t + 1, 3t + 2 of each triangle t: their ends, and the same edge's side in the next triangle.
+
+    ``twin`` is −1 on the boundary, and ``boundary_side`` is the side on the boundary that starts at a vertex, or −1.
+    """
+
+    start: Ints
+    end: Ints
+    twin: Ints
+    boundary_side: Ints
+
+    @property
+    def previous(self) -> Ints:
+        """The side before each side in its triangle."""
+        side = np.arange(len(self.start))
+        return np.where(side % 3 == 0, side + 2, side - 1)
+
+
+def disk_sides(faces: npt.ArrayLike, n_vertices: int) -> Sides:
+    """Return the sides of a mesh that is a disk."""
+    triangles = as_faces(faces, n_vertices)
+    start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    twin = _twins(start, end, n_vertices)
+    sides = Sides(start, end, twin, _boundary_sides(start, twin, n_vertices))
+    _require_one_fan_each(sides, n_vertices)
+    _require_connected(sides, n_vertices)
+    _require_one_loop(sides)
+    edges = (len(twin) + np.count_nonzero(twin < 0)) // 2
+    if (euler := n_vertices - edges + len(triangles)) != 1:
+        raise CertificateError(f"the mesh has Euler characteristic {euler}; a disk has 1")
+    return sides
+
+
+def _twins(start: Ints, end: Ints, n_vertices: int) -> Ints:
+    key = start * n_vertices + end
+    order = np.argsort(key)
+    same = np.flatnonzero(np.diff(key[order]) == 0)
+    if len(same):
+        side = order[same[0]]
+        message = f"two triangles lie on the same side of the edge from vertex {start[side]} to vertex {end[side]}"
+        raise CertificateError(message)
+    wanted = end * n_vertices + start
+    found = order[np.minimum(np.searchsorted(key[order], wanted), len(order) - 1)]
+    return np.where(key[found] == wanted, found, -1)
+
+
+def _boundary_sides(start: Ints, twin: Ints, n_vertices: int) -> Ints:
+    on_boundary = np.flatnonzero(twin < 0)
+    at_vertex = np.bincount(start[on_boundary], minlength=n_vertices)
+    if at_vertex.max() > 1:
+        raise CertificateError(f"the boundary runs through vertex {np.argmax(at_vertex)} more than once")
+    boundary_side = np.full(n_vertices, -1)
+    boundary_side[start[on_boundary]] = on_boundary
+    return boundary_side
+
+
+def _require_one_fan_each(sides: Sides, n_vertices: int) -> None:
+    """Check that the corners at every vertex follow each other; the last one at a boundary vertex leads to the first.
+
+    A corner is named by the side that leaves it.
+    """
+    if len(unused := np.flatnonzero(np.bincount(sides.start, minlength=n_vertices) == 0)):
+        raise CertificateError(f"vertex {unused[0]} belongs to no triangle")
+    counter_clockwise = sides.twin[sides.previous]
+    following = np.where(counter_clockwise >= 0, counter_clockwise, sides.boundary_side[sides.start])
+    fans = np.bincount(sides.start[np.unique(_least_of_cycle(following))], minlength=n_vertices)
+    if fans.max() > 1:
+        raise CertificateError(f"the triangles at vertex {np.argmax(fans)} are not one fan")
+
+
+def _least_of_cycle(following: Ints) -> Ints:
+    """Return the least member of each element's cycle, for a permutation.
+
+    Each round doubles how far ahead an element has looked. When a round changes nothing, all have looked all round:
+    a cycle's least member lies in only one of several disjoint stretches.
+    """
+    least, ahead = np.arange(len(following)), following
+    while (least[ahead] < least).any():
+        least, ahead = np.minimum(least, least[ahead]), ahead[ahead]
+    return least
+
+
+def _require_connected(sides: Sides, n_vertices: int) -> None:
+    part = np.arange(n_vertices)
+    while True:
+        a, b = part[sides.start], part[sides.end]
+        if (a == b).all():
+            break
+        np.minimum.at(part, np.maximum(a, b), np.minimum(a, b))
+        while (part != part[part]).any():
+            part = part[part]
+    if len(apart := np.flatnonzero(part)):
+        raise CertificateError(f"the mesh has several parts: no path of edges leads from vertex 0 to vertex {apart[0]}")
+
+
+def _require_one_loop(sides: Sides) -> None:
+    on_boundary = np.flatnonzero(sides.twin < 0)
+    number = np.full(len(sides.start), -1)
+    number[on_boundary] = np.arange(len(on_boundary))
+    following = number[sides.boundary_side[sides.end[on_boundary]]]
+    loops = len(np.unique(_least_of_cycle(following)))
+    if loops != 1:
+        raise CertificateError(f"the boundary of the mesh has {loops} loops, not one")
