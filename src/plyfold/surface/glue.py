@@ -158,7 +158,7 @@ def _joined_corners(corners: int, first: Ints, second: Ints) -> Ints:
 
 
 def _boundary_first(vertex: Ints, along: Ints) -> Ints:
-    """Number the vertices anew: first those at the corners along the curve, in order, then the others."""
+    """Renumber the vertices: first those at the corners along the curve, in order, then the others."""
     number = np.full(vertex.max() + 1, -1)
     number[vertex[along]] = np.arange(len(along))
     inner = number < 0
