@@ -13,7 +13,7 @@ from typing import Literal
 
 import numpy as np
 
-from plyfold.arrangement.crossings import Contacts, Ints, Visits, find_contacts, order_visits
+from plyfold.arrangement.crossings import Bools, Contacts, Ints, Visits, find_contacts, order_visits
 from plyfold.curve import Curve, Repair
 from plyfold.errors import GeneralPositionError
 from plyfold.predicates import Floats, orient
@@ -107,13 +107,13 @@ def _touching_pairs(contacts: Contacts, n: int) -> set[tuple[int, int]]:
 
 
 def _clearance(points: Floats, touches: Ints) -> float:
-    """Return the least distance of a vertex from the line of an edge that it used to lie on."""
+    """Return the least distance of a vertex from an edge that it used to lie on."""
     vertex, edge = touches.T
     start = points[edge]
     along = points[(edge + 1) % len(points)] - start
     away = points[vertex] - start
-    distance = np.abs(along[:, 0] * away[:, 1] - along[:, 1] * away[:, 0]) / np.hypot(*along.T)
-    return float(distance.min(initial=np.inf))
+    share = np.clip((away * along).sum(axis=1) / (along * along).sum(axis=1), 0.0, 1.0)
+    return float(np.hypot(*(away - share[:, None] * along).T).min(initial=np.inf))
 
 
 def _moves(before: Floats, after: Floats) -> tuple[Repair, ...]:
@@ -172,12 +172,12 @@ def _displacements(points: Floats, contacts: Contacts, visits: Visits) -> Floats
     vertex, edge = contacts.touches.T
     inside = (points[vertex] != points[edge]).any(axis=1) & (points[vertex] != points[(edge + 1) % n]).any(axis=1)
     steps = rank + np.isin(np.arange(n), vertex[inside])
-    for v, e in contacts.touches.tolist():
-        displacement[v] = steps[v] * _way_out(points, v, e)
+    for v in np.unique(vertex).tolist():
+        displacement[v] = steps[v] * _way_out(points, v, edge[vertex == v])
     for triple in visits.triple.tolist():
         last = max(triple)
         along = points[(last + 1) % len(points)] - points[last]
-        displacement[last] = (1 + (last * _GOLDEN_ANGLE) % 1) * _unit(np.array([-along[1], along[0]]))
+        displacement[last] = (1 + (last * _GOLDEN_ANGLE) % 1) * _left(_unit(along))
     return displacement
 
 
@@ -191,19 +191,37 @@ def _rank_among_equals(points: Floats) -> Ints:
     return rank
 
 
-def _way_out(points: Floats, vertex: int, edge: int) -> Floats:
-    """Return the direction that takes a vertex off an edge it lies on."""
+def _way_out(points: Floats, vertex: int, edges: Ints) -> Floats:
+    """Return the direction that takes a vertex off the edges it lies on."""
     n = len(points)
     here, before, after = points[vertex], points[vertex - 1], points[(vertex + 1) % n]
-    side_before, side_after = orient(points[edge], points[(edge + 1) % n], np.stack([before, after])).tolist()
-    if side_before * side_after == 0:  # runs along the edge: step aside, to the left
-        along = here - before if side_before == 0 else after - here
-        return _unit(np.array([-along[1], along[0]]))
-    if side_before == side_after:  # touches: draw back
-        return _unit(_unit(before - here) + _unit(after - here))
-    return _unit(after - here)  # crosses: cross a little earlier
+    start, end = points[edges], points[(edges + 1) % n]
+    side_before, side_after = orient(start, end, before), orient(start, end, after)
+    comes_along = any((side_before == 0) & _overlap(here, before, start, end))
+    leaves_along = any((side_after == 0) & _overlap(here, after, start, end))
+    if comes_along and leaves_along:  # a lap beside another one: step to the left
+        aside = _left(_unit(here - before)) + _left(_unit(after - here))
+        return _unit(aside) if np.hypot(*aside) > 0.1 else _left(_unit(here - before))
+    if comes_along:  # turns off here: turn a little later, or step aside if the way on is straight
+        return _unit(after - here) if side_after.any() else _left(_unit(here - before))
+    if leaves_along:
+        return _unit(before - here) if side_before.any() else _left(_unit(after - here))
+    if any(side_before * side_after < 0):  # crosses: cross a little earlier
+        return _unit(after - here)
+    return _unit(_unit(before - here) + _unit(after - here))  # touches: draw back
 
 
-def _unit(vector: Floats) -> Floats:
-    length = float(np.hypot(*vector))
-    return vector / length if length else vector
+def _left(direction: Floats) -> Floats:
+    return np.array([-direction[1], direction[0]])
+
+
+def _overlap(here: Floats, neighbour: Floats, start: Floats, end: Floats) -> Bools:
+    """Tell for which edges the way from a point on them to a neighbour on their line begins within the edge."""
+    forward = ((neighbour - here) * (end - start)).sum(axis=1) > 0
+    ahead = np.where(forward[:, None], end, start)
+    return np.asarray((here != ahead).any(axis=1))
+
+
+def _unit(vectors: Floats) -> Floats:
+    length = np.hypot(vectors[..., 0], vectors[..., 1])[..., None]
+    return np.asarray(np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0))
