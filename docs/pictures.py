@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from textwrap import fill
 
 from matplotlib.figure import Figure
 
 import plyfold as pf
+from plyfold.draw.colours import OBSTRUCTION
 from plyfold.draw.figures import save, summary
 from plyfold.draw.plots import plot_arrangement, plot_surface
 from plyfold.gallery import CURVES
@@ -24,20 +26,19 @@ def overview() -> None:
 def gallery() -> None:
     """Draw each named curve with its cells, and its surface beside it where there is one."""
     rows = -(-len(CURVES) // COLUMNS)
-    figure = Figure(figsize=(4.6 * COLUMNS, 2.9 * rows), layout="constrained")
+    figure = Figure(figsize=(4.6 * COLUMNS, 2.9 * rows), layout="tight")
     axes = figure.subplots(rows, 2 * COLUMNS).ravel()
     for ax in axes:
         ax.axis("off")
     for place, named in enumerate(CURVES.values()):
         flat, lifted = axes[2 * place : 2 * place + 2]
-        found = pf.find_immersion(named.curve)
-        obstruction = found if isinstance(found, pf.Obstruction) else None
-        plot_arrangement(pf.arrangement(named.curve), ax=flat, obstruction=obstruction)
+        plot_arrangement(pf.arrangement(named.curve), ax=flat)
         flat.set_title(named.name, loc="left", fontsize=12, weight="bold")
         if named.embeddable:
             plot_surface(pf.lift(named.curve), ax=lifted)
         else:
-            lifted.text(0.5, 0.5, str(found), ha="center", va="center", wrap=True, transform=lifted.transAxes)
+            reason = fill(f"No disk. {pf.find_immersion(named.curve)}", 26)
+            lifted.text(0.5, 0.5, reason, ha="center", va="center", color=OBSTRUCTION, transform=lifted.transAxes)
     save(figure, HERE / "images" / "gallery.png", force=True)
 
 

@@ -9,6 +9,7 @@
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.curve import Curve
 from plyfold.immersion import Immersion, bounds_disk, count_immersions, find_immersion, immersions
+from plyfold.io import read
 from plyfold.layering import Layering, find_layering
 from plyfold.obstruction import Obstruction
 from plyfold.surface import Surface, lift
@@ -29,4 +30,5 @@ __all__ = [
     "find_layering",
     "immersions",
     "lift",
+    "read",
 ]
