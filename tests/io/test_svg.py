@@ -61,6 +61,15 @@ def test_cubic_curves_keep_the_tolerance(controls, tolerance):
     assert farthest_vertex(curve, outline) <= 1e-6
 
 
+def test_a_drawing_far_from_the_origin_is_flattened_within_rounding():
+    far, near = (
+        read_svg(path(f"M {x} 0 c 600 900 -300 900 300 0 z"), tolerance=tolerance)
+        for x, tolerance in ((10**15, 1e-6), (0, 1e-6))
+    )
+    assert len(near) > 1000
+    assert distance(near.points + np.array([10**15, 0]), far) <= 0.25
+
+
 def test_flattening_is_adaptive_and_not_wasteful():
     coarse = read_svg(path("M 0 0 C 60 90 -30 90 30 0 Z"), tolerance=0.1)
     fine = read_svg(path("M 0 0 C 60 90 -30 90 30 0 Z"), tolerance=0.001)
@@ -156,6 +165,12 @@ def test_the_view_box_scales_to_the_size_of_the_picture():
     assert curve.points.tolist() == [[0, 0], [8, 0], [0, -6]]
 
 
+@pytest.mark.parametrize("size", [{"width": "200", "height": "100"}, {"width": "200px", "viewBox": "0 0 200 100"}])
+def test_lengths_in_percent_are_shares_of_the_view(size):
+    curve = read_svg(svg('<rect width="3" height="30%"/>', **size))
+    assert curve.points.tolist() == [[0, 0], [3, 0], [3, -30], [0, -30]]
+
+
 def test_documents_without_namespace_or_with_prefix_or_in_another_encoding():
     bodies = [
         b'<svg><polygon points="0,0 4,0 0,3"/></svg>',
@@ -223,9 +238,12 @@ def test_the_default_tolerance_goes_with_the_size(scale):
         (b"<svg>\xff\xfe</svg>", "broken XML"),
         (b"not xml at all", "broken XML"),
         (path("M 0 0 L 1 banana 2 Z"), "broken SVG"),
-        (path("M 0 0 L 1e999 2 3 4 Z"), "measures nan across"),
-        (path("M 1 1 L 1 1 Z"), "measures 0 across"),
+        (path("M 0 0 L 1e999 2 3 4 Z"), "not finite"),
+        (path("M 1 1 L 1 1 Z"), "is one point"),
         (svg('<rect width="foo" height="1"/>'), "broken SVG|nothing is drawn"),
+        (path("C 1 2 3 4 5 6 Z"), "broken SVG"),
+        (svg('<rect width="3" height="3%"/>', viewBox="0 99", width="3mm", height="50%"), "broken SVG"),
+        (path("M 1.7e308 1 Q 1.6e308 3 1.7e308 4 Z"), "not finite, or beyond"),
         (svg('<g id="g"><use href="#g"/></g>'), "contain themselves"),
         (svg('<use id="g" href="#g"/>'), "contain themselves"),
         (svg("<g>" * 5000 + "</g>" * 5000), "too deep"),

@@ -36,6 +36,8 @@ def test_what_is_read(text):
         ("POINT (1 2)", CurveError, "not one closed curve"),
         ("POLYGON ((0 0, 9 0, 0 9, 0 0), (1 1, 2 1, 1 2, 1 1))", CurveError, "hole"),
         ("LINESTRING (0 0, 4 0, 0 3)", StrokeError, "largest gap"),
+        ("LINESTRING (0 0, 4 0, 0 1e999, 0 0)", CurveError, "point 2 is not finite"),
+        ("LINESTRING (0 0, 4 0, 0 1e308, 0 0)", CurveError, "point 2 has a coordinate beyond"),
         ("LINESTRING (0 0, 4 0, 0 nan, 0 0)", CurveError, "point 2 is not finite"),
     ],
 )

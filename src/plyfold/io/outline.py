@@ -12,9 +12,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.points import diagonal
-
-__all__ = ["Arc", "Bezier", "Outline", "bounding_diagonal"]
+__all__ = ["Arc", "Bezier", "Outline", "sample_points"]
 
 _Points: TypeAlias = npt.NDArray[np.float64]
 
@@ -52,14 +50,15 @@ class Bezier:
 
     def flattened(self, tolerance: float) -> list[_Points]:
         """Return the vertices after the first point; straight stretches get few, bends many."""
-        waiting, vertices = [self.controls], []
+        origin = self.controls[0]
+        waiting, vertices = [self.controls - origin], []  # near zero, so that rounding cannot stop the halving
         while waiting:
             controls = waiting.pop()
             if _chord_error(controls) <= tolerance:
-                vertices.append(controls[-1])
+                vertices.append(origin + controls[-1])
             else:
                 waiting.extend(reversed(_halves(controls)))
-        return vertices
+        return [*vertices[:-1], self.end]
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,10 +124,10 @@ class Outline:
         return np.array([self.start, *(vertex for piece in self.segments for vertex in piece.flattened(tolerance))])
 
 
-def bounding_diagonal(outlines: list[Outline]) -> float:
-    """Return the diagonal of the bounding box of the outlines, measured on sample points."""
+def sample_points(outlines: list[Outline]) -> _Points:
+    """Return points along all segments of the outlines, dense enough to measure their size; shape (n, 2)."""
     parameters = np.linspace(0, 1, _SAMPLES + 1)
-    return diagonal(np.concatenate([piece.at(parameters) for outline in outlines for piece in outline.segments]))
+    return np.concatenate([piece.at(parameters) for outline in outlines for piece in outline.segments])
 
 
 def _chord_error(controls: _Points) -> float:

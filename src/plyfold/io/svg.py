@@ -13,7 +13,8 @@ import numpy.typing as npt
 
 from plyfold.curve import Curve
 from plyfold.errors import FileFormatError, InputError
-from plyfold.io.outline import Arc, Bezier, Outline, bounding_diagonal
+from plyfold.io.outline import Arc, Bezier, Outline, sample_points
+from plyfold.points import LARGEST_COORDINATE, diagonal
 
 __all__ = ["read_svg"]
 
@@ -64,18 +65,26 @@ def read_svg(data: bytes, id: str | None = None, tolerance: float | None = None)
     [[0.0, 0.0], [4.0, 0.0], [0.0, -3.0]]
     """
     with np.errstate(all="ignore"):  # infinite coordinates are refused below
-        outlines = [outline for shape in _shapes(data, id) for outline in _outlines(shape)]
+        outlines = _drawn_outlines(data, id)
         if not outlines:
             raise FileFormatError("nothing is drawn in it that has an outline", hint=_SHAPE_HINT)
-        tolerance = _checked_tolerance(tolerance, bounding_diagonal(outlines))
+        size = _checked_size(sample_points(outlines))
+    tolerance = _checked_tolerance(tolerance, size)
     if any(outline.closed for outline in outlines):
         return Curve(_only(outlines).flattened(tolerance))
     return Curve.from_strokes(outline.flattened(tolerance) for outline in outlines)
 
 
+def _checked_size(points: _Points) -> float:
+    hint = "check the coordinates and transforms"
+    if not (np.abs(points) <= LARGEST_COORDINATE).all():
+        raise FileFormatError(f"a coordinate is not finite, or beyond {LARGEST_COORDINATE:g}", hint=hint)
+    if (size := diagonal(points)) == 0:
+        raise FileFormatError("all that is drawn is one point", hint=hint)
+    return size
+
+
 def _checked_tolerance(tolerance: float | None, size: float) -> float:
-    if not 0 < size < np.inf:
-        raise FileFormatError(f"the drawing measures {size:g} across", hint="check its coordinates and transforms")
     if tolerance is None:
         return size * _TOLERANCE_SHARE
     if not size * _FINEST_SHARE <= tolerance < np.inf:
@@ -98,23 +107,26 @@ def _listed(names: Iterable[str]) -> str:
     return ", ".join(names[:20]) + (f" and {len(names) - 20} more" if len(names) > 20 else "")
 
 
-def _shapes(data: bytes, id: str | None) -> list[Any]:
-    """Return the drawn shapes, all or those in the chosen element, as svgelements has them."""
-    from svgelements import SVG, Shape
-
+def _drawn_outlines(data: bytes, id: str | None) -> list[Outline]:
+    """Return the pieces of all drawn shapes, or of those in the chosen element."""
     document = _safe_document(data)
     try:
-        drawing = SVG.parse(io.BytesIO(document), reify=False, on_error="raise")
-        by_id = {name: _shapes_within(element, Shape) for name, element in drawing.objects.items()}
-        drawn = _shapes_within(drawing, Shape)
+        shapes = _shapes_by_id(document)
+        outlines = [outline for shape in shapes.get(id, []) for outline in _outlines(shape)]
     except Exception as error:  # svgelements lets through whatever a bad number or attribute runs into
         raise FileFormatError(f"broken SVG ({type(error).__name__}: {error})", hint=_SHAPE_HINT) from error
-    if id is None:
-        return drawn
-    if not by_id.get(id):
-        names = _listed(name for name, shapes in by_id.items() if shapes)
+    if id is not None and not shapes.get(id):
+        names = _listed(name for name, found in shapes.items() if name and found)
         raise FileFormatError(f"no shape in it has the id {id!r}", hint=f"ids with shapes: {names or 'none'}")
-    return by_id[id]
+    return outlines
+
+
+def _shapes_by_id(document: bytes) -> dict[str | None, list[Any]]:
+    """Return the shapes within each element that has an id, and under None all that are drawn."""
+    from svgelements import SVG, Shape
+
+    drawing = SVG.parse(io.BytesIO(document), reify=False, on_error="raise")
+    return {name: _shapes_within(element, Shape) for name, element in [(None, drawing), *drawing.objects.items()]}
 
 
 def _shapes_within(element: Any, shape_type: type) -> list[Any]:
@@ -131,7 +143,7 @@ def _outlines(shape: Any) -> Iterator[Outline]:
     name = repr(shape.id) if shape.id else f"a {type(shape).__name__.lower()} without id"
     for run, closed in _runs(shape.segments(transformed=False)):
         segments = tuple(_segment(part).transformed(matrix, shift) for part in run)
-        start = matrix @ np.array(run[0].start) + shift
+        start = matrix @ _place(run[0].start) + shift
         yield Outline(start, segments, closed or np.array_equal(start, segments[-1].end), name)
 
 
@@ -155,14 +167,25 @@ def _segment(part: Any) -> Bezier | Arc:
     from svgelements import CubicBezier, QuadraticBezier
 
     if isinstance(part, CubicBezier):
-        return Bezier(np.array([part.start, part.control1, part.control2, part.end]))
+        return Bezier(_places(part.start, part.control1, part.control2, part.end))
     if isinstance(part, QuadraticBezier):
-        return Bezier(np.array([part.start, part.control, part.end]))
+        return Bezier(_places(part.start, part.control, part.end))
     if isinstance(part, SvgArc) and part.sweep and part.rx and part.ry:
-        center = np.array(part.center)
-        axes = np.column_stack([np.array(part.prx) - center, np.array(part.pry) - center])
-        return Arc(center, axes, float(part.get_start_t()), float(part.sweep), np.array(part.end))
-    return Bezier(np.array([part.start, part.end]))
+        center = _place(part.center)
+        axes = np.column_stack([_place(part.prx) - center, _place(part.pry) - center])
+        return Arc(center, axes, float(part.get_start_t()), float(part.sweep), _place(part.end))
+    return Bezier(_places(part.start, part.end))
+
+
+def _places(*points: Any) -> _Points:
+    return np.array([_place(point) for point in points])
+
+
+def _place(point: Any) -> _Points:
+    place = np.array(point)
+    if place.dtype.kind not in "if" or place.shape != (2,):
+        raise ValueError(f"{point} is no place; a unit or the start of a path is missing")
+    return place.astype(np.float64)
 
 
 def _safe_document(data: bytes) -> bytes:
@@ -174,6 +197,7 @@ def _safe_document(data: bytes) -> bytes:
             raise FileFormatError(f"it is XML, but no SVG: its root is <{root.tag[:40]}>", hint=_SHAPE_HINT)
         _refuse_use_bombs(root)
         _tidy(root)
+        _state_size(root)
         return ElementTree.tostring(root)
     except (ExpatError, ElementTree.ParseError) as error:
         line = error.lineno if isinstance(error, ExpatError) else error.position[0]
@@ -221,6 +245,15 @@ def _refuse_use_bombs(root: ElementTree.Element) -> None:
 def _link(element: ElementTree.Element) -> str:
     """Return the id that a ``use`` element shows; empty for other elements."""
     return element.get("href", element.get(_LINK, ""))[1:] if element.tag.endswith("use") else ""
+
+
+def _state_size(root: ElementTree.Element) -> None:
+    """Give a drawing without viewBox the one it has by default: svgelements would mix up its width and height."""
+    from svgelements import Length
+
+    sizes = [Length(root.get(side, "100%")).value(ppi=96) for side in ("width", "height")]
+    if root.get("viewBox") is None and all(isinstance(size, float) and size > 0 for size in sizes):
+        root.set("viewBox", f"0 0 {sizes[0]!r} {sizes[1]!r}")
 
 
 def _tidy(root: ElementTree.Element) -> None:

@@ -51,7 +51,7 @@ def read_wkt(text: str) -> Curve:
     if text.upper().count("COLLECTION") > 1:  # the parser would recurse as deep as they are nested
         raise FileFormatError("it holds a collection in a collection", hint=_HINT)
     try:
-        with np.errstate(invalid="ignore"):  # NaN is refused by the curve
+        with np.errstate(all="ignore"):  # NaN and infinity are refused by the curve
             geometry = shapely.from_wkt(re.sub(r"^\s*SRID=\d+;", "", text, flags=re.IGNORECASE).strip())
     except shapely.errors.ShapelyError as error:
         raise FileFormatError(f"broken WKT ({error})", hint=_HINT) from error
