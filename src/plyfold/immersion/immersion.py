@@ -85,10 +85,13 @@ class Immersion:
         """Number of sheets: the winding numbers of all cells added up."""
         return len(self.sheet_cell)
 
-    def sheets(self, cell: int) -> range:
-        """Return the sheets over a cell."""
-        first = int(self.first_sheet[cell])
-        return range(first, first + int(self.arrangement.winding[cell]))
+    @cached_property
+    def sheets(self) -> tuple[range, ...]:
+        """The sheets over each cell, as ranges of numbers: ``sheets[c]`` has ``winding[c]`` of them."""
+        return tuple(
+            range(first, first + winding)
+            for first, winding in zip(self.first_sheet.tolist(), self.arrangement.winding.tolist(), strict=True)
+        )
 
     @cached_property
     def _upper(self) -> dict[tuple[int, int], int]:
@@ -139,9 +142,9 @@ class Immersion:
         )
         lower_cell, upper_cell = arrangement.right_cell.tolist(), arrangement.left_cell.tolist()
         for border, own in enumerate(self.own_sheet.tolist()):
-            lower = self.sheets(lower_cell[border])
+            lower = self.sheets[lower_cell[border]]
             upper = [self._upper.get((border, sheet), -1) for sheet in lower] + [own]
-            yield f"border {border} glues one to one", sorted(upper) == list(self.sheets(upper_cell[border]))
+            yield f"border {border} glues one to one", sorted(upper) == list(self.sheets[upper_cell[border]])
         yield "nothing else is glued", len(self.gluing) == arrangement.winding[arrangement.right_cell].sum()
         for visit in np.flatnonzero(arrangement.ccw).tolist():
             yield f"the gluings agree around the crossing at visit {visit}", self._agree_around(visit)
@@ -151,7 +154,7 @@ class Immersion:
         n, own = self.arrangement.n_borders, self.own_sheet
         b = int(self.arrangement.partner[a])
         a_top, a_bottom, b_top, b_bottom = (a - 1) % n, a, b, (b - 1) % n
-        bottom = self.sheets(int(self.arrangement.right_cell[a_bottom]))
+        bottom = self.sheets[self.arrangement.right_cell[a_bottom]]
         up = self._upper
         return (
             all(up[b_top, up[a_bottom, s]] == up[a_top, up[b_bottom, s]] for s in bottom)

@@ -64,7 +64,7 @@ class Layering:
     def _conditions(self) -> Iterator[tuple[str, bool]]:
         arrangement = self.immersion.arrangement
         for cell, winding in enumerate(arrangement.winding.tolist()):
-            levels = sorted(self.level[list(self.immersion.sheets(cell))].tolist())
+            levels = sorted(self.level[list(self.immersion.sheets[cell])].tolist())
             yield f"the sheets of cell {cell} have levels 1 to {winding}", levels == list(range(1, winding + 1))
         border, right, left = self.immersion.gluing.T
         order = np.lexsort((self.level[right], border))
