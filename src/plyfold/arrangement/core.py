@@ -28,7 +28,7 @@ from plyfold.predicates import Floats, cross_sign, orient
 # Anything that stands for a closed curve: Curve, array-like (n, 2), shapely geometry or Arrangement.
 CurveLike: TypeAlias = Any
 
-__all__ = ["Arrangement", "CurveLike", "arrangement", "polygon_turning_number"]
+__all__ = ["Arrangement", "CurveLike", "arrangement", "polygon_turning_number", "winding_number"]
 
 
 def _no_points() -> Floats:
