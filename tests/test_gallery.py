@@ -1,10 +1,10 @@
 """The gallery's known answers, against the reference code."""
 
 import pytest
-from reference import crossings, gluings, layerings
 
 import plyfold as pf
 from plyfold.gallery import CURVES
+from reference import crossings, gluings, layerings
 
 
 @pytest.mark.parametrize("named", CURVES.values(), ids=CURVES.keys())
