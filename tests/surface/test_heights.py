@@ -1,0 +1,95 @@
+"""Heights: as smooth as another solver makes them, and exactly apart."""
+
+import numpy as np
+import pytest
+from scipy.optimize import nnls
+
+from plyfold import find_immersion, find_layering
+from plyfold.gallery import CURVES
+from plyfold.surface import lift
+from plyfold.surface.glue import glue_sheets
+from plyfold.surface.heights import _contact_problem, smooth_heights
+from plyfold.surface.triangulation import triangulate
+
+RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], dtype=np.float64)
+
+
+def glued(points, triangles=150):
+    layering = find_layering(find_immersion(points))
+    planar = triangulate(layering.immersion.arrangement, triangles=triangles)
+    return planar.points, glue_sheets(layering, planar)
+
+
+def kept_apart(z, mesh, gap):
+    lower, upper = mesh.stacked.T
+    return (z[lower] + gap <= z[upper]).all()
+
+
+@pytest.mark.parametrize("name", ["horseshoe", "exit-ramp", "two-loops", "stacked-spiral", "milnor", "bennequin"])
+def test_least_energy(name):
+    """The same quadratic program by its dual, with non-negative least squares.
+
+    Least ½ zᵀKz with Dz ≥ 1: z = K⁺Dᵀf for the forces f ≥ 0 that make ½ fᵀDK⁺Dᵀf − Σf least. With K = RᵀR and
+    the columns A = R⁻ᵀDᵀ that is ½ |Af|² − 1ᵀf; adding a row of large ones turns it into least squares.
+    """
+    points, mesh = glued(CURVES[name].curve.points)
+    problem = _contact_problem(points, mesh)
+    energy, difference = problem.energy.toarray(), problem.difference.toarray()
+    z = smooth_heights(points, mesh, 1.0)
+    root = np.linalg.cholesky(energy[1:, 1:])
+    columns = np.linalg.solve(root, difference[:, 1:].T)
+    # The least distance of the cone {Af, 1ᵀf} from a point far up the last axis has the direction of the solution.
+    shares, _ = nnls(np.vstack([columns, np.ones(columns.shape[1])]), np.append(np.zeros(len(columns)), 1.0))
+    force = shares * shares.sum() / ((columns @ shares) ** 2).sum()
+    dual = force.sum() - ((columns @ force) ** 2).sum() / 2
+    primal = z @ energy @ z / 2
+    # No heights that keep the distance have less energy than the dual value.
+    assert kept_apart(z, mesh, 1.0)
+    assert primal == pytest.approx(dual, rel=1e-6)
+
+
+@pytest.mark.parametrize("gap", [1e-12, 0.1, 1.0, 1e5])
+def test_heights_grow_with_the_gap(gap):
+    points, mesh = glued(CURVES["exit-ramp"].curve.points)
+    z, unit = smooth_heights(points, mesh, gap), smooth_heights(points, mesh, 1.0)
+    assert kept_apart(z, mesh, gap)
+    assert z.min() == 0
+    assert z == pytest.approx(gap * unit, rel=1e-9, abs=1e-9 * gap)
+
+
+@pytest.mark.parametrize("turn", [0.3, 2.0])
+@pytest.mark.parametrize("scale", [1e-6, 1e4])
+def test_heights_do_not_depend_on_the_frame(turn, scale):
+    """Same mesh, turned, moved and scaled."""
+    points, mesh = glued(CURVES["exit-ramp"].curve.points)
+    rotation = scale * np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+    plain, moved = smooth_heights(points, mesh, 1.0), smooth_heights(points @ rotation + 3 * scale, mesh, 1.0)
+    assert moved == pytest.approx(plain, abs=1e-6)
+    assert kept_apart(moved, mesh, 1.0)
+
+
+def test_nothing_overlaps():
+    points, mesh = glued(CURVES["circle"].curve.points)
+    assert not smooth_heights(points, mesh, 1.0).any()
+
+
+def test_progress_goes_up():
+    points, mesh = glued(RAMP)
+    told = []
+    smooth_heights(points, mesh, 1.0, lambda stage, done: told.append((stage, done)))
+    assert {stage for stage, _ in told} == {"smoothing heights"}
+    done = [share for _, share in told]
+    assert done == sorted(done)
+    assert all(0 <= share <= 1 for share in done)
+
+
+@pytest.mark.parametrize("width", [1e-4, 1e-8, 1e-11, 1e-13])
+@pytest.mark.parametrize("turn", [0.0, 0.4])
+def test_strips_as_thin_as_rounding_errors(width, turn):
+    """Triangles may have next to no area; the heights are proven all the same, and go no higher than for wide ones."""
+    thin = RAMP.copy()
+    thin[8:, 1] = width
+    rotation = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+    surface = lift(thin @ rotation, triangles=200, gap=1.0)
+    surface.check()
+    assert np.ptp(surface.vertices[:, 2]) < 10
