@@ -8,9 +8,11 @@ while sheets above each other keep a distance: z_upper − z_lower ≥ gap over 
 would let far ends droop, and a membrane alone would crease where the sheets part. Only derivatives of z occur, since
 anything that pulls z towards a plane makes spikes where sheets cross.
 
-The distance is enforced by contact springs that become ever stiffer. For each stiffness the energy is convex and
-piecewise quadratic, so Newton's method ends after a few steps. What the springs leave over, a last projection
-removes: then the distance holds at every vertex, in floating point too.
+The distance is kept by the method of multipliers: springs at the contacts, that become stiffer, and forces that take
+over the load of the springs after each round, until these have nothing left to carry. For given stiffness and forces
+the energy is convex and piecewise quadratic, so Newton's method ends after a few steps. (Stiff springs alone would
+leave a rest, above all where sheets touch in a single point, and removing it afterwards would draw a spike there.)
+A last projection, of the size of rounding errors, makes the distance hold at every vertex in floating point too.
 """
 
 from __future__ import annotations
@@ -20,6 +22,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from plyfold.arrangement.planar_map import Ints
 from plyfold.predicates import Floats
@@ -29,10 +32,20 @@ __all__ = ["smooth_heights"]
 
 Progress: TypeAlias = Callable[[str, float], None]
 
-# ℓ, below which bending rules and above which the membrane does, as a fraction of the drawing's size.
-_BENDING_LENGTH = 0.15
-_STIFFNESS = (1e3, 1e5, 1e7)
+# ℓ, below which bending rules and above which the membrane does, as a fraction of the mean width of the cloth. Were it
+# wider than a ribbon, the ribbon would rather climb many times the gap than bend in its width where sheets touch.
+_BENDING_LENGTH = 0.25
+# Stiffness of the springs, with membrane energy and gap as units, for one round after the other.
+_STIFFNESS = (1.0, 1e1, 1e2, *[1e3] * 6)
 _NEWTON_STEPS = 25
+# Every side of a triangle ties its ends together a little: the only hold across a strip as thin as rounding errors.
+_TIE = 1e-3
+# Thinner triangles (double area by longest side squared) and smaller areas (by the mean) count as if they were not,
+# for their numbers would drown all others.
+_THINNEST = 1e-2
+_SMALLEST = 1e-4
+# How far sheets may be nearer than the gap, as a fraction of it, when the rounds end.
+_REST = 1e-9
 
 
 def smooth_heights(points: Floats, mesh: LiftedMesh, gap: float, progress: Progress | None = None) -> Floats:
@@ -57,43 +70,51 @@ def smooth_heights(points: Floats, mesh: LiftedMesh, gap: float, progress: Progr
 
     Notes
     -----
-    A few dozen sparse factorisations: about half a second for 4,000 triangles.
+    Usually 20 to 30 sparse factorisations: 0.1 to 0.2 s for 4,000 triangles, 2 to 5 s for 40,000. The energy is the
+    least possible to six digits and more, as comparison with an interior-point solution shows.
     """
     if len(mesh.stacked) == 0:
         return np.zeros(len(mesh.planar_vertex))
     problem = _contact_problem(points, mesh)
     # With the gap as the unit of height, the numbers are of the order of 1.
     z = mesh.level.astype(np.float64)
+    force = np.zeros(len(mesh.stacked))
     for done, stiffness in enumerate(_STIFFNESS):
-        for step, better in enumerate(_newton_steps(problem, z, stiffness)):
+        for step, better in enumerate(_newton_steps(problem, z, force, stiffness)):
             z = better
             if progress is not None:
                 progress("smoothing heights", (done + step / _NEWTON_STEPS) / len(_STIFFNESS))
+        overlap = 1 - problem.difference @ z
+        if overlap.max() < _REST:
+            break
+        force = np.maximum(0, force + stiffness * overlap)
     return _kept_apart(z, mesh, gap)
 
 
 @dataclass(frozen=True, eq=False)
 class _ContactProblem:
-    """The quadratic energy ½ zᵀ K z, and the springs between stacked vertices."""
+    """The quadratic energy ½ zᵀ K z, and the differences of stacked vertices, upper minus lower."""
 
     energy: Any
     difference: Any
-    area: Floats
 
 
 def _contact_problem(points: Floats, mesh: LiftedMesh) -> _ContactProblem:
     from scipy.sparse import csr_array, diags_array
 
-    size = float(np.ptp(points[mesh.planar_vertex], axis=0).max())
-    corners = points[mesh.planar_vertex] / size
+    corners = points[mesh.planar_vertex]
+    corners = (corners - corners[0]) / np.ptp(corners, axis=0).max()
     membrane, area = _cotangent_laplacian(corners, mesh.faces)
+    outline = corners[mesh.boundary]
+    perimeter = np.hypot(*(np.roll(outline, -1, axis=0) - outline).T).sum()
+    mean_width = 2 * area.sum() / perimeter
     # The Laplacian at the boundary counts too: it is the slope across the edge, and left free it would let the
     # points of contact, which lie on edges, crease the cloth.
     bending = membrane @ diags_array(1 / area) @ membrane
     n, c = len(corners), len(mesh.stacked)
     signs = np.tile([-1.0, 1.0], c)
     difference = csr_array((signs, (np.repeat(np.arange(c), 2), mesh.stacked.ravel())), shape=(c, n))
-    return _ContactProblem(_BENDING_LENGTH**2 * bending + membrane, difference, area[mesh.stacked].mean(axis=1))
+    return _ContactProblem((_BENDING_LENGTH * mean_width) ** 2 * bending + membrane, difference)
 
 
 def _cotangent_laplacian(corners: Floats, faces: Ints) -> tuple[Any, Floats]:
@@ -103,34 +124,40 @@ def _cotangent_laplacian(corners: Floats, faces: Ints) -> tuple[Any, Floats]:
     triangle = corners[faces]
     n = len(corners)
     edges = np.roll(triangle, -1, axis=1) - np.roll(triangle, 1, axis=1)
+    lengths = np.einsum("tix,tix->ti", edges, edges)
     double_area = edges[:, 0, 0] * edges[:, 1, 1] - edges[:, 0, 1] * edges[:, 1, 0]
+    double_area = np.maximum(double_area, _THINNEST * lengths.max(axis=1))
     local = np.einsum("tix,tjx->tij", edges, edges) / (2 * double_area)[:, None, None]
+    local += _TIE * (3 * np.eye(3) - 1)
     rows, columns = np.repeat(faces, 3, axis=1).ravel(), np.tile(faces, (1, 3)).ravel()
     stiffness = coo_array((local.ravel(), (rows, columns)), shape=(n, n)).tocsr()
     area = np.bincount(faces.ravel(), np.repeat(double_area / 6, 3), minlength=n)
-    return stiffness, area.astype(np.float64)
+    return stiffness, np.maximum(area, _SMALLEST * area.mean())
 
 
-def _newton_steps(problem: _ContactProblem, z: Floats, stiffness: float) -> Iterator[Floats]:
-    """Yield ever better minimisers of the energy with contact springs, until the active springs stay the same."""
-    from scipy.sparse import diags_array
+def _newton_steps(problem: _ContactProblem, z: Floats, force: Floats, stiffness: float) -> Iterator[Floats]:
+    """Yield ever better minimisers of the energy with springs and forces, until the same contacts press again."""
     from scipy.sparse.linalg import splu
 
-    spring = stiffness * problem.area
-    active = problem.difference @ z <= 1
+    pressing = _pressing(problem, z, force, stiffness)
     for _ in range(_NEWTON_STEPS):
-        pressed = problem.difference.T @ diags_array(np.where(active, spring, 0.0))
-        matrix = (problem.energy + pressed @ problem.difference).tocsc()
+        contact = problem.difference[np.flatnonzero(pressing)]
+        matrix = (problem.energy + stiffness * (contact.T @ contact)).tocsc()
+        load = contact.T @ (force[pressing] + stiffness)
         # Heights are known up to a constant: hold one vertex.
         solver = splu(
             matrix[1:, 1:], permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
         )
-        z = np.concatenate([[0.0], solver.solve(pressed.sum(axis=1)[1:])])
+        z = np.concatenate([[0.0], solver.solve(load[1:])])
         yield z
-        now = problem.difference @ z <= 1
-        if (now == active).all():
+        before, pressing = pressing, _pressing(problem, z, force, stiffness)
+        if (before == pressing).all():
             return
-        active = now
+
+
+def _pressing(problem: _ContactProblem, z: Floats, force: Floats, stiffness: float) -> npt.NDArray[np.bool_]:
+    """Tell which stacked vertices push each other apart."""
+    return np.asarray(force + stiffness * (1 - problem.difference @ z) > 0)
 
 
 def _kept_apart(z: Floats, mesh: LiftedMesh, gap: float) -> Floats:
