@@ -296,6 +296,13 @@ def test_twice_the_same_triangle():
         check_layered([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [[0, 1, 2], [1, 2, 0]])
 
 
+@pytest.mark.parametrize("third", [(2, 2), (1, 0)])
+def test_layers_need_positive_triangles(third):
+    """Flat from above, or turned over."""
+    with pytest.raises(CertificateError, match="flat or turned over"):
+        check_layered([(0, 0, 0), (1, 1, 0), (*third, 0)], [[0, 1, 2]])
+
+
 def test_one_order_if_and_only_if_nothing_meets():
     """Two copies of a random mesh with random heights, compared with the generic intersection test."""
     rng = np.random.default_rng(5)
