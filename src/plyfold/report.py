@@ -1,0 +1,130 @@
+"""The verdict on a curve with its figures, as plain data and as text; the command line prints it."""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from collections.abc import Iterator
+from typing import Any
+
+from plyfold.arrangement import Arrangement
+from plyfold.curve import Curve
+from plyfold.immersion import Immersion, count_immersions, find_immersion, immersions
+from plyfold.layering import find_layering
+from plyfold.obstruction import Obstruction
+
+__all__ = ["describe", "verdict"]
+
+_SHOWN_REPAIRS = 5
+
+
+def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[str, Any]:
+    """Return everything that is known of a curve as plain data, ready for JSON.
+
+    Parameters
+    ----------
+    arrangement : Arrangement
+    time_limit : float, optional
+        Seconds for the search for a layering; when they are over, ``layerable`` is None: unknown.
+
+    Returns
+    -------
+    dict
+        ``points``, ``crossings``, ``cells`` (number of cells by winding number), ``turning_number``, ``reversed``,
+        ``repairs``, ``immersible``, ``immersions``; for a disk also ``layerable``, ``tried`` (immersions examined) and
+        ``sheets``, otherwise ``reason``, ``sentence`` and ``where``.
+
+    Examples
+    --------
+    >>> from plyfold.arrangement import arrangement
+    >>> found = verdict(arrangement([(0, 0), (2, 2), (2, 0), (0, 2)]))
+    >>> found["immersible"], found["reason"], found["cells"]
+    (False, 'turning number', {-1: 1, 0: 1, 1: 1})
+    """
+    curve = arrangement.curve
+    figures: dict[str, Any] = {
+        "points": 0 if curve is None else len(curve),
+        "crossings": arrangement.n_crossings,
+        "cells": dict(sorted(Counter(arrangement.winding.tolist()).items())),
+        "turning_number": arrangement.turning_number,
+        "reversed": arrangement.reversed,
+        "repairs": _repairs(curve),
+    }
+    found = find_immersion(arrangement)
+    if isinstance(found, Obstruction):
+        return figures | {"immersible": False, "immersions": 0} | _obstructed(found)
+    figures |= {"immersible": True, "immersions": count_immersions(arrangement), "sheets": found.n_sheets}
+    return figures | _layerable(immersions(arrangement), time_limit)
+
+
+def _repairs(curve: Curve | None) -> list[dict[str, Any]]:
+    repairs = () if curve is None else curve.repairs
+    return [{"kind": repair.kind, "where": list(repair.where), "size": repair.size} for repair in repairs]
+
+
+def _obstructed(obstruction: Obstruction) -> dict[str, Any]:
+    where = [list(place) for place in obstruction.where]
+    return {"reason": obstruction.reason, "sentence": str(obstruction), "where": where}
+
+
+def _layerable(candidates: Iterator[Immersion], time_limit: float | None) -> dict[str, Any]:
+    """Return whether one of the immersions can be layered, and how many were examined."""
+    from plyfold.errors import TimeLimitError
+
+    deadline = None if time_limit is None else time.monotonic() + time_limit
+    first: dict[str, Any] = {}
+    tried = 0
+    for tried, immersion in enumerate(candidates, 1):
+        try:
+            found = find_layering(immersion, None if deadline is None else max(deadline - time.monotonic(), 0.0))
+        except TimeLimitError:
+            return {"layerable": None, "tried": tried}
+        if not isinstance(found, Obstruction):
+            return {"layerable": True, "tried": tried, "levels": int(found.level.max())}
+        first = first or _obstructed(found)
+    return {"layerable": False, "tried": tried} | first
+
+
+def describe(figures: dict[str, Any]) -> str:
+    """Return the verdict as text: a sentence, and the figures one on a line."""
+    cells = ", ".join(f"{count} with {winding}" for winding, count in figures["cells"].items())
+    turned = " (the curve ran clockwise and was turned round)" if figures["reversed"] else ""
+    rows = {
+        "points": f"{figures['points']:,}",
+        "crossings": f"{figures['crossings']:,}",
+        "cells by winding number": cells,
+        "turning number": f"{figures['turning_number']}{turned}",
+        "immersions": f"{figures['immersions']:,}",
+    }
+    if figures["immersible"]:
+        rows["layering"] = _layering_sentence(figures)
+    width = max(map(len, rows)) + 2
+    lines = [f"  {name:<{width}}{value}" for name, value in rows.items()]
+    return "\n".join([_headline(figures), *lines, *_repair_lines(figures["repairs"])])
+
+
+def _headline(figures: dict[str, Any]) -> str:
+    if figures["immersible"]:
+        return "Yes: the curve is the outline of a disk of cloth laid flat on a table."
+    places = "".join(f"\n  at ({x:.6g}, {y:.6g})" for x, y in figures["where"])
+    return f"No, the curve bounds no disk. {figures['sentence']}{places}"
+
+
+def _layering_sentence(figures: dict[str, Any]) -> str:
+    if figures["layerable"] is None:
+        return f"unknown: the time limit ended the search at immersion {figures['tried']}"
+    if figures["layerable"]:
+        return f"yes, on {figures['levels']} level(s), found for immersion {figures['tried']} of those"
+    return f"none of the {figures['tried']} immersion(s) can be lifted. {figures['sentence']}"
+
+
+def _repair_lines(repairs: list[dict[str, Any]]) -> list[str]:
+    lines = []
+    for kind, count in Counter(repair["kind"] for repair in repairs).items():
+        these = [repair for repair in repairs if repair["kind"] == kind]
+        places = ", ".join("({:.6g}, {:.6g})".format(*repair["where"]) for repair in these[:_SHOWN_REPAIRS])
+        more = f" and {count - _SHOWN_REPAIRS} more" if count > _SHOWN_REPAIRS else ""
+        largest = max(repair["size"] for repair in these)
+        size = f", by at most {largest:.3g}" if largest else ""
+        lines.append(f"  note: {kind} at {places}{more}{size}")
+    return lines
