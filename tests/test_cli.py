@@ -1,0 +1,214 @@
+"""The command line, as a person or a program meets it."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+import trimesh
+
+import plyfold as pf
+from plyfold.cli import main
+from plyfold.gallery import CURVES
+
+LOOP = "0,0\n9,0\n9,6\n3,6\n3,-3\n4,-3\n4,5\n8,5\n8,1\n0,1\n"
+EIGHT = "0,0\n2,2\n2,0\n0,2\n"
+
+
+@pytest.fixture
+def loop(tmp_path):
+    path = tmp_path / "loop.csv"
+    path.write_text(LOOP)
+    return path
+
+
+@pytest.fixture
+def eight(tmp_path):
+    path = tmp_path / "eight.csv"
+    path.write_text(EIGHT)
+    return path
+
+
+def test_check_says_yes(loop, capsys):
+    assert main(["check", str(loop)]) == 0
+    text = capsys.readouterr().out
+    assert text.startswith("Yes")
+    for line in ("crossings                4", "turning number           1", "immersions               1"):
+        assert line in text
+
+
+def test_check_says_no(eight, capsys):
+    assert main(["check", str(eight)]) == 1
+    assert "turns 0 times" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_check_json_gives_the_known_answers(name, capsys):
+    known = CURVES[name]
+    assert main(["check", f"gallery:{name}", "--json"]) == (0 if known.immersions else 1)
+    found = json.loads(capsys.readouterr().out)
+    assert found["crossings"] == known.crossings
+    assert found["turning_number"] == known.turning_number
+    assert found["immersions"] == known.immersions
+    assert found["immersible"] == bool(known.immersions)
+    assert found.get("layerable", False) == bool(known.embeddable)
+    assert sum(found["cells"].values()) == known.crossings + 2
+
+
+@pytest.mark.parametrize(
+    ("content", "complaint"),
+    [
+        ("", "empty"),
+        ("0,0\n1,nan\n0,1\n", "nan"),
+        ("0,0\n1,1\n", "point"),
+        ("0,0\n1,1\n2,2\n", "line"),
+        ("0,0\n1,one\n2,0\n", "line 2"),
+    ],
+)
+def test_bad_input_is_one_message(tmp_path, capsys, content, complaint):
+    path = tmp_path / "bad.csv"
+    path.write_text(content)
+    assert main(["check", str(path)]) == 2
+    streams = capsys.readouterr()
+    assert streams.out == ""
+    assert streams.err.startswith("plyfold: ")
+    assert complaint in streams.err.lower()
+    assert main(["check", str(path), "--json"]) == 2
+    assert complaint in json.loads(capsys.readouterr().out)["error"].lower()
+
+
+def test_missing_files_and_names(capsys):
+    assert main(["check", "no-such-file.svg"]) == 2
+    assert main(["check", "gallery:nothing"]) == 2
+    assert "exit-ramp" in capsys.readouterr().err
+
+
+def test_touching_strands_can_be_refused(tmp_path, capsys):
+    path = tmp_path / "touching.csv"
+    path.write_text("0,0\n4,0\n4,4\n2,0\n0,4\n")
+    assert main(["check", str(path)]) == 0
+    assert "vertex moved at (2, 0)" in capsys.readouterr().out
+    assert main(["check", str(path), "--general-position", "raise"]) == 2
+    assert "(2, 0)" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("ending", ["glb", "obj", "ply", "stl"])
+def test_lift_writes_what_others_read(loop, tmp_path, ending):
+    path = tmp_path / f"out.{ending}"
+    assert main(["lift", str(loop), "-o", str(path), "--triangles", "300"]) == 0
+    mesh = trimesh.load(path, force="mesh", process=ending == "stl")
+    expected = pf.lift(pf.read(loop), triangles=300)
+    assert len(mesh.faces) == len(expected.faces)
+    assert len(mesh.vertices) == len(expected.vertices)
+    low, high = sorted(mesh.bounds.T.tolist(), key=lambda side: side[1] - side[0])[0]
+    assert high - low == pytest.approx(expected.vertices[:, 2].max(), rel=1e-5)
+
+
+def test_lift_writes_a_page_that_needs_no_network(loop, tmp_path):
+    path = tmp_path / "out.html"
+    assert main(["lift", str(loop), "-o", str(path)]) == 0
+    text = path.read_text(encoding="utf-8")
+    assert "<title>loop</title>" in text
+    assert 'src="http' not in text
+
+
+def test_lift_refuses_what_is_no_disk(eight, tmp_path, capsys):
+    path = tmp_path / "out.glb"
+    assert main(["lift", str(eight), "-o", str(path)]) == 1
+    assert not path.exists()
+    assert "turns 0 times" in capsys.readouterr().err
+
+
+def test_no_time_means_unknown(loop, tmp_path, capsys):
+    assert main(["lift", str(loop), "-o", str(tmp_path / "out.glb"), "--time-limit", "0"]) == 3
+    assert "unknown" in capsys.readouterr().err
+    assert main(["check", str(loop), "--json", "--time-limit", "0"]) == 0
+    assert json.loads(capsys.readouterr().out)["layerable"] is None
+
+
+@pytest.mark.parametrize("command", [["lift", "LOOP", "-o", "OUT.glb"], ["draw", "LOOP", "-o", "OUT.png"]])
+def test_existing_files_are_kept(command, loop, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("plyfold.io.read", pytest.fail)  # refused before anything is read
+    out = tmp_path / f"mine.{command[-1][-3:]}"
+    out.write_text("precious")
+    words = [{"LOOP": str(loop), command[-1]: str(out)}.get(word, word) for word in command]
+    assert main(words) == 2
+    assert out.read_text() == "precious"
+    assert "exists already" in capsys.readouterr().err
+
+
+def test_force_replaces(loop, tmp_path):
+    out = tmp_path / "mine.obj"
+    out.write_text("old")
+    assert main(["lift", str(loop), "-o", str(out), "--force"]) == 0
+    assert out.read_text().startswith("# plyfold")
+
+
+@pytest.mark.parametrize("what", ["all", "arrangement", "layout", "layers", "surface"])
+def test_draw(loop, tmp_path, what):
+    out = tmp_path / "picture.svg"
+    assert main(["draw", str(loop), "-o", str(out), "--what", what]) == 0
+    assert "<svg" in out.read_text(encoding="utf-8")
+
+
+def test_draw_marks_why_not(eight, tmp_path, capsys):
+    out = tmp_path / "picture.png"
+    assert main(["draw", str(eight), "-o", str(out)]) == 1
+    assert out.read_bytes().startswith(b"\x89PNG")
+    assert main(["draw", str(eight), "-o", str(tmp_path / "other.png"), "--what", "surface"]) == 2
+    assert "no surface" in capsys.readouterr().err
+
+
+def test_gallery_lists_and_saves(tmp_path, capsys):
+    assert main(["gallery"]) == 0
+    listed = capsys.readouterr().out
+    assert all(name in listed for name in CURVES)
+    for ending in ("csv", "json", "svg"):
+        out = tmp_path / f"ramp.{ending}"
+        assert main(["gallery", "exit-ramp", "-o", str(out)]) == 0
+        points, expected = pf.read(out).points, CURVES["exit-ramp"].curve.points
+        moved = points[0] - expected[0]
+        assert ending == "svg" or not moved.any()  # the view box of an SVG moves the drawing into view
+        assert points == pytest.approx(expected + moved, abs=1e-9)
+        assert main(["gallery", "exit-ramp", "-o", str(out)]) == 2
+
+
+def run(*words, **options):
+    return subprocess.run([sys.executable, "-m", "plyfold", *words], capture_output=True, check=False, **options)
+
+
+def test_standard_input():
+    done = run("check", "-", "--json", input=LOOP.encode())
+    assert done.returncode == 0
+    assert json.loads(done.stdout)["crossings"] == 4
+
+
+def test_help_imports_nothing_heavy():
+    heavy = {"scipy", "shapely", "matplotlib", "pysat", "svgelements", "pythoncdt", "trimesh"}
+    code = f"import sys, plyfold.cli; print(sorted({heavy!r} & set(sys.modules)))"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout.strip() == b"[]"
+    assert b"examples:" in run("--help").stdout
+
+
+def test_a_reader_that_goes_away_is_no_error():
+    words = [sys.executable, "-m", "plyfold", "gallery", "pentagram"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        assert b"Traceback" not in process.stderr.read()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals")
+def test_interrupted_runs_leave_nothing(tmp_path):
+    out = tmp_path / "big.glb"
+    words = [sys.executable, "-m", "plyfold", "lift", "gallery:bennequin", "--triangles", "400000", "-o", str(out)]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        time.sleep(1.5)
+        process.send_signal(signal.SIGINT)
+        errors = process.stderr.read()
+    assert process.returncode == 130
+    assert b"interrupted" in errors
+    assert b"Traceback" not in errors
+    assert list(tmp_path.iterdir()) == []
