@@ -6,6 +6,7 @@
 (True, 1)
 """
 
+from plyfold import errors, gallery
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.curve import Curve
 from plyfold.immersion import Immersion, bounds_disk, count_immersions, find_immersion, immersions
@@ -26,8 +27,10 @@ __all__ = [
     "arrangement",
     "bounds_disk",
     "count_immersions",
+    "errors",
     "find_immersion",
     "find_layering",
+    "gallery",
     "immersions",
     "lift",
     "read",

@@ -1,0 +1,32 @@
+"""The names that users may rely on."""
+
+import plyfold as pf
+
+
+def test_public_names():
+    assert sorted(pf.__all__) == [
+        "Arrangement",
+        "Curve",
+        "Immersion",
+        "Layering",
+        "Obstruction",
+        "Surface",
+        "arrangement",
+        "bounds_disk",
+        "count_immersions",
+        "errors",
+        "find_immersion",
+        "find_layering",
+        "gallery",
+        "immersions",
+        "lift",
+        "read",
+    ]
+    assert all(hasattr(pf, name) for name in pf.__all__)
+
+
+def test_arrangement_is_the_function_whatever_was_imported():
+    import plyfold.arrangement.core
+    import plyfold.draw.plots  # noqa: F401
+
+    assert callable(pf.arrangement)
