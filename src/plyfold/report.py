@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import time
 from collections import Counter
-from collections.abc import Iterator
 from typing import Any
 
 from plyfold.arrangement import Arrangement
 from plyfold.curve import Curve
-from plyfold.immersion import Immersion, count_immersions, find_immersion, immersions
-from plyfold.layering import find_layering
+from plyfold.errors import TimeLimitError
+from plyfold.immersion import count_immersions, find_immersion, immersions
+from plyfold.layering import first_layering
 from plyfold.obstruction import Obstruction
 
 __all__ = ["describe", "verdict"]
@@ -31,7 +30,7 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
     -------
     dict
         ``points``, ``crossings``, ``cells`` (number of cells by winding number), ``turning_number``, ``reversed``,
-        ``repairs``, ``immersible``, ``immersions``; for a disk also ``layerable``, ``tried`` (immersions examined) and
+        ``repairs``, ``immersible``, ``immersions``; for a disk also ``layerable``, ``examined`` (immersions) and
         ``sheets``, otherwise ``reason``, ``sentence`` and ``where``.
 
     Examples
@@ -54,7 +53,7 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
     if isinstance(found, Obstruction):
         return figures | {"immersible": False, "immersions": 0} | _obstructed(found)
     figures |= {"immersible": True, "immersions": count_immersions(arrangement), "sheets": found.n_sheets}
-    return figures | _layerable(immersions(arrangement), time_limit)
+    return figures | _layerable(arrangement, time_limit)
 
 
 def _repairs(curve: Curve | None) -> list[dict[str, Any]]:
@@ -67,22 +66,15 @@ def _obstructed(obstruction: Obstruction) -> dict[str, Any]:
     return {"reason": obstruction.reason, "sentence": str(obstruction), "where": where}
 
 
-def _layerable(candidates: Iterator[Immersion], time_limit: float | None) -> dict[str, Any]:
+def _layerable(arrangement: Arrangement, time_limit: float | None) -> dict[str, Any]:
     """Return whether one of the immersions can be layered, and how many were examined."""
-    from plyfold.errors import TimeLimitError
-
-    deadline = None if time_limit is None else time.monotonic() + time_limit
-    first: dict[str, Any] = {}
-    tried = 0
-    for tried, immersion in enumerate(candidates, 1):
-        try:
-            found = find_layering(immersion, None if deadline is None else max(deadline - time.monotonic(), 0.0))
-        except TimeLimitError:
-            return {"layerable": None, "tried": tried}
-        if not isinstance(found, Obstruction):
-            return {"layerable": True, "tried": tried, "levels": int(found.level.max())}
-        first = first or _obstructed(found)
-    return {"layerable": False, "tried": tried} | first
+    try:
+        found, examined = first_layering(immersions(arrangement), time_limit)
+    except TimeLimitError:
+        return {"layerable": None}
+    if isinstance(found, Obstruction):
+        return {"layerable": False, "examined": examined} | _obstructed(found)
+    return {"layerable": True, "examined": examined, "levels": int(found.level.max())}
 
 
 def describe(figures: dict[str, Any]) -> str:
@@ -112,10 +104,11 @@ def _headline(figures: dict[str, Any]) -> str:
 
 def _layering_sentence(figures: dict[str, Any]) -> str:
     if figures["layerable"] is None:
-        return f"unknown: the time limit ended the search at immersion {figures['tried']}"
+        return "unknown: the time limit ended the search"
     if figures["layerable"]:
-        return f"yes, on {figures['levels']} level(s), found for immersion {figures['tried']} of those"
-    return f"none of the {figures['tried']} immersion(s) can be lifted. {figures['sentence']}"
+        which = f"immersion {figures['examined']} of {figures['immersions']:,}"
+        return f"yes, on {figures['levels']} level(s), found for {which}"
+    return f"none of the {figures['examined']} immersion(s) can be lifted. {figures['sentence']}"
 
 
 def _repair_lines(repairs: list[dict[str, Any]]) -> list[str]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import combinations
 from threading import Timer
+from typing import TypeAlias
 
 import numpy as np
 
@@ -15,7 +17,9 @@ from plyfold.immersion import Immersion
 from plyfold.layering.sheet_pairs import PairGraph, chain_to_reverse, pair_graph
 from plyfold.obstruction import Obstruction
 
-__all__ = ["Layering", "find_layering"]
+__all__ = ["Layering", "find_layering", "first_layering"]
+
+Progress: TypeAlias = Callable[[str, float], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,6 +127,48 @@ def find_layering(immersion: Immersion, time_limit: float | None = None) -> Laye
     layering = Layering(immersion, _levels(immersion, graph, literal, true))
     layering.check()
     return layering
+
+
+def first_layering(
+    candidates: Iterable[Immersion], time_limit: float | None = None, progress: Progress | None = None
+) -> tuple[Layering | Obstruction, int]:
+    """Find the first of several immersions that can be layered.
+
+    Parameters
+    ----------
+    candidates : iterable of Immersion
+        At least one, for example all immersions of a curve.
+    time_limit : float, optional
+        Seconds for all of them together; none by default.
+    progress : callable, optional
+        Called with a few words and the fraction done before each immersion.
+
+    Returns
+    -------
+    Layering or Obstruction
+        The obstruction is that of the first immersion.
+    int
+        How many immersions were examined.
+
+    Raises
+    ------
+    TimeLimitError
+        If the time limit was reached: the answer is unknown.
+    """
+    deadline = None if time_limit is None else time.monotonic() + time_limit
+    first: Obstruction | None = None
+    examined = 0
+    for examined, immersion in enumerate(candidates, 1):
+        if progress is not None:
+            progress(f"layering immersion {examined}", 0.0)
+        left = None if deadline is None else deadline - time.monotonic()
+        found = find_layering(immersion, left)
+        if isinstance(found, Layering):
+            return found, examined
+        first = found if first is None else first
+    if first is None:
+        raise ValueError("there is no immersion to layer")
+    return first, examined
 
 
 def _literals(graph: PairGraph) -> Ints:

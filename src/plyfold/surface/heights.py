@@ -17,20 +17,19 @@ A last projection, of the size of rounding errors, makes the distance hold at ev
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrangement.planar_map import Ints
+from plyfold.layering import Progress
 from plyfold.predicates import Floats
 from plyfold.surface.glue import LiftedMesh
 
 __all__ = ["smooth_heights"]
-
-Progress: TypeAlias = Callable[[str, float], None]
 
 # ℓ, below which bending rules and above which the membrane does, as a fraction of the mean width of the cloth. Were it
 # wider than a ribbon, the ribbon would rather climb many times the gap than bend in its width where sheets touch.

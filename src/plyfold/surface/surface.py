@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import os
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
-from typing import TypeAlias, cast
+from typing import cast
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from plyfold.curve import Curve
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError
 from plyfold.immersion import Immersion, find_immersion, immersions
 from plyfold.io.saving import refuse_existing, save_bytes
-from plyfold.layering import Layering, find_layering
+from plyfold.layering import Layering, Progress, first_layering
 from plyfold.obstruction import Obstruction
 from plyfold.predicates import Floats
 from plyfold.surface.glue import glue_sheets
@@ -28,8 +27,6 @@ from plyfold.surface.mesh_files import WRITERS
 from plyfold.surface.triangulation import DEFAULT_TRIANGLES, triangulate
 
 __all__ = ["Surface", "lift"]
-
-Progress: TypeAlias = Callable[[str, float], None]
 
 # Distance of neighbouring sheets, as a fraction of the drawing's larger side.
 _DEFAULT_GAP = 0.05
@@ -240,7 +237,7 @@ def _layering_of(curve: CurveLike | Immersion | Layering, time_limit: float | No
     if isinstance(curve, Layering):
         return curve
     if isinstance(curve, Immersion):
-        return _first_layering(iter([curve]), time_limit, report)
+        return _liftable([curve], time_limit, report)
     report("finding the crossings", 0.0)
     drawn = arrangement(curve)
     report("finding an immersion", 0.0)
@@ -248,17 +245,11 @@ def _layering_of(curve: CurveLike | Immersion | Layering, time_limit: float | No
     first = next(candidates, None)
     if first is None:
         raise NotImmersibleError(cast(Obstruction, find_immersion(drawn)))
-    return _first_layering(chain([first], candidates), time_limit, report)
+    return _liftable(chain([first], candidates), time_limit, report)
 
 
-def _first_layering(candidates: Iterator[Immersion], time_limit: float | None, report: Progress) -> Layering:
-    deadline = np.inf if time_limit is None else time.monotonic() + time_limit
-    obstructions = []
-    for tried, immersion in enumerate(candidates, 1):
-        report(f"layering immersion {tried}", 0.0)
-        left = None if time_limit is None else max(deadline - time.monotonic(), 0.0)
-        found = find_layering(immersion, left)
-        if isinstance(found, Layering):
-            return found
-        obstructions.append(found)
-    raise NotEmbeddableError(obstructions[0], hint=f"{len(obstructions)} immersion(s) were tried")
+def _liftable(candidates: Iterable[Immersion], time_limit: float | None, report: Progress) -> Layering:
+    found, examined = first_layering(candidates, time_limit, report)
+    if isinstance(found, Layering):
+        return found
+    raise NotEmbeddableError(found, hint=f"{examined} immersion(s) were examined")
