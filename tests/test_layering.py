@@ -1,0 +1,106 @@
+"""Layerings and the reasons why there is none, checked step by step."""
+
+from itertools import combinations, pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import plyfold as pf
+from plyfold.errors import NotEmbeddableError, TimeLimitError
+from plyfold.gallery import CURVES
+from plyfold.layering import first_layering
+from plyfold.layering.layering import _minimal_core, _solve
+from reference.random_curves import glued_disk
+
+# The lines of the Fano plane: however seven points get two colours, one of the seven lines has only one.
+FANO = [(1, 2, 3), (1, 4, 5), (1, 6, 7), (2, 4, 6), (2, 5, 7), (3, 4, 7), (3, 5, 6)]
+
+
+def bennequin():
+    return list(pf.immersions(CURVES["bennequin"].curve))
+
+
+def test_a_reversed_pair_is_a_chain_of_glued_pairs():
+    refused = [(i, found) for i in bennequin() if not (found := pf.find_layering(i))]
+    assert len(refused) == 2
+    for immersion, obstruction in refused:
+        assert obstruction.reason == "reversed pair"
+        glued = {}
+        for border, right, left in immersion.gluing.tolist():
+            glued.setdefault(border, set()).add((right, left))
+        chain = obstruction.value
+        assert chain[0][1:] == chain[-1][:0:-1]
+        for (cell, lower, upper), (next_cell, next_lower, next_upper) in pairwise(chain):
+            assert lower in immersion.sheets[cell]
+            assert upper in immersion.sheets[cell]
+            assert next_lower in immersion.sheets[next_cell]
+            assert any(
+                {(lower, next_lower), (upper, next_upper)} <= pairs
+                or {(next_lower, lower), (next_upper, upper)} <= pairs
+                for pairs in glued.values()
+            )
+
+
+def test_places_of_a_reversed_pair_lie_in_its_cells():
+    for immersion in bennequin():
+        found = pf.find_layering(immersion)
+        if not found:
+            cells = list(dict.fromkeys(cell for cell, _, _ in found.value))
+            assert list(found.where) == [immersion.arrangement.cell_point(cell) for cell in cells]
+
+
+def test_orders_in_a_circle_are_found_and_made_minimal():
+    extra = [(1, 2, -4), (-3, 5, 6), (2, 3, 4)]
+    triples = [(cycle, (number, 0, 1, 2)) for number, cycle in enumerate(extra + FANO)]
+    assert _solve([list(cycle) for cycle, _ in triples], None) is None
+    core = [cycle for cycle, _ in _minimal_core(triples)]
+    assert _solve([list(cycle) for cycle in core], None) is None
+    for left_out in core:
+        assert _solve([list(cycle) for cycle in core if cycle != left_out], None) is not None
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.lists(st.tuples(*[st.sampled_from([x for x in range(-4, 5) if x])] * 3), max_size=9))
+def test_solver_against_all_assignments(cycles):
+    def satisfied(colours):
+        return all(len({colours[abs(x)] == (x > 0) for x in cycle}) == 2 for cycle in cycles)
+
+    every = ({v: bool(n >> v & 1) for v in range(5)} for n in range(32))
+    found = _solve([list(cycle) for cycle in cycles], None)
+    assert (found is not None) == any(map(satisfied, every))
+    assert found is None or satisfied({v: v in found for v in range(5)})
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 2**32))
+def test_layerings_of_random_disks(seed):
+    """Every gluing keeps every pair of sheets in order; read straight from the table of gluings."""
+    immersion = pf.find_immersion(glued_disk(np.random.default_rng(seed), 60))
+    level = pf.find_layering(immersion).level
+    for border in range(immersion.arrangement.n_borders):
+        rows = immersion.gluing[immersion.gluing[:, 0] == border]
+        for (_, a, b), (_, c, d) in combinations(rows.tolist(), 2):
+            assert (level[a] < level[c]) == (level[b] < level[d])
+
+
+def test_the_first_immersion_that_lifts_is_taken():
+    immersions = bennequin()
+    lifts = [bool(pf.find_layering(immersion)) for immersion in immersions]
+    order = sorted(range(5), key=lambda i: lifts[i])
+    found, examined = first_layering(immersions[i] for i in order)
+    assert examined == 3
+    assert found.immersion is immersions[order[2]]
+    found, examined = first_layering(immersions[i] for i in order[:2])
+    assert not found
+    assert examined == 2
+    with pytest.raises(NotEmbeddableError) as caught:
+        pf.lift(immersions[order[0]])
+    assert caught.value.obstruction.reason == "reversed pair"
+
+
+def test_time_is_limited():
+    with pytest.raises(TimeLimitError, match="unknown"):
+        pf.find_layering(bennequin()[0], time_limit=0)
+    assert pf.find_layering(bennequin()[0], time_limit=60)
