@@ -15,7 +15,7 @@ import numpy as np
 
 from plyfold.arrangement.crossings import Bools, Contacts, Ints, Visits, find_contacts, order_visits
 from plyfold.curve import Curve, Repair
-from plyfold.errors import GeneralPositionError
+from plyfold.errors import GeneralPositionError, InputError
 from plyfold.predicates import Floats, orient
 
 __all__ = ["in_general_position"]
@@ -52,7 +52,7 @@ def in_general_position(curve: Curve, policy: Literal["perturb", "raise"]) -> tu
         With ``policy="raise"`` at every touching place; with ``"perturb"`` if the strands are too crowded to separate.
     """
     if policy not in ("perturb", "raise"):
-        raise ValueError(f'general_position must be "perturb" or "raise", not {policy!r}')
+        raise InputError(f'general_position must be "perturb" or "raise", not {policy!r}')
     contacts = find_contacts(curve.points)
     visits = order_visits(curve.points, contacts)
     if _is_general(contacts, visits):

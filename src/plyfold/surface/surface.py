@@ -30,6 +30,7 @@ __all__ = ["Surface", "lift"]
 
 # Distance of neighbouring sheets, as a fraction of the drawing's larger side.
 _DEFAULT_GAP = 0.05
+_MOST_TRIANGLES = 10_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,6 +192,8 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         If the time limit was reached: the answer is unknown.
     PrecisionError
         If double precision cannot hold the mesh.
+    InputError
+        If ``gap``, ``triangles`` or ``max_area`` is not positive, or the triangles would be more than ten million.
 
     References
     ----------
@@ -207,6 +210,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     layering = _layering_of(curve, time_limit, report)
     drawn = layering.immersion.arrangement
     distance = _distance(drawn, gap)
+    _refuse_sizes(drawn, triangles, max_area)
     report("triangulating the cells", 0.0)
     cells = triangulate(drawn, max_area, triangles)
     report("gluing the sheets", 0.0)
@@ -231,6 +235,23 @@ def _distance(drawn: Arrangement, gap: float | None) -> float:
     if not 0 < gap < np.inf:
         raise InputError(f"the gap must be a positive number, not {gap!r}")
     return float(gap)
+
+
+def _refuse_sizes(drawn: Arrangement, triangles: int, max_area: float | None) -> None:
+    """Raise InputError for sizes that make no mesh, or one that no machine can hold."""
+    if not 1 <= triangles <= _MOST_TRIANGLES:
+        raise InputError(f"the number of triangles must be from 1 to {_MOST_TRIANGLES:,}, not {triangles!r}")
+    if max_area is None:
+        return
+    if not max_area > 0:
+        raise InputError(f"the largest area of a triangle must be positive, not {max_area!r}")
+    assert drawn.curve is not None
+    width, height = np.ptp(drawn.curve.points, axis=0)
+    if width * height > _MOST_TRIANGLES * max_area:
+        raise InputError(
+            f"triangles of area {max_area:g} are too small for a drawing of {width:g} by {height:g}",
+            hint=f"at most {_MOST_TRIANGLES:,} triangles are made",
+        )
 
 
 def _layering_of(curve: CurveLike | Immersion | Layering, time_limit: float | None, report: Progress) -> Layering:
