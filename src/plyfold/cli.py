@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["main"]
 
-DISK, NO_DISK, BAD_INPUT, UNKNOWN, INTERRUPTED = 0, 1, 2, 3, 130
+DISK, NO_DISK, BAD_INPUT, UNKNOWN, INTERRUPTED, BROKEN_PIPE = 0, 1, 2, 3, 130, 141
 
 _GUIDE = """\
 examples:
@@ -69,7 +69,7 @@ def main(arguments: list[str] | None = None) -> int:
     except BrokenPipeError:
         # The reader has gone; give the interpreter somewhere to flush to.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return BAD_INPUT
+        return BROKEN_PIPE
     except (PlyfoldError, OSError, MemoryError) as error:
         return _complain(options, error, BAD_INPUT)
     except KeyboardInterrupt:
@@ -101,7 +101,9 @@ def _parser() -> argparse.ArgumentParser:
     check.add_argument("--json", action="store_true", help="print one JSON object and nothing else")
     lift = _command(commands, "lift", _lift, "lift a curve to a layered surface that does not cut itself")
     _outputs(lift, ".glb .obj .ply .stl .html")
-    lift.add_argument("--gap", type=float, help="least distance of sheets, in units of the drawing (default: 1/20)")
+    lift.add_argument(
+        "--gap", type=float, help="least distance of sheets, in units of the drawing (default: 1/20 of its larger side)"
+    )
     lift.add_argument("--triangles", type=int, default=4000, help="roughly how many triangles (default: %(default)s)")
     draw = _command(commands, "draw", _draw, "draw the arrangement, the disk layout, the layers and the surface")
     _outputs(draw, ".svg .png .pdf")
@@ -209,6 +211,7 @@ def _timing(watch: _Stopwatch) -> str:
 def _lift(options: argparse.Namespace) -> int:
     from plyfold.surface import lift
 
+    options.output = list(dict.fromkeys(options.output))
     for path in options.output:
         _refuse_output(path, (".glb", ".obj", ".ply", ".stl", ".html"), options.force)
     watch = _Stopwatch()
@@ -246,6 +249,7 @@ def _title(file: str) -> str:
 def _draw(options: argparse.Namespace) -> int:
     from plyfold.draw.figures import save
 
+    options.output = list(dict.fromkeys(options.output))
     for path in options.output:
         _refuse_output(path, (".svg", ".png", ".pdf"), options.force)
     watch = _Stopwatch()

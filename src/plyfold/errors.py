@@ -18,7 +18,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from plyfold.obstruction import Obstruction
@@ -102,6 +102,9 @@ class _ObstructedError(PlyfoldError):
     def __init__(self, obstruction: Obstruction, hint: str = "") -> None:
         super().__init__(str(obstruction), obstruction.where, hint)
         self.obstruction = obstruction
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.obstruction, self.hint)
 
 
 class NotImmersibleError(_ObstructedError):

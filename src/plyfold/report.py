@@ -115,9 +115,12 @@ def _repair_lines(repairs: list[dict[str, Any]]) -> list[str]:
     lines = []
     for kind, count in Counter(repair["kind"] for repair in repairs).items():
         these = [repair for repair in repairs if repair["kind"] == kind]
-        places = ", ".join("({:.6g}, {:.6g})".format(*repair["where"]) for repair in these[:_SHOWN_REPAIRS])
+        places = ", ".join(map(_repair_place, these[:_SHOWN_REPAIRS]))
         more = f" and {count - _SHOWN_REPAIRS} more" if count > _SHOWN_REPAIRS else ""
-        largest = max(repair["size"] for repair in these)
-        size = f", by at most {largest:.3g}" if largest else ""
-        lines.append(f"  note: {kind} at {places}{more}{size}")
+        lines.append(f"  note: {kind} at {places}{more}")
     return lines
+
+
+def _repair_place(repair: dict[str, Any]) -> str:
+    size = f" by {repair['size']:.3g}" if repair["size"] else ""
+    return "({:.6g}, {:.6g})".format(*repair["where"]) + size

@@ -212,7 +212,7 @@ def _refuse_wide_gaps(ends: _Points, loop: list[int], largest: float, numbers: l
         raise StrokeError(
             f"{gap}, more than the largest gap that is bridged, {largest:.6g}",
             where=[ends[leaving], ends[entering]],
-            hint="draw the missing part, or allow longer gaps with max_gap",
+            hint="draw the missing part (in Python, Curve.from_strokes takes a larger max_gap)",
         )
 
 

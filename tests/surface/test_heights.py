@@ -106,7 +106,7 @@ def test_needles(needle, width):
     surface = lift(ramp)
     surface.check()
     # In the thinnest ones the last digits decide how far the loose ends swing; nothing is nearly flat or endless.
-    most = 3 if width > 1e-8 else 100
+    most = 4 if width > 1e-8 else 100
     assert surface.gap <= np.ptp(surface.vertices[:, 2]) < most * surface.gap
 
 
@@ -115,7 +115,7 @@ def test_narrow_ribbons_do_not_tower(seed):
     """Where narrow strips touch they bend locally, instead of climbing dozens of gaps."""
     surface = lift(random_curves.ribbon_outline(np.random.default_rng(seed), 60), triangles=1000)
     levels = surface.layering.level.max()
-    assert np.ptp(surface.vertices[:, 2]) < 3 * levels * surface.gap
+    assert np.ptp(surface.vertices[:, 2]) < 4 * levels * surface.gap
 
 
 def test_energy_of_a_plane():

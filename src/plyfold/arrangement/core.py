@@ -303,8 +303,9 @@ def _number_crossings(partner: Ints) -> Ints:
 
 
 def _checked_code(partner: npt.ArrayLike, ccw: npt.ArrayLike, outer: int) -> tuple[Ints, Bools, int]:
-    visits = np.array(partner, dtype=np.int64).reshape(-1)
-    signs = np.array(ccw, dtype=bool).reshape(-1)
+    visits, signs = _whole_numbers("partner", partner), _whole_numbers("ccw", ccw)
+    if not np.isin(signs, [0, 1]).all():
+        raise GaussCodeError("ccw holds something that is neither true nor false")
     n = len(visits)
     if len(signs) != n:
         raise GaussCodeError(f"partner has {n} visits and ccw has {len(signs)}")
@@ -315,7 +316,14 @@ def _checked_code(partner: npt.ArrayLike, ccw: npt.ArrayLike, outer: int) -> tup
             raise GaussCodeError(f"visits {visit} and {other} say that both strands cross from the same side")
     if not 0 <= outer < max(2 * n, 2):
         raise GaussCodeError(f"dart {outer} does not exist: there are {max(2 * n, 2)}")
-    return visits, signs, int(outer)
+    return visits, signs.astype(bool), int(outer)
+
+
+def _whole_numbers(name: str, values: npt.ArrayLike) -> Ints:
+    array = np.array(values)
+    if array.ndim != 1 or (array.size and array.dtype.kind not in "biu"):
+        raise GaussCodeError(f"{name} is not a list of whole numbers")
+    return array.astype(np.int64)
 
 
 def polygon_turning_number(points: Floats) -> int:

@@ -28,6 +28,7 @@ _ATTEMPTS = 12
 _CLEARANCE = 0.02
 # Steps have to be this many times the rounding of the coordinates, for the same reason.
 _LEAST_STEP = 1000
+_LARGEST_STEP = 0.002
 
 
 def in_general_position(curve: Curve, policy: Literal["perturb", "raise"]) -> tuple[Curve, Visits]:
@@ -59,8 +60,8 @@ def in_general_position(curve: Curve, policy: Literal["perturb", "raise"]) -> tu
         return curve, visits
     if policy == "raise":
         raise GeneralPositionError(
-            f"the curve is not in general position: {len(contacts.touches)} vertices lie on other edges, and "
-            f"{len(visits.triple)} times three edges meet in a point",
+            f"the curve is not in general position (vertices on other edges: {len(np.unique(contacts.touches[:, 0]))}, "
+            f"meetings of three edges: {len(visits.triple)})",
             where=_places(curve.points, contacts, visits),
             hint='move these vertices, or use general_position="perturb"',
         )
@@ -136,14 +137,15 @@ def _candidates(points: Floats) -> Iterator[tuple[Floats, float]]:
     contacts = find_contacts(frame)
     displacement = _displacements(frame, contacts, order_visits(frame, contacts))
     size = float(np.ptp(points, axis=0).max())
-    least = _LEAST_STEP * np.spacing(np.abs(points).max())
+    least = float(_LEAST_STEP * np.spacing(np.abs(points).max()))
+    # Far from the origin, where coordinates are coarse, steps are as small as they can be.
+    steps = [step * size for step in _STEPS if step * size > least] or ([least] if least < _LARGEST_STEP * size else [])
     for attempt in range(_ATTEMPTS):
         turned = _rotated(displacement, attempt * _GOLDEN_ANGLE * (1 + np.arange(len(points))))
-        for step in size * np.array(_STEPS):
-            if step > least:
-                moved = np.empty_like(points)
-                moved[order] = frame + step * turned
-                yield moved, float(step)
+        for step in steps:
+            moved = np.empty_like(points)
+            moved[order] = frame + step * turned
+            yield moved, step
 
 
 def _rotated(vectors: Floats, angle: Floats) -> Floats:

@@ -89,6 +89,8 @@ def read(path: str | Path, *, id: str | None = None, tolerance: float | None = N
 
 def _content(path: str | Path) -> bytes:
     if str(path) == "-":
+        if sys.stdin is None:
+            raise FileFormatError("it is closed", hint="pipe a drawing into it")
         return _limited(sys.stdin.buffer)
     try:
         if Path(path).stat().st_size > SIZE_LIMIT:

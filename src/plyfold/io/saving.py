@@ -16,10 +16,12 @@ def refuse_existing(path: str | os.PathLike[str], force: bool = False) -> None:
     --------
     >>> refuse_existing(os.devnull)
     Traceback (most recent call last):
-    FileExistsError: /dev/null exists already; it was not overwritten
+    FileExistsError: /dev/null exists already and was not overwritten; add force to replace it
     """
+    if Path(path).is_dir():
+        raise IsADirectoryError(f"{path} is a folder")
     if Path(path).exists() and not force:
-        raise FileExistsError(f"{path} exists already; it was not overwritten")
+        raise FileExistsError(f"{path} exists already and was not overwritten; add force to replace it")
 
 
 def save_bytes(path: str | os.PathLike[str], content: bytes, force: bool = False) -> None:
@@ -36,10 +38,15 @@ def save_bytes(path: str | os.PathLike[str], content: bytes, force: bool = False
     ------
     FileExistsError
         If the file exists and ``force`` is not set.
+    OSError
+        If the folder is missing, cannot be written to, or is full.
     """
     refuse_existing(path, force)
     target = Path(path)
-    with tempfile.TemporaryDirectory(dir=target.parent, prefix=".plyfold-") as folder:
-        draft = Path(folder) / target.name
-        draft.write_bytes(content)
-        draft.replace(target)
+    try:
+        with tempfile.TemporaryDirectory(dir=target.parent, prefix=".plyfold-") as folder:
+            draft = Path(folder) / target.name
+            draft.write_bytes(content)
+            draft.replace(target)
+    except OSError as error:  # it would name the draft
+        raise OSError(error.errno, error.strerror, str(target)) from error

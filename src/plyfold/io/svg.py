@@ -114,7 +114,9 @@ def _drawn_outlines(data: bytes, id: str | None) -> list[Outline]:
         shapes = _shapes_by_id(document)
         outlines = [outline for shape in shapes.get(id, []) for outline in _outlines(shape)]
     except Exception as error:  # svgelements lets through whatever a bad number or attribute runs into
-        raise FileFormatError(f"broken SVG ({type(error).__name__}: {error})", hint=_SHAPE_HINT) from error
+        reason = str(error) or "a number or a command is not understood"
+        hint = "check the path data, transforms and lengths of its shapes"
+        raise FileFormatError(f"broken SVG: {reason}", hint=hint) from error
     if id is not None and not shapes.get(id):
         names = _listed(name for name, found in shapes.items() if name and found)
         raise FileFormatError(f"no shape in it has the id {id!r}", hint=f"ids with shapes: {names or 'none'}")

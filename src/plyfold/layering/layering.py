@@ -113,7 +113,7 @@ def find_layering(immersion: Immersion, time_limit: float | None = None) -> Laye
     >>> bool(find_layering(find_immersion([(0, 0), (1, 0), (0, 1)])))
     True
     """
-    if time_limit is not None and time_limit <= 0:
+    if time_limit is not None and not time_limit > 0:
         raise _unknown(time_limit)
     graph = pair_graph(immersion)
     contradictions = graph.contradictions()

@@ -33,7 +33,7 @@ __all__ = ["smooth_heights"]
 
 # ℓ, below which bending rules and above which the membrane does, as a fraction of the mean width of the cloth. Were it
 # wider than a ribbon, the ribbon would rather climb many times the gap than bend in its width where sheets touch.
-_BENDING_LENGTH = 0.25
+_BENDING_LENGTH = 0.5
 # Stiffness of the springs, with membrane energy and gap as units, for one round after the other.
 _STIFFNESS = (1.0, 1e1, 1e2, *[1e3] * 6)
 _NEWTON_STEPS = 25

@@ -30,6 +30,7 @@ __all__ = ["Surface", "lift"]
 
 # Distance of neighbouring sheets, as a fraction of the drawing's larger side.
 _DEFAULT_GAP = 0.05
+_LARGEST_GAP = 1000.0
 _MOST_TRIANGLES = 10_000_000
 
 
@@ -230,10 +231,11 @@ def _distance(drawn: Arrangement, gap: float | None) -> float:
         raise PlyfoldError(
             "a surface needs a drawing, and this is a Gauss code alone", hint="build it from points to lift it"
         )
+    size = float(np.ptp(drawn.curve.points, axis=0).max())
     if gap is None:
-        return _DEFAULT_GAP * float(np.ptp(drawn.curve.points, axis=0).max())
-    if not 0 < gap < np.inf:
-        raise InputError(f"the gap must be a positive number, not {gap!r}")
+        return _DEFAULT_GAP * size
+    if not 0 < gap <= _LARGEST_GAP * size:
+        raise InputError(f"the gap must be positive and at most {_LARGEST_GAP * size:g}, not {gap!r}")
     return float(gap)
 
 

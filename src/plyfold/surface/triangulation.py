@@ -24,6 +24,7 @@ _USUAL_SHARE = 0.6
 _SMALLEST_ANGLE = 25.0
 # Edges are not split below this fraction of the usual edge, so that tiny features do not attract tiny triangles.
 _SHORTEST_EDGE = 0.05
+_MOST_POINTS = 20_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,7 +166,9 @@ def _refined(arrangement: Arrangement, outline: _Outline, max_area: float | None
     mesh = _constrained(outline)
     uncovered = _uncovered(arrangement, outline, mesh)
     if triangles:
-        _refine(mesh, _unit_area(outline, max_area, triangles), uncovered)
+        covered = _covered(outline)
+        most = covered / (_USUAL_SHARE * triangles) if max_area is None else max_area / outline.scale**2
+        _refine(mesh, most, covered / most, uncovered)
     mesh.finalize_triangulation(uncovered)
     corners = mesh.vertices_array()
     unit_points = np.stack([corners["x"], corners["y"]], axis=1)
@@ -208,22 +211,20 @@ def _uncovered(arrangement: Arrangement, outline: _Outline, mesh: Any) -> set[in
     return set(np.flatnonzero(arrangement.winding[cell] == 0).tolist())
 
 
-def _unit_area(outline: _Outline, max_area: float | None, triangles: int) -> float:
-    """Return the largest area of a triangle in the unit square."""
-    if max_area is not None:
-        return float(max_area) / outline.scale**2
+def _covered(outline: _Outline) -> float:
+    """Return the area of the lifted surface in the unit square: what the curve encloses, times winding numbers."""
     x, y = outline.unit_points[outline.chain].T
-    # The area that the curve encloses, multiplied by winding numbers, is the area of the lifted surface.
-    covered = abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2
-    return covered / (_USUAL_SHARE * triangles)
+    return abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2
 
 
-def _refine(mesh: Any, unit_area: float, uncovered: set[int]) -> None:
+def _refine(mesh: Any, most: float, wanted: float, uncovered: set[int]) -> None:
+    """Split triangles larger than ``most``, about ``wanted`` in all, and then those with sharp angles."""
     import pythoncdt as cdt
 
-    shortest = _SHORTEST_EDGE * float(np.sqrt(unit_area))
-    limit = int(2 / unit_area) + 20 * mesh.vertices_count()
-    mesh.refine_triangles(limit, cdt.RefinementCriterion.LARGEST_AREA, unit_area, uncovered, shortest)
+    shortest = _SHORTEST_EDGE * float(np.sqrt(most))
+    # A limit on added points, for needles would take as many as they are longer than wide to get good angles.
+    limit = min(int(wanted) + mesh.vertices_count(), _MOST_POINTS)
+    mesh.refine_triangles(limit, cdt.RefinementCriterion.LARGEST_AREA, most, uncovered, shortest)
     angle = cdt.deg_to_rad(_SMALLEST_ANGLE)
     mesh.refine_triangles(limit, cdt.RefinementCriterion.SMALLEST_ANGLE, angle, uncovered, shortest)
 
