@@ -154,6 +154,26 @@ def test_draw(loop, tmp_path, what):
     assert "<svg" in out.read_text(encoding="utf-8")
 
 
+def test_the_same_output_twice_is_written_once(loop, tmp_path):
+    out = str(tmp_path / "twice.obj")
+    assert main(["lift", str(loop), "-o", out, "-o", out]) == 0
+
+
+def test_a_folder_is_no_output(loop, tmp_path, capsys):
+    folder = tmp_path / "folder.glb"
+    folder.mkdir()
+    assert main(["lift", str(loop), "-o", str(folder), "--force"]) == 2
+    assert "is a folder" in capsys.readouterr().err
+    assert list(tmp_path.glob(".plyfold*")) == []
+
+
+@pytest.mark.parametrize("option", [["--triangles", "-5"], ["--gap", "1e300"], ["--gap", "nan"]])
+def test_absurd_options(option, loop, tmp_path, capsys):
+    assert main(["lift", str(loop), "-o", str(tmp_path / "out.glb"), *option]) == 2
+    assert capsys.readouterr().err.startswith("plyfold: ")
+    assert not (tmp_path / "out.glb").exists()
+
+
 def test_draw_marks_why_not(eight, tmp_path, capsys):
     out = tmp_path / "picture.png"
     assert main(["draw", str(eight), "-o", str(out)]) == 1
@@ -191,6 +211,18 @@ def test_help_imports_nothing_heavy():
     code = f"import sys, plyfold.cli; print(sorted({heavy!r} & set(sys.modules)))"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout.strip() == b"[]"
     assert b"examples:" in run("--help").stdout
+
+
+def test_standard_input_that_is_closed():
+    done = subprocess.run(
+        "exec 0<&-; exec $PYTHON -m plyfold check -",
+        shell=True,
+        capture_output=True,
+        check=False,
+        env={**os.environ, "PYTHON": sys.executable},
+    )
+    assert done.returncode == 2
+    assert b"Traceback" not in done.stderr
 
 
 def test_a_reader_that_goes_away_is_no_error():

@@ -33,3 +33,14 @@ def test_larger_areas_make_fewer_triangles():
     sizes = [len(lift(SQUARE, max_area=area).faces) for area in (0.01, 0.1, 1.0, float("inf"))]
     assert sizes == sorted(sizes, reverse=True)
     assert sizes[-1] == 2
+
+
+@pytest.mark.parametrize("height", [1e-3, 1e-5, 1e-6])
+def test_needles_do_not_blow_up_the_mesh(height):
+    assert len(lift([(0, 0), (1, 0), (0.5, height)]).faces) < 10_000
+
+
+def test_spikes_that_were_moved_apart_neither():
+    surface = lift([(3, 3), (-3, -2), (-2, 0), (-3, -2)], triangles=50)
+    assert len(surface.faces) < 1000
+    surface.check()

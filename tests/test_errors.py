@@ -1,0 +1,31 @@
+"""Errors carry places and obstructions, also from one process to another."""
+
+import pickle
+
+import pytest
+
+import plyfold as pf
+from plyfold.errors import CurveError, NotImmersibleError, PlyfoldError
+
+
+def test_errors_survive_pickling():
+    with pytest.raises(NotImmersibleError) as caught:
+        pf.lift([(0, 0), (2, 2), (2, 0), (0, 2)])
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert again.obstruction == caught.value.obstruction
+    assert str(again) == str(caught.value)
+    with pytest.raises(CurveError) as caught:
+        pf.Curve([(0, 0), (1, float("nan")), (0, 1)])
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert (again.where, again.hint, str(again)) == (caught.value.where, caught.value.hint, str(caught.value))
+
+
+def test_every_error_has_the_one_root():
+    for name in pf.errors.__all__:
+        assert issubclass(getattr(pf.errors, name), PlyfoldError)
+
+
+def test_many_places_are_shortened():
+    error = PlyfoldError("here", where=[(i, i) for i in range(9)])
+    assert len(error.where) == 9
+    assert str(error).endswith("(4, 4) and 4 more")
