@@ -24,6 +24,8 @@ _USUAL_SHARE = 0.6
 _SMALLEST_ANGLE = 25.0
 # Edges are not split below this fraction of the usual edge, so that tiny features do not attract tiny triangles.
 _SHORTEST_EDGE = 0.05
+# Nor below this fraction of the usual edge of the curve.
+_SHORTEST_PIECE = 0.3
 _MOST_POINTS = 20_000_000
 
 
@@ -168,7 +170,7 @@ def _refined(arrangement: Arrangement, outline: _Outline, max_area: float | None
     if triangles:
         covered = _covered(outline)
         most = covered / (_USUAL_SHARE * triangles) if max_area is None else max_area / outline.scale**2
-        _refine(mesh, most, covered / most, uncovered)
+        _refine(mesh, most, covered / most, uncovered, _shortest_edge(outline, most))
     mesh.finalize_triangulation(uncovered)
     corners = mesh.vertices_array()
     unit_points = np.stack([corners["x"], corners["y"]], axis=1)
@@ -217,11 +219,19 @@ def _covered(outline: _Outline) -> float:
     return abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2
 
 
-def _refine(mesh: Any, most: float, wanted: float, uncovered: set[int]) -> None:
+def _shortest_edge(outline: _Outline, most: float) -> float:
+    """Return the length below which edges are not split: features finer than that attract no triangles.
+
+    It is well below the usual edge, and below most edges of the curve, which would stay the sides of slivers.
+    """
+    piece = outline.unit_points[np.roll(outline.chain, -1)] - outline.unit_points[outline.chain]
+    return float(min(_SHORTEST_EDGE * np.sqrt(most), _SHORTEST_PIECE * np.median(np.hypot(*piece.T))))
+
+
+def _refine(mesh: Any, most: float, wanted: float, uncovered: set[int], shortest: float) -> None:
     """Split triangles larger than ``most``, about ``wanted`` in all, and then those with sharp angles."""
     import pythoncdt as cdt
 
-    shortest = _SHORTEST_EDGE * float(np.sqrt(most))
     # A limit on added points, for needles would take as many as they are longer than wide to get good angles.
     limit = min(int(wanted) + mesh.vertices_count(), _MOST_POINTS)
     mesh.refine_triangles(limit, cdt.RefinementCriterion.LARGEST_AREA, most, uncovered, shortest)
