@@ -1,5 +1,6 @@
 import io
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,7 +10,9 @@ import numpy as np
 import pytest
 import shapely
 
+from plyfold import arrangement, bounds_disk, count_immersions
 from plyfold.errors import CurveError, FileFormatError
+from plyfold.gallery import CURVES
 from plyfold.io import reading
 from plyfold.io.reading import read
 
@@ -95,6 +98,12 @@ def test_missing_files_and_folders(tmp_path, name):
         read(f"{tmp_path}/{name}")
 
 
+@pytest.mark.parametrize("path", ["", "."])
+def test_paths_without_a_name_are_quoted(path):
+    with pytest.raises(FileFormatError, match=f"^'{re.escape(path)}': it cannot be read"):
+        read(path)
+
+
 @pytest.mark.skipif(os.name != "posix", reason="named pipes and endless devices")
 def test_an_endless_file_is_cut_off(monkeypatch):
     monkeypatch.setattr(reading, "SIZE_LIMIT", 2**20)
@@ -139,6 +148,28 @@ def test_the_examples_cross_themselves_as_often_as_drawn(name, crossings, tolera
     curve = read(EXAMPLES / f"{name}.svg", tolerance=tolerance)
     assert curve.repairs == ()
     assert crossing_count(curve.points) == crossings
+
+
+def test_the_milnor_example_is_the_curve_of_the_gallery():
+    """Its code, read from one of its visits on, is that of the gallery's; and it is smooth where that has corners."""
+    drawn, known = arrangement(read(EXAMPLES / "milnor.svg")), arrangement(CURVES["milnor"].curve)
+    assert code_from(known, 0) in [code_from(drawn, visit) for visit in range(12)]
+    assert count_immersions(drawn) == 2
+    edges = np.diff(drawn.curve.points, axis=0, append=drawn.curve.points[:1]) @ (1, 1j)
+    assert np.degrees(np.abs(np.angle(np.roll(edges, -1) / edges))).max() < 15
+
+
+def test_the_spiral_and_the_ramp_are_disks():
+    assert bounds_disk(read(EXAMPLES / "spiral.svg"))
+    assert bounds_disk(read(EXAMPLES / "ramp.svg"))
+
+
+def code_from(arranged, start):
+    steps = (start + np.arange(len(arranged.partner))) % len(arranged.partner)
+    return [
+        (int(p - s) % len(steps), bool(c))
+        for s, p, c in zip(steps, arranged.partner[steps], arranged.ccw[steps], strict=True)
+    ]
 
 
 def crossing_count(points):

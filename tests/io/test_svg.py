@@ -203,6 +203,12 @@ def test_a_path_with_two_closed_pieces():
         read_svg(path("M0 0L4 0L0 3Z M9 9L4 9L9 3Z"))
 
 
+def test_shapes_without_id_are_told_apart_from_pieces_of_one():
+    triangle = '<polygon points="0,0 4,0 0,3"/>'
+    with pytest.raises(FileFormatError, match=r"several shapes: shape 1 \(a polygon .*, shape 2 \(a polygon"):
+        read_svg(svg(2 * triangle))
+
+
 def test_an_open_path_is_a_stroke():
     curve = read_svg(path("M0 0 L40 0 L40 30 L0 30 L 0 1"))
     assert [(repair.where, repair.size) for repair in curve.repairs] == [((0, -0.5), 1)]

@@ -80,7 +80,7 @@ def read(path: str | Path, *, id: str | None = None, tolerance: float | None = N
     ...     read(file).points.tolist()
     [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]
     """
-    name = "standard input" if str(path) == "-" else Path(path).name
+    name = "standard input" if str(path) == "-" else Path(path).name or repr(str(path))
     try:
         return _decoded(_content(path), _format_of_path(path), id, tolerance)
     except InputError as error:

@@ -112,7 +112,9 @@ def _drawn_outlines(data: bytes, id: str | None) -> list[Outline]:
     document = _safe_document(data)
     try:
         shapes = _shapes_by_id(document)
-        outlines = [outline for shape in shapes.get(id, []) for outline in _outlines(shape)]
+        outlines = [
+            outline for number, shape in enumerate(shapes.get(id, []), 1) for outline in _outlines(shape, number)
+        ]
     except Exception as error:  # svgelements lets through whatever a bad number or attribute runs into
         reason = str(error) or "a number or a command is not understood"
         hint = "check the path data, transforms and lengths of its shapes"
@@ -137,12 +139,12 @@ def _shapes_within(element: Any, shape_type: type) -> list[Any]:
     return list(element.select(lambda part: isinstance(part, shape_type))) if hasattr(element, "select") else []
 
 
-def _outlines(shape: Any) -> Iterator[Outline]:
-    """Yield the pieces of one shape in final coordinates: transforms applied, y up."""
+def _outlines(shape: Any, number: int) -> Iterator[Outline]:
+    """Yield the pieces of one shape, named by its id or number, in final coordinates: transforms applied, y up."""
     transform = shape.transform
     matrix = np.array([(transform.a, transform.c), (-transform.b, -transform.d)])
     shift = np.array((transform.e, -transform.f))
-    name = repr(shape.id) if shape.id else f"a {type(shape).__name__.lower()} without id"
+    name = repr(shape.id) if shape.id else f"shape {number} (a {type(shape).__name__.lower()} without id)"
     for run, closed in _runs(shape.segments(transformed=False)):
         segments = tuple(_segment(part).transformed(matrix, shift) for part in run)
         start = matrix @ _place(run[0].start) + shift
