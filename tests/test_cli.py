@@ -1,5 +1,6 @@
 """The command line, as a person or a program meets it."""
 
+import io
 import json
 import os
 import signal
@@ -194,6 +195,69 @@ def test_gallery_lists_and_saves(tmp_path, capsys):
         assert ending == "svg" or not moved.any()  # the view box of an SVG moves the drawing into view
         assert points == pytest.approx(expected + moved, abs=1e-9)
         assert main(["gallery", "exit-ramp", "-o", str(out)]) == 2
+
+
+def test_the_whole_gallery_is_saved_and_read_back_exactly(tmp_path, capsys):
+    folder = tmp_path / "new" / "curves"
+    assert main(["gallery", "--all", str(folder)]) == 0
+    for name, known in CURVES.items():
+        assert pf.read(folder / f"{name}.csv").points.tolist() == known.curve.points.tolist()
+    assert len(list(folder.iterdir())) == len(CURVES)
+    (folder / "circle.csv").unlink()
+    assert main(["gallery", "--all", str(folder)]) == 2
+    assert "exists already" in capsys.readouterr().err
+    assert not (folder / "circle.csv").exists()  # refused before anything is written
+    assert main(["gallery", "--all", str(folder), "--force"]) == 0
+
+
+@pytest.mark.parametrize("words", [["-o", "OUT"], ["circle", "--all", "DIR"], ["-o", "OUT", "--all", "DIR"]])
+def test_gallery_options_that_do_not_go_together(words, tmp_path, capsys):
+    assert main(["gallery", *(str(tmp_path / word) if word.isupper() else word for word in words)]) == 2
+    assert capsys.readouterr().err.startswith("plyfold: ")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["exit-ramp", "limacon", "bennequin"])
+def test_help_names_every_key_of_the_json(name, capsys):
+    with pytest.raises(SystemExit):
+        main(["check", "--help"])
+    described = capsys.readouterr().out.partition("the object")[2]
+    main(["check", f"gallery:{name}", "--json"])
+    found = json.loads(capsys.readouterr().out)
+    assert [key for key in found if key not in described] == []
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def shown(text):
+    """What a terminal shows of it: each line after its last clearing."""
+    return [line.rpartition("\r\x1b[K")[2] for line in text.rstrip("\n").split("\n")]
+
+
+def test_messages_replace_the_line_of_progress(eight, tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    main(["lift", str(eight), "-o", str(tmp_path / "out.glb")])
+    assert "\r\x1b[Kfinding the crossings" in sys.stderr.getvalue()
+    assert [line.partition(":")[0] for line in shown(sys.stderr.getvalue())] == ["plyfold"]
+
+
+def test_an_interruption_replaces_the_line_of_progress(loop, monkeypatch):
+    def interrupt(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    monkeypatch.setattr("plyfold.report.verdict", interrupt)
+    assert main(["check", str(loop)]) == 130
+    assert shown(sys.stderr.getvalue()) == ["plyfold: interrupted; nothing was left half-written"]
+
+
+@pytest.mark.parametrize("stream", ["stdout", "stderr"])
+def test_closed_streams_are_no_error(loop, monkeypatch, stream):
+    monkeypatch.setattr(sys, stream, None)
+    assert main(["check", str(loop)]) == 0
 
 
 def run(*words, **options):

@@ -38,6 +38,23 @@ exit codes: 0 a disk (lift: written), 1 no disk or not to be lifted, 2 bad input
 130 interrupted
 """
 
+_JSON_GUIDE = """\
+the object that --json prints:
+  points, crossings         how many
+  cells                     object: winding number -> how many cells have it
+  turning_number, reversed  of the curve after it was turned counter-clockwise, if it was
+  repairs                   list of {kind, where: [x, y], size}: what was changed in the input
+  immersible, immersions    whether the curve bounds a disk, and in how many ways
+  sheets                    of each immersion (if immersible)
+  layerable                 whether an immersion can be lifted; null: unknown, the time limit (if immersible)
+  examined, levels          immersions tried until one could be lifted, and the layers of that one
+  reason, sentence, where   why not, in a word, in a sentence and at which places (if not immersible or layerable)
+  seconds                   object: stage -> seconds
+or, with exit code 2, {error, where, hint}
+"""
+
+_CLEAR_LINE = "\r\x1b[K"
+
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line.
@@ -60,7 +77,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     try:
         code = int(options.run(options))
-        sys.stdout.flush()
+        print(end="", flush=True)
         return code
     except (NotImmersibleError, NotEmbeddableError) as error:
         return _complain(options, error, NO_DISK)
@@ -73,11 +90,13 @@ def main(arguments: list[str] | None = None) -> int:
     except (PlyfoldError, OSError, MemoryError) as error:
         return _complain(options, error, BAD_INPUT)
     except KeyboardInterrupt:
+        _clear_progress()
         print("plyfold: interrupted; nothing was left half-written", file=sys.stderr)
         return INTERRUPTED
 
 
 def _complain(options: argparse.Namespace, error: Exception, code: int) -> int:
+    _clear_progress()
     message = str(error) or type(error).__name__
     if getattr(options, "json", False):
         where = [list(place) for place in getattr(error, "where", ())]
@@ -98,7 +117,8 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"plyfold {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     check = _command(commands, "check", _check, "say whether a curve bounds a disk, with all figures")
-    check.add_argument("--json", action="store_true", help="print one JSON object and nothing else")
+    check.add_argument("--json", action="store_true", help="print one JSON object and nothing else (see below)")
+    check.epilog, check.formatter_class = _JSON_GUIDE, argparse.RawDescriptionHelpFormatter
     lift = _command(commands, "lift", _lift, "lift a curve to a layered surface that does not cut itself")
     _outputs(lift, ".glb .obj .ply .stl .html")
     lift.add_argument(
@@ -139,8 +159,24 @@ def _gallery_command(commands: Any) -> None:
     gallery = commands.add_parser("gallery", help="list the named curves, or save one", description="Named curves.")
     gallery.set_defaults(run=_gallery)
     gallery.add_argument("name", nargs="?", help="a curve to print as CSV, or to save with -o")
-    gallery.add_argument("-o", "--output", metavar="OUT", help="a .csv, .json or .svg file")
-    gallery.add_argument("--force", action="store_true", help="replace an existing file")
+    gallery.add_argument(
+        "-o",
+        "--output",
+        metavar="OUT",
+        help="a .csv or .json file, which is read back exactly, or an .svg file, whose view box moves the curve",
+    )
+    gallery.add_argument("--all", metavar="DIR", help="save all curves there, as CSV files")
+    gallery.add_argument("--force", action="store_true", help="replace existing files")
+
+
+def _progress_is_seen() -> bool:
+    return sys.stderr is not None and sys.stderr.isatty()
+
+
+def _clear_progress() -> None:
+    """Wipe the line of progress, so that the next words begin a line of their own."""
+    if _progress_is_seen():
+        print(_CLEAR_LINE, end="", file=sys.stderr, flush=True)
 
 
 class _Stopwatch:
@@ -154,16 +190,16 @@ class _Stopwatch:
         if stage != self._stage:
             self.stop()
             self._stage = stage
-        if stage and sys.stderr.isatty():
-            print(f"\r\x1b[K{stage} {done:.0%}" if done else f"\r\x1b[K{stage}", end="", file=sys.stderr, flush=True)
+        if stage and _progress_is_seen():
+            share = f" {done:.0%}" if done else ""
+            print(f"{_CLEAR_LINE}{stage}{share}", end="", file=sys.stderr, flush=True)
 
     def stop(self) -> None:
         """End the current stage and clear the line."""
         now = time.perf_counter()
         if self._stage:
             self.seconds[self._stage] = self.seconds.get(self._stage, 0.0) + now - self._since
-            if sys.stderr.isatty():
-                print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+            _clear_progress()
         self._stage, self._since = "", now
 
 
@@ -302,24 +338,49 @@ def _figure(value: Any, obstruction: Any, what: str) -> Any:
 
 
 def _gallery(options: argparse.Namespace) -> int:
+    if options.all is not None:
+        _save_gallery(options)
+    elif options.name is None:
+        _list_gallery(options)
+    elif options.output is None:
+        print(_as_csv(_named(options.name).curve.points.tolist()), end="")
+    else:
+        _save_named(options)
+    return DISK
+
+
+def _list_gallery(options: argparse.Namespace) -> None:
     from plyfold.gallery import CURVES
 
-    if options.name is None:
-        print(f"{'name':<18}{'crossings':>9}{'turning':>9}{'immersions':>12}{'lifted':>8}  title")
-        for curve in CURVES.values():
-            figures = f"{curve.crossings:>9}{curve.turning_number:>9}{curve.immersions:>12}{curve.embeddable:>8}"
-            print(f"{curve.name:<18}{figures}  {curve.title}")
-        return DISK
+    if options.output is not None:
+        raise InputError("no curve was named to be saved", hint="give a NAME, or --all DIR for all curves")
+    print(f"{'name':<18}{'crossings':>9}{'turning':>9}{'immersions':>12}{'lifted':>8}  title")
+    for curve in CURVES.values():
+        figures = f"{curve.crossings:>9}{curve.turning_number:>9}{curve.immersions:>12}{curve.embeddable:>8}"
+        print(f"{curve.name:<18}{figures}  {curve.title}")
+
+
+def _save_named(options: argparse.Namespace) -> None:
     points = _named(options.name).curve.points.tolist()
-    if options.output is None:
-        print(_as_csv(points), end="")
-        return DISK
     writers = {".csv": _as_csv, ".json": _as_json, ".svg": _as_svg}
     _refuse_output(options.output, tuple(writers), options.force)
     content = writers[Path(options.output).suffix.lower()](points)
     save_bytes(options.output, content.encode(), options.force)
     print(f"wrote {options.output}")
-    return DISK
+
+
+def _save_gallery(options: argparse.Namespace) -> None:
+    from plyfold.gallery import CURVES
+
+    if options.name is not None or options.output is not None:
+        raise InputError("--all saves every curve", hint="leave out the NAME and -o")
+    Path(options.all).mkdir(parents=True, exist_ok=True)
+    paths = {name: Path(options.all) / f"{name}.csv" for name in CURVES}
+    for path in paths.values():
+        refuse_existing(path, options.force)
+    for name, path in paths.items():
+        save_bytes(path, _as_csv(CURVES[name].curve.points.tolist()).encode(), options.force)
+        print(f"wrote {path}")
 
 
 def _as_csv(points: list[list[float]]) -> str:
