@@ -74,10 +74,7 @@ def glue_sheets(arrangement: Arrangement, tree: DualTree, chords: Iterable[Chord
 def _name_sheets(
     arrangement: Arrangement, tree: DualTree, partner: dict[int, int], first_sheet: list[int]
 ) -> list[dict[int, int]]:
-    """Return for each cell its sheets by name; the name is a descending border, the value the sheet's number.
-
-    Every cell also remembers under its link's name which sheet the link's own one is.
-    """
+    """Return for each cell its sheets by name; the name is a descending border, the value the sheet's number."""
     names: list[dict[int, int]] = [{} for _ in tree.order]
     for cell in tree.order[1:]:
         link = tree.link[cell]
