@@ -222,6 +222,8 @@ def _without_repetitions(points: npt.NDArray[np.float64]) -> tuple[npt.NDArray[n
 
 
 def _refuse_degenerate(points: npt.NDArray[np.float64]) -> None:
+    if _has_a_corner(points):
+        return
     distinct = np.unique(points, axis=0)
     if len(distinct) < 3:
         count = "no points" if len(distinct) == 0 else f"only {len(distinct)} different point(s)"
@@ -230,3 +232,12 @@ def _refuse_degenerate(points: npt.NDArray[np.float64]) -> None:
     if not orient(distinct[0], distinct[-1], distinct).any():
         hint = "a curve that runs back and forth on one line bounds nothing"
         raise CurveError("all points lie on one line", where=[distinct[0], distinct[-1]], hint=hint)
+
+
+def _has_a_corner(points: npt.NDArray[np.float64]) -> bool:
+    """Tell whether the point that seems farthest from the line through the first two is off it, as is usual."""
+    if len(points) < 3:
+        return False
+    x, y = (points - points[0]).T
+    farthest = int(np.abs(x[1] * y - y[1] * x).argmax())
+    return bool(orient(points[0], points[1], points[farthest]))

@@ -17,11 +17,15 @@ __all__ = ["compare_along_edge", "cross_sign", "orient"]
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Signs: TypeAlias = npt.NDArray[np.int8]
+Bools: TypeAlias = npt.NDArray[np.bool_]
 
 # Shewchuk's bound for orient2d is (3 + 16 u) u with u = 2^-53; doubled here, which costs a few exact calls more.
 _ORIENT_ERROR = 6.7e-16
 # Below this size a product of two differences may have underflowed, and the bound above does not hold.
 _UNDERFLOW = 1e-290
+# Between these sizes nothing in Dekker's product of two doubles under- or overflows.
+_SMALL_PRODUCT, _LARGE_PRODUCT = 1e-250, 1e250
+_SPLITTER = 2.0**27 + 1
 # The parameter of a crossing is a quotient of two sums, each within 8 u of its magnitude.
 _PARAMETER_ERROR = 4e-15
 
@@ -73,18 +77,78 @@ def cross_sign(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.Arra
     >>> cross_sign([0, 0], [1, 0], [7, 7], [7, 8])
     array(1, dtype=int8)
     """
-    a, b, c, d = np.broadcast_arrays(*(np.asarray(p, dtype=np.float64) for p in (a, b, c, d)))
+    return counted_cross_sign(a, b, c, d)[0]
+
+
+def counted_cross_sign(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayLike) -> tuple[Signs, int]:
+    """Return the signs of :func:`cross_sign`, and how many of them had to be settled with fractions.
+
+    Three stages, each for what the one before leaves open: one rounded determinant with a bound on its error; the two
+    products compared without rounding, where the differences are exact (as on grids, and between close points);
+    fractions.
+
+    Examples
+    --------
+    >>> counted_cross_sign([0, 0], [[1, 3], [0.1, 0.1]], [0, 0], [[1, 3], [1e20, 1e20]])
+    (array([0, 0], dtype=int8), 0)
+    """
+    a, b, c, d = (np.asarray(p, dtype=np.float64) for p in (a, b, c, d))
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-        left = np.asarray((b[..., 0] - a[..., 0]) * (d[..., 1] - c[..., 1]))
-        right = np.asarray((b[..., 1] - a[..., 1]) * (d[..., 0] - c[..., 0]))
+        along, across = b - a, d - c
+        left = np.asarray(along[..., 0] * across[..., 1])
+        right = np.asarray(along[..., 1] * across[..., 0])
         determinant = left - right
         bound = _ORIENT_ERROR * (np.abs(left) + np.abs(right)) + _UNDERFLOW
-        signs = np.asarray(np.sign(np.nan_to_num(determinant)), dtype=np.int8)
-    # Written so that NaN and infinity, the marks of overflow, count as undecided.
-    for row in np.argwhere(~(np.abs(determinant) > bound)):
-        place = tuple(row)
-        signs[place] = _sign(_cross(*(_exact(p[place]) for p in (a, b, c, d))))
-    return signs
+        # Written so that NaN and infinity, the marks of overflow, count as undecided.
+        undecided = np.asarray(~(np.abs(determinant) > bound))
+        signs = np.asarray(np.sign(determinant)).astype(np.int8)
+    if not undecided.any():
+        return signs, 0
+    open_rows = (np.broadcast_to(p, (*signs.shape, 2))[undecided] for p in (a, b, c, d))
+    signs[undecided], count = _settle(*open_rows)
+    return signs, count
+
+
+def _settle(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Signs, int]:
+    """Return the signs of the cross products of (m, 2) points beyond rounding, and how many took fractions."""
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+        left, left_rest, left_exact = _exact_product(a[:, 0], b[:, 0], c[:, 1], d[:, 1])
+        right, right_rest, right_exact = _exact_product(a[:, 1], b[:, 1], c[:, 0], d[:, 0])
+        # Rounding is monotone: products that round to different numbers differ in the same sense.
+        signs = np.where(left == right, np.sign(left_rest - right_rest), np.sign(left - right)).astype(np.int8)
+    unsettled = np.flatnonzero(~(left_exact & right_exact)).tolist()
+    for row in unsettled:
+        signs[row] = _sign(_cross(*(_exact(p[row]) for p in (a, b, c, d))))
+    return signs, len(unsettled)
+
+
+def _exact_product(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Floats, Bools]:
+    """Return (b − a)(d − c) as a rounded product and the rest that rounding took off, and where they are exact.
+
+    Dekker's product; its rest is exact unless something over- or underflows.
+    """
+    first, second = b - a, d - c
+    product = first * second
+    (high, low), (other_high, other_low) = _halves(first), _halves(second)
+    rest = low * other_low - (((product - high * other_high) - low * other_high) - high * other_low)
+    zero = (first == 0) | (second == 0)
+    size = np.abs(product)
+    safe = (size > _SMALL_PRODUCT) & (size < _LARGE_PRODUCT) & np.isfinite(rest)
+    exact = zero | (safe & _is_exact_difference(a, b, first) & _is_exact_difference(c, d, second))
+    return np.where(zero, 0.0, product), np.where(zero, 0.0, rest), exact
+
+
+def _halves(number: Floats) -> tuple[Floats, Floats]:
+    """Split doubles into two of 26 bits each, whose products are exact (Veltkamp)."""
+    shifted = _SPLITTER * number
+    high = shifted - (shifted - number)
+    return high, number - high
+
+
+def _is_exact_difference(a: Floats, b: Floats, difference: Floats) -> Bools:
+    """Tell where b − a was not rounded (the error term of Knuth's two-sum is zero)."""
+    minus_a = difference - b
+    return np.asarray((b - (difference - minus_a)) - (a + minus_a) == 0)
 
 
 def _exact(point: Floats) -> tuple[Fraction, Fraction]:

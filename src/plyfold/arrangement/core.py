@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.crossings import Visits
+from plyfold.arrangement.edge_pairs import Ints
 from plyfold.arrangement.general_position import in_general_position
 from plyfold.arrangement.planar_map import (
-    Bools,
-    Ints,
-    label_cells,
+    cell_boundaries,
     left_windings,
     next_darts,
     reversed_code,
@@ -23,7 +22,7 @@ from plyfold.arrangement.planar_map import (
 )
 from plyfold.curve import Curve, as_curve
 from plyfold.errors import GaussCodeError, PlyfoldError
-from plyfold.predicates import Floats, cross_sign, orient
+from plyfold.predicates import Bools, Floats, cross_sign, orient
 
 # Anything that stands for a closed curve: Curve, array-like (n, 2), shapely geometry or Arrangement.
 CurveLike: TypeAlias = Any
@@ -56,6 +55,11 @@ class Arrangement:
         visit i + 1. The cell meant is on the dart's left.
     next_dart, cell_of_dart : (darts,) int
         The dart that follows around the cell on the left, and that cell. Cell 0 is the unbounded one.
+    cell_start : (cells + 1,) int
+        Where the boundary of each cell starts in ``cell_darts``.
+    cell_darts : (darts,) int
+        The boundary of cell c is ``cell_darts[cell_start[c]:cell_start[c + 1]]``: its darts in order, walked with the
+        cell on the left, the lowest dart first.
     winding : (cells,) int
         Winding number of each cell.
     turning_number : int
@@ -70,6 +74,8 @@ class Arrangement:
         Edge of the curve on which each visit lies; empty if only the code is known.
     reversed : bool
         True if the input ran clockwise and was turned round.
+    exact_signs : int
+        How many signs and places along edges had to be settled with fractions; 0 if only the code is known.
 
     Examples
     --------
@@ -84,6 +90,8 @@ class Arrangement:
     outer: int
     next_dart: Ints
     cell_of_dart: Ints
+    cell_start: Ints
+    cell_darts: Ints
     winding: Ints
     turning_number: int
     crossing_of_visit: Ints
@@ -91,6 +99,7 @@ class Arrangement:
     crossings: Floats = field(default_factory=_no_points)
     visit_edge: Ints = field(default_factory=_no_edges)
     reversed: bool = False
+    exact_signs: int = 0
 
     def __post_init__(self) -> None:
         for value in vars(self).values():
@@ -127,21 +136,23 @@ class Arrangement:
         (2, [0, 1, 2])
         """
         code = _checked_code(partner, ccw, outer)
-        if whitney_turning_number(*code) < 0:
-            return replace(cls._from_code(*reversed_code(*code)), reversed=True)
-        return cls._from_code(*code)
+        turning = whitney_turning_number(*code)
+        code = reversed_code(*code) if turning < 0 else code
+        return cls._from_code(*code, turning_number=abs(turning), reversed=turning < 0)
 
     @classmethod
-    def _from_code(cls, partner: Ints, ccw: Bools, outer: int) -> Arrangement:
+    def _from_code(cls, partner: Ints, ccw: Bools, outer: int, **more: Any) -> Arrangement:
         following = next_darts(partner, ccw)
-        cell_of_dart = label_cells(following, outer)
-        cells = int(cell_of_dart.max()) + 1
+        cell_start, cell_darts = cell_boundaries(following, outer)
+        cells = len(cell_start) - 1
         if cells != len(partner) // 2 + 2:
             raise GaussCodeError(
                 f"the code draws {cells} cells, and a plane curve with {len(partner) // 2} crossings has "
                 f"{len(partner) // 2 + 2}",
                 hint="check partner and ccw: this code belongs to a curve on a surface with handles",
             )
+        cell_of_dart = np.empty_like(cell_darts)
+        cell_of_dart[cell_darts] = np.repeat(np.arange(cells), np.diff(cell_start))
         left = left_windings(ccw, outer)
         winding = np.empty(cells, dtype=np.int64)
         winding[cell_of_dart[0::2]] = left
@@ -152,9 +163,11 @@ class Arrangement:
             outer=int(outer),
             next_dart=following,
             cell_of_dart=cell_of_dart,
+            cell_start=cell_start,
+            cell_darts=cell_darts,
             winding=winding,
-            turning_number=whitney_turning_number(partner, ccw, outer),
             crossing_of_visit=_number_crossings(partner),
+            **more,
         )
 
     def gauss_code(self) -> tuple[list[int], list[bool], int]:
@@ -189,9 +202,8 @@ class Arrangement:
     @cached_property
     def cells(self) -> tuple[tuple[int, ...], ...]:
         """The boundary of each cell: its darts in order, walked with the cell on the left."""
-        first = np.unique(self.cell_of_dart, return_index=True)[1]
-        following = self.next_dart.tolist()
-        return tuple(tuple(_orbit(following, int(dart))) for dart in first)
+        darts = self.cell_darts.tolist()
+        return tuple(tuple(darts[low:high]) for low, high in pairwise(self.cell_start.tolist()))
 
     def border_points(self, border: int) -> Floats:
         """Return the polyline of a border, shape (m, 2), from crossing to crossing with both ends.
@@ -239,7 +251,8 @@ class Arrangement:
 
     def __repr__(self) -> str:
         kind = "a Gauss code" if self.curve is None else f"a curve of {len(self.curve)} points"
-        return f"<Arrangement of {kind}: {self.n_crossings} crossings, turning number {self.turning_number}>"
+        exact = f", {self.exact_signs} exact signs" if self.exact_signs else ""
+        return f"<Arrangement of {kind}: {self.n_crossings} crossings, turning number {self.turning_number}{exact}>"
 
     def _drawn(self) -> Curve:
         if self.curve is None:
@@ -266,7 +279,7 @@ class Arrangement:
     def _theorems(self) -> Iterator[tuple[str, bool]]:
         left, right = self.winding[self.left_cell], self.winding[self.right_cell]
         yield "Euler: there are two cells more than crossings", self.n_cells == self.n_crossings + 2
-        yield "every dart belongs to one cell", sorted(np.concatenate(self.cells)) == list(range(2 * self.n_borders))
+        yield "every dart belongs to one cell", _same(np.sort(self.cell_darts), np.arange(2 * self.n_borders))
         yield "a dart and the next one have the same cell", _same(self.cell_of_dart, self.cell_of_dart[self.next_dart])
         yield "the unbounded cell winds 0 times", self.winding[self.cell_of_dart[self.outer]] == 0
         yield "left of a border winds once more than right of it", _same(left, right + 1)
@@ -288,18 +301,10 @@ def _same(first: npt.NDArray[np.int64], second: npt.NDArray[np.int64]) -> bool:
     return bool((first == second).all())
 
 
-def _orbit(following: list[int], start: int) -> Iterator[int]:
-    dart = start
-    while True:
-        yield dart
-        dart = following[dart]
-        if dart == start:
-            return
-
-
 def _number_crossings(partner: Ints) -> Ints:
-    first = np.minimum(np.arange(len(partner)), partner)
-    return np.asarray(np.unique(first, return_inverse=True)[1], dtype=np.int64)
+    visit = np.arange(len(partner))
+    first = visit < partner
+    return np.asarray((np.cumsum(first) - 1)[np.where(first, visit, partner)], dtype=np.int64)
 
 
 def _checked_code(partner: npt.ArrayLike, ccw: npt.ArrayLike, outer: int) -> tuple[Ints, Bools, int]:
@@ -420,22 +425,28 @@ def arrangement(curve: CurveLike, general_position: Literal["perturb", "raise"] 
     if isinstance(curve, Arrangement):
         return curve
     separated, visits = in_general_position(as_curve(curve), general_position)
-    result = _from_visits(separated, visits)
-    if result.turning_number < 0:
-        return replace(arrangement(separated.reversed(), "raise"), reversed=True)
-    return result
-
-
-def _from_visits(curve: Curve, visits: Visits) -> Arrangement:
-    outer = _outer_dart(curve.points, visits.edge)
-    combinatorial = Arrangement._from_code(visits.partner, visits.ccw, outer)
-    first = np.flatnonzero(np.arange(len(visits.partner)) < visits.partner)
-    return replace(combinatorial, curve=curve, crossings=visits.point[first], visit_edge=visits.edge)
+    edge, point = visits.edge, visits.point
+    code = visits.partner, visits.ccw, _outer_dart(separated.points, edge)
+    turning = whitney_turning_number(*code)
+    if turning < 0:
+        code, separated = reversed_code(*code), separated.reversed()
+        edge, point = len(separated) - 1 - edge[::-1], point[::-1]
+    return Arrangement._from_code(
+        *code,
+        turning_number=abs(turning),
+        reversed=turning < 0,
+        curve=separated,
+        crossings=point[np.arange(len(point)) < code[0]],
+        visit_edge=edge,
+        exact_signs=visits.exact_signs,
+    )
 
 
 def _outer_dart(points: Floats, visit_edge: Ints) -> int:
     """Return a dart with the unbounded cell on its left: at the leftmost vertex, on its convex side."""
-    corner = int(np.lexsort((points[:, 1], points[:, 0]))[0])
+    x, y = points.T
+    leftmost = np.flatnonzero(x == x.min())
+    corner = int(leftmost[y[leftmost].argmin()])
     before, after = points[corner - 1], points[(corner + 1) % len(points)]
     border = (int(np.searchsorted(visit_edge, corner)) - 1) % max(len(visit_edge), 1)
     return 2 * border + int(cross_sign(before, points[corner], points[corner], after) > 0)

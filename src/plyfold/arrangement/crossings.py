@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TypeAlias
+from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 
-from plyfold.predicates import Floats, Signs, exact_parameter, orient, parameter_along_edge
+from plyfold.arrangement.edge_pairs import Ints, near_pairs
+from plyfold.predicates import Bools, Floats, Signs, counted_cross_sign, exact_parameter, parameter_along_edge
 
-__all__ = ["Contacts", "Visits", "find_contacts", "order_visits"]
-
-Ints: TypeAlias = npt.NDArray[np.int64]
-Bools: TypeAlias = npt.NDArray[np.bool_]
+__all__ = ["Contacts", "Visits", "edge_ends", "find_contacts", "order_visits"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,11 +26,14 @@ class Contacts:
         True where the second edge crosses the first from right to left.
     touches : (t, 2) int
         Rows (vertex, edge): the vertex lies exactly on the edge. Empty in general position.
+    exact_signs : int
+        How many signs had to be settled with fractions.
     """
 
     edges: Ints
     from_right: Bools
     touches: Ints
+    exact_signs: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +52,8 @@ class Visits:
         The crossing, rounded; the same for both visits.
     triple : (t, 3) int
         Triples of edges that meet in one point. Empty in general position.
+    exact_signs : int
+        How many signs and places along edges had to be settled with fractions.
     """
 
     edge: Ints
@@ -59,6 +61,7 @@ class Visits:
     ccw: Bools
     point: Floats
     triple: Ints
+    exact_signs: int
 
 
 def find_contacts(points: Floats) -> Contacts:
@@ -74,49 +77,64 @@ def find_contacts(points: Floats) -> Contacts:
     Contacts
         Exact. Cost: O(n log n) plus the number of pairs of edges whose bounding boxes meet.
     """
-    n = len(points)
-    following = np.roll(points, -1, axis=0)
-    first, second = _overlapping_boxes(points, following)
-    apart = (second - first > 1) & (second - first < n - 1)
-    first, second = first[apart], second[apart]
-    a, b, c, d = points[first], following[first], points[second], following[second]
-    side_c, side_d, side_a, side_b = orient(a, b, c), orient(a, b, d), orient(c, d, a), orient(c, d, b)
-    proper = (side_c * side_d < 0) & (side_a * side_b < 0)
-    touches = [
-        _touches(points, second, first, side_c),
-        _touches(points, (second + 1) % n, first, side_d),
-        _touches(points, first, second, side_a),
-        _touches(points, (first + 1) % n, second, side_b),
-        *_spikes(points, following),
-    ]
+    ends = edge_ends(points)
+    parts = [_meetings(ends, first, second) for first, second in near_pairs(points)]
+    parts.append(_spikes(ends))
+    touches = np.concatenate([part.touches for part in parts])
+    return Contacts(
+        edges=np.concatenate([part.edges for part in parts]),
+        from_right=np.concatenate([part.from_right for part in parts]),
+        touches=np.unique(touches, axis=0) if len(touches) else touches,
+        exact_signs=sum(part.exact_signs for part in parts),
+    )
+
+
+def edge_ends(points: Floats) -> Floats:
+    """Return start and end of each edge of a closed polyline, shape (n, 2, 2)."""
+    return np.stack([points, np.concatenate([points[1:], points[:1]])], axis=1)
+
+
+def _meetings(ends: Floats, first: Ints, second: Ints) -> Contacts:
+    """Return the contacts of edges that are no neighbours, shape (m,) each."""
+    side, exact = _sides(ends, first, second)
+    # Edges keep apart if one of them lies on one side of the other.
+    met = side[:, 0] * side[:, 1] <= 0
+    first, second, side = first[met], second[met], side[met]
+    other_side, other_exact = _sides(ends, second, first)
+    proper = (side[:, 0] * side[:, 1] < 0) & (other_side[:, 0] * other_side[:, 1] < 0)
+    touches = np.concatenate([_touches(ends, second, first, side), _touches(ends, first, second, other_side)])
     edges = np.stack([first[proper], second[proper]], axis=1)
-    return Contacts(edges, side_d[proper] > 0, np.unique(np.concatenate(touches), axis=0))
+    return Contacts(edges, side[proper, 1] > 0, touches, exact + other_exact)
 
 
-def _overlapping_boxes(start: Floats, end: Floats) -> tuple[Ints, Ints]:
-    """Return the pairs of edges i < j whose bounding boxes meet."""
-    from shapely import STRtree, linestrings
-
-    segments = linestrings(np.stack([start, end], axis=1))
-    first, second = STRtree(segments).query(segments)
-    keep = first < second
-    return first[keep].astype(np.int64), second[keep].astype(np.int64)
+def _sides(ends: Floats, edge: Ints, other: Ints) -> tuple[Signs, int]:
+    """Return on which side of each edge the other edge starts and ends, shape (m, 2)."""
+    start, end = ends[edge, 0, None], ends[edge, 1, None]
+    return counted_cross_sign(start, end, start, ends[other])
 
 
-def _touches(points: Floats, vertex: Ints, edge: Ints, side: Signs) -> Ints:
-    """Return the rows (vertex, edge) where a vertex on the line of an edge lies on the edge itself."""
-    a, b, v = points[edge], points[(edge + 1) % len(points)], points[vertex]
-    hit = (side == 0) & ((np.minimum(a, b) <= v) & (v <= np.maximum(a, b))).all(axis=1)
-    return np.stack([vertex[hit], edge[hit]], axis=1)
+def _touches(ends: Floats, edge: Ints, other: Ints, side: Signs) -> Ints:
+    """Return the rows (vertex, other edge) where an edge starts or ends on the other; ``side`` is that of its ends."""
+    on_line, end = np.nonzero(side == 0)
+    edge, other = edge[on_line], other[on_line]
+    place, line = ends[edge, end], ends[other]
+    hit = ((line.min(axis=1) <= place) & (place <= line.max(axis=1))).all(axis=1)
+    vertex = (edge + end) % len(ends)
+    return np.stack([vertex[hit], other[hit]], axis=1)
 
 
-def _spikes(points: Floats, following: Floats) -> list[Ints]:
-    """Return the rows (vertex, edge) of edges that run straight back over the edge before them."""
-    n = len(points)
-    edge = np.arange(n)
-    after = np.roll(following, -1, axis=0)
-    side = orient(points, following, after)
-    return [_touches(points, edge, (edge + 1) % n, side), _touches(points, (edge + 2) % n, edge, side)]
+def _spikes(ends: Floats) -> Contacts:
+    """Return the contacts of edges that run straight back over the edge before them."""
+    ahead = np.sign(ends[:, 1] - ends[:, 0])
+    following = np.concatenate([ahead[1:], ahead[:1]])
+    edge = np.flatnonzero((ahead * following <= 0).all(axis=1))  # no coordinate goes on
+    after = (edge + 1) % len(ends)
+    side, exact = _sides(ends, edge, after)
+    other_side, other_exact = _sides(ends, after, edge)
+    # The end that both edges share says nothing.
+    side[:, 0], other_side[:, 1] = 1, 1
+    touches = np.concatenate([_touches(ends, after, edge, side), _touches(ends, edge, after, other_side)])
+    return Contacts(np.empty((0, 2), dtype=np.int64), np.empty(0, dtype=np.bool_), touches, exact + other_exact)
 
 
 def order_visits(points: Floats, contacts: Contacts) -> Visits:
@@ -132,46 +150,49 @@ def order_visits(points: Floats, contacts: Contacts) -> Visits:
     Returns
     -------
     Visits
-        Exact: wherever rounding could change the order on an edge, that edge is sorted again with fractions.
+        Exact: visits whose order rounding could change are sorted again with fractions.
         Cost: O(k log k).
     """
+    ends = edge_ends(points)
     k = len(contacts.edges)
-    edge = contacts.edges.T.ravel()
-    other = contacts.edges[:, ::-1].T.ravel()
-    ends = np.stack([points, np.roll(points, -1, axis=0)], axis=1)
-    parameter, error = parameter_along_edge(ends[edge, 0], ends[edge, 1], ends[other, 0], ends[other, 1])
+    edge, other = contacts.edges.T.ravel(), contacts.edges[:, ::-1].T.ravel()
+    own, crossed = ends[edge], ends[other]
+    parameter, error = parameter_along_edge(own[:, 0], own[:, 1], crossed[:, 0], crossed[:, 1])
     order = np.lexsort((parameter, edge))
-    triple = _resort_exactly(order, edge, other, ends, _unsure_edges(edge[order], parameter[order], error[order]))
+    runs = _unsure_runs(edge[order], parameter[order], error[order])
+    triple = [three for run in runs for three in _sort_exactly(order[run], edge, other, ends)]
     rank = np.empty(2 * k, dtype=np.int64)
     rank[order] = np.arange(2 * k)
-    start, end = ends[edge[:k], 0], ends[edge[:k], 1]
-    crossing = start + parameter[:k, None] * (end - start)
+    crossing = own[:k, 0] + parameter[:k, None] * (own[:k, 1] - own[:k, 0])
     return Visits(
         edge=edge[order],
-        partner=rank[np.roll(np.arange(2 * k), -k)][order],
+        partner=rank[np.where(order < k, order + k, order - k)],
         ccw=np.concatenate([contacts.from_right, ~contacts.from_right])[order],
         point=np.concatenate([crossing, crossing])[order],
         triple=np.array(triple, dtype=np.int64).reshape(-1, 3),
+        exact_signs=contacts.exact_signs + sum(run.stop - run.start for run in runs),
     )
 
 
-def _unsure_edges(edge: Ints, parameter: Floats, error: Floats) -> Ints:
-    """Return the edges on which two neighbouring parameters are closer than their rounding errors."""
+def _unsure_runs(edge: Ints, parameter: Floats, error: Floats) -> list[slice]:
+    """Return the runs of visits, sorted by edge and parameter, whose order rounding errors leave open."""
     close = ~(parameter[1:] - parameter[:-1] > error[1:] + error[:-1])
-    return np.unique(edge[1:][close & (edge[1:] == edge[:-1])])
+    unsure = np.unique(edge[1:][close & (edge[1:] == edge[:-1])])
+    bounds = np.searchsorted(edge, [unsure, unsure + 1]).T.tolist()
+    return [run for low, high in bounds for run in _runs(low, parameter[low:high], error[low:high])]
 
 
-def _resort_exactly(order: Ints, edge: Ints, other: Ints, ends: Floats, unsure: Ints) -> list[tuple[int, int, int]]:
-    """Sort the visits on the unsure edges again, in place and exactly; return the triples of edges that meet."""
-    triple = []
-    sorted_edge = edge[order]
-    for e in unsure.tolist():
-        low, high = np.searchsorted(sorted_edge, [e, e + 1])
-        exact = {v: exact_parameter(*ends[e], *ends[other[v]]) for v in order[low:high].tolist()}
-        order[low:high] = sorted(exact, key=exact.__getitem__)
-        triple += [(e, int(other[v]), int(other[w])) for v, w in _pairs(order[low:high]) if exact[v] == exact[w]]
-    return triple
+def _runs(start: int, parameter: Floats, error: Floats) -> Iterator[slice]:
+    """Yield the runs of visits on one edge that must be sorted together, as slices from ``start`` on."""
+    reached = np.maximum.accumulate(parameter + error)
+    ahead = np.minimum.accumulate((parameter - error)[::-1])[::-1]
+    cuts = [0, *(np.flatnonzero(reached[:-1] < ahead[1:]) + 1).tolist(), len(parameter)]
+    return (slice(start + low, start + high) for low, high in pairwise(cuts) if high - low > 1)
 
 
-def _pairs(items: Ints) -> Iterator[tuple[int, int]]:
-    return zip(items[:-1].tolist(), items[1:].tolist(), strict=True)
+def _sort_exactly(visits: Ints, edge: Ints, other: Ints, ends: Floats) -> list[tuple[int, int, int]]:
+    """Sort some visits on one edge in place; return the triples of edges that meet."""
+    e = int(edge[visits[0]])
+    place = {v: exact_parameter(*ends[e], *ends[other[v]]) for v in visits.tolist()}
+    visits[:] = sorted(place, key=lambda v: (place[v], other[v]))
+    return [(e, int(other[v]), int(other[w])) for v, w in pairwise(visits.tolist()) if place[v] == place[w]]

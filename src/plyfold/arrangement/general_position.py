@@ -13,10 +13,11 @@ from typing import Literal
 
 import numpy as np
 
-from plyfold.arrangement.crossings import Bools, Contacts, Ints, Visits, find_contacts, order_visits
+from plyfold.arrangement.crossings import Contacts, Visits, find_contacts, order_visits
+from plyfold.arrangement.edge_pairs import Ints
 from plyfold.curve import Curve, Repair
 from plyfold.errors import GeneralPositionError, InputError
-from plyfold.predicates import Floats, orient
+from plyfold.predicates import Bools, Floats, orient
 
 __all__ = ["in_general_position"]
 

@@ -6,15 +6,15 @@ CONVENTIONS.md. The cells are the orbits of *turn left at every crossing*.
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from collections.abc import Iterator
+from itertools import chain
 
 import numpy as np
-import numpy.typing as npt
 
-__all__ = ["label_cells", "left_windings", "next_darts", "reversed_code", "whitney_turning_number"]
+from plyfold.arrangement.edge_pairs import Ints
+from plyfold.predicates import Bools
 
-Ints: TypeAlias = npt.NDArray[np.int64]
-Bools: TypeAlias = npt.NDArray[np.bool_]
+__all__ = ["cell_boundaries", "left_windings", "next_darts", "reversed_code", "whitney_turning_number"]
 
 
 def next_darts(partner: Ints, ccw: Bools) -> Ints:
@@ -34,16 +34,53 @@ def next_darts(partner: Ints, ccw: Bools) -> Ints:
     return following
 
 
-def label_cells(following: Ints, outer: int) -> Ints:
-    """Return the cell on the left of each dart; the unbounded cell is 0, the others follow by their lowest dart."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
+def cell_boundaries(following: Ints, outer: int) -> tuple[Ints, Ints]:
+    """Return the boundaries of all cells, the unbounded one first, the others by their lowest darts.
 
-    n = len(following)
-    graph = coo_array((np.ones(n, dtype=np.int8), (np.arange(n), following)), shape=(n, n))
-    label = connected_components(graph, directed=False)[1].astype(np.int64)
-    unbounded = label[outer]
-    return np.where(label == unbounded, 0, label + (label < unbounded))
+    Parameters
+    ----------
+    following : (darts,) int
+        The dart after each dart around the cell on its left.
+    outer : int
+        A dart of the unbounded cell.
+
+    Returns
+    -------
+    cell_start : (cells + 1,) int
+    cell_darts : (darts,) int
+        The boundary of cell c is ``cell_darts[cell_start[c]:cell_start[c + 1]]``: its darts in order, the lowest first.
+
+    Notes
+    -----
+    O(darts). A walk in plain Python: no slower than doubling pointers in numpy for millions of darts, and quicker
+    than one numpy call after another for hundreds.
+    """
+    after = following.tolist()
+    starts: list[int] = []
+    darts: list[int] = []
+    for start in chain([min(_orbit(after, outer))], range(len(after))):
+        if after[start] >= 0:
+            starts.append(len(darts))
+            _walk_off(after, start, darts)
+    return np.array([*starts, len(darts)]), np.array(darts)
+
+
+def _orbit(after: list[int], start: int) -> Iterator[int]:
+    dart = start
+    while True:
+        yield dart
+        dart = after[dart]
+        if dart == start:
+            return
+
+
+def _walk_off(after: list[int], start: int, darts: list[int]) -> None:
+    """Append the orbit of a dart to ``darts``, and mark it as walked with −1 in ``after``."""
+    dart = start
+    while (next_dart := after[dart]) >= 0:
+        darts.append(dart)
+        after[dart] = -1
+        dart = next_dart
 
 
 def left_windings(ccw: Bools, outer: int) -> Ints:
