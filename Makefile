@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 DEMO   ?= examples/ramp.svg
 
-.PHONY: demo test test-slow lint pictures benchmark clean
+.PHONY: demo test test-slow nightly lint pictures benchmark benchmark-docs clean
 
 demo: $(READY)  ## Lift an example: out/ gets a GLB, a 3D page and a picture of every stage
 	@mkdir -p out
@@ -22,6 +22,9 @@ test: $(READY) lint  ## Style, types, and every test but the slow ones
 test-slow: $(READY)  ## The tests that take minutes: every curve with six crossings
 	$(BIN)/python -m pytest -n 2 -m slow
 
+nightly: $(READY)  ## 100,000 random curves against the slow references: under an hour; OPTIONS="--seconds 60" for a taste
+	PYTHONPATH=tests $(BIN)/python -m nightly $(OPTIONS)
+
 lint: $(READY)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
@@ -30,8 +33,11 @@ lint: $(READY)
 pictures: $(READY)  ## Rebuild the pictures of the README
 	$(BIN)/python docs/pictures.py
 
-benchmark: $(READY)  ## Times and ratios against GEOS, from one run
-	$(BIN)/python benchmarks/stages.py
+benchmark: $(READY)  ## Times, memory and ratios against GEOS, from one run of at most ten minutes; see --help for OPTIONS
+	$(BIN)/python benchmarks/run.py $(OPTIONS)
+
+benchmark-docs: $(READY)  ## The same, written into docs/benchmarks.md
+	$(BIN)/python benchmarks/run.py --docs $(OPTIONS)
 
 $(READY): pyproject.toml
 	@if command -v uv >/dev/null 2>&1; then \

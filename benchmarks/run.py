@@ -1,0 +1,152 @@
+"""Time and memory on families of curves, beside GEOS, the reference and other programs: ``make benchmark``.
+
+Every curve is drawn once; every contender gets it in a process of its own. The tables come from this one run, so the
+ratios hold on any machine. Ctrl-C prints what was measured so far.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from families import FAMILIES
+from peers import Peer
+from tables import Row, number, report
+
+HERE = Path(__file__).parent
+DOCS = HERE.parent / "docs"
+BEGIN, END = "<!-- made by make benchmark-docs: begin -->", "<!-- made by make benchmark-docs: end -->"
+REFERENCE_UP_TO = 200
+LIFT_UP_TO = 2_000
+
+
+class Clock:
+    """The time that a family may take."""
+
+    def __init__(self, seconds: float) -> None:
+        self.end = time.monotonic() + seconds
+
+    def left(self) -> float:
+        """Return the seconds left, never negative."""
+        return max(0.0, self.end - time.monotonic())
+
+
+def say(text: str) -> None:
+    """Show progress."""
+    print(text, file=sys.stderr, flush=True)
+
+
+def lines_of(words: list[str], limit: float) -> Iterator[dict[str, Any]]:
+    """Run a contender and yield the lines it printed, also if it had to be stopped."""
+    command = [sys.executable, *words]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, start_new_session=True) as process:
+        try:
+            printed, _ = process.communicate(timeout=limit)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            printed, _ = process.communicate()
+            printed += json.dumps({"failed": f"stopped after {limit:.0f} s"}) + "\n"
+        except BaseException:
+            process.kill()
+            raise
+    yield from (json.loads(line) for line in printed.splitlines(keepends=True) if line.endswith("\n"))
+    if process.returncode > 0:
+        yield {"failed": f"exit code {process.returncode}"}
+
+
+def contenders(vertices: int, peers: list[Peer], options: argparse.Namespace) -> list[str | Peer]:
+    """Return who gets a curve: the slow ones only small curves."""
+    chosen: list[str | Peer] = ["plyfold", "GEOS"]
+    chosen += ["reference"] if vertices <= options.reference_up_to else []
+    chosen += ["lift"] if vertices <= options.lift_up_to else []
+    return [*chosen, *peers]
+
+
+def measure(family: str, vertices: int, peers: list[Peer], options: argparse.Namespace, clock: Clock) -> Row:
+    """Draw a curve and give it to all contenders."""
+    row = Row(family, vertices)
+    with tempfile.TemporaryDirectory() as folder:
+        points = Path(folder, "points.npy")
+        drawing = [str(HERE / "families.py"), family, str(vertices), str(options.seed), str(points)]
+        if subprocess.run([sys.executable, *drawing], check=False, start_new_session=True).returncode:
+            row.failures.append("could not be drawn")
+            return row
+        for contender in contenders(vertices, peers, options):
+            if isinstance(contender, Peer):
+                row.add(contender.name, contender.measure(points.with_suffix(".txt"), clock.left()))
+                continue
+            for line in lines_of([str(HERE / "contenders.py"), contender, str(points)], clock.left()):
+                row.add(contender, line)
+    return row
+
+
+def progress(row: Row) -> str:
+    """Return a short line about a curve."""
+    times = ", ".join(f"{stage} {number(seconds)} s" for stage, seconds in row.seconds.items())
+    return f"{row.family} {row.vertices:,}: k = {row.facts.get('k', '–')}; {times} {'; '.join(row.failures)}"
+
+
+def run(options: argparse.Namespace, rows: list[Row], skipped: list[str]) -> None:
+    """Measure all families, adding rows as they come; what the budget does not allow is named in `skipped`."""
+    for family in options.families or FAMILIES:
+        clock = Clock(options.budget)
+        for vertices in options.sizes or FAMILIES[family].sizes:
+            if clock.left() < 1:
+                skipped.append(f"{family}, n = {vertices:,}: over the budget of {options.budget:.0f} s per family")
+                continue
+            rows.append(measure(family, vertices, options.peer, options, clock))
+            say(progress(rows[-1]))
+
+
+def write_docs(text: str, rows: list[Row]) -> None:
+    """Put the tables between the markers of docs/benchmarks.md, and draw the plot beside it."""
+    from plot import plot
+
+    page = DOCS / "benchmarks.md"
+    before, _, rest = page.read_text(encoding="utf-8").partition(BEGIN)
+    after = rest.partition(END)[2]
+    page.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{after}", encoding="utf-8")
+    plot(rows, DOCS / "images" / "benchmark.png")
+
+
+def arguments() -> argparse.Namespace:
+    """Read the command line."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--families", nargs="+", metavar="NAME", help="default: all")
+    parser.add_argument("--sizes", nargs="+", type=int, metavar="N", help="vertices; default: those of each family")
+    parser.add_argument("--budget", type=float, default=60, metavar="SECONDS", help="for each family; default 60")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument(
+        "--peer", type=Peer.parse, action="append", default=[], metavar="NAME=COMMAND", help="with {file}; see peers.py"
+    )
+    parser.add_argument("--reference-up-to", type=int, default=REFERENCE_UP_TO, metavar="N")
+    parser.add_argument("--lift-up-to", type=int, default=LIFT_UP_TO, metavar="N")
+    parser.add_argument("--docs", action="store_true", help="write the tables and the plot into docs/")
+    return parser.parse_args()
+
+
+def main() -> int:
+    """Measure, and print the tables."""
+    options = arguments()
+    rows: list[Row] = []
+    skipped: list[str] = []
+    try:
+        run(options, rows, skipped)
+    except KeyboardInterrupt:
+        skipped.append("stopped by Ctrl-C")
+    text = report(rows, ["reference", *(peer.name for peer in options.peer)], skipped)
+    print(text)
+    if options.docs:
+        write_docs(text, rows)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""Many random curves against the slow references, and against themselves in other frames: ``make nightly``."""

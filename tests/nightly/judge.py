@@ -1,0 +1,96 @@
+"""Everything that must hold for one curve; an AssertionError says what does not."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+import plyfold as pf
+from nightly.curves import DISKS, Drawn
+from reference import crossings, gluings
+from reference.planar_maps import GaussCode, gauss_code, windings
+from test_against_reference import (
+    assert_right_layering,
+    assert_same_crossings,
+    assert_same_immersions,
+    turned_inside_out,
+)
+
+MOST_CROSSINGS = 20
+"""Immersions are enumerated by the reference up to this many crossings ..."""
+
+HIGHEST_WINDING = 5
+"""... and this winding number: it tries all injections of sheets."""
+
+
+def judge(drawn: Drawn) -> None:
+    """Compare a curve with the references where they can, and with itself in other frames."""
+    try:
+        arranged = pf.arrangement(drawn.points, general_position="raise")
+    except pf.errors.PlyfoldError:
+        assert not in_general_position(drawn.points), "refused a curve in general position"
+        return
+    if "large" not in drawn.kind:
+        assert_right_arrangement(arranged, drawn.points)
+    count = pf.count_immersions(arranged)
+    assert count or drawn.kind not in DISKS, "this bounds a disk by construction"
+    judge_immersions(arranged, count)
+    if "polygon" in drawn.kind:
+        for code in turned_inside_out(gauss_code(arranged.partner, arranged.ccw, arranged.outer)):
+            judge_immersions(pf.Arrangement.from_gauss(*code))
+    for name, points in frames(np.array(drawn.points, dtype=np.float64)):
+        assert_same_answers(arranged, count, pf.arrangement(points, general_position="raise"), name)
+
+
+def in_general_position(points: list[tuple[int, int]]) -> bool:
+    """Whether the reference finds it so."""
+    try:
+        crossings.crossings(points)
+        crossings.turning_number(points)
+    except crossings.DegenerateError:
+        return False
+    return True
+
+
+def assert_right_arrangement(arranged: pf.Arrangement, points: list[tuple[int, int]]) -> None:
+    """Turning number and direction, crossings, cells and windings, as the exact fractions say."""
+    turning = crossings.turning_number(points)
+    assert arranged.turning_number == abs(turning)
+    assert arranged.reversed == (turning < 0)
+    assert_same_crossings(arranged, crossings.reversed_polygon(points) if turning < 0 else points)
+
+
+def small(code: GaussCode) -> bool:
+    """Whether the references can list all immersions and try all layerings."""
+    return len(code.partner) <= 2 * MOST_CROSSINGS and max(windings(code)) <= HIGHEST_WINDING
+
+
+def judge_immersions(arranged: pf.Arrangement, count: int | None = None) -> None:
+    """All immersions and their layerings if the curve is small; else that the first immersion is one."""
+    code = gauss_code(arranged.partner, arranged.ccw, arranged.outer)
+    if small(code):
+        for immersion in assert_same_immersions(arranged):
+            assert_right_layering(immersion)
+        return
+    first = pf.find_immersion(arranged)
+    assert bool(first) == bool(pf.count_immersions(arranged) if count is None else count)
+    if first:
+        assert gluings.problems(code, first.own_sheet.tolist(), [tuple(row) for row in first.gluing.tolist()]) == []
+
+
+def frames(points: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
+    """The same curve in other ways: nothing that counts may change."""
+    yield "another start", np.roll(points, len(points) // 3, axis=0)
+    yield "reversed", points[::-1]
+    yield "reflected", points * [-1, 1]
+    yield "a quarter turn", points[:, ::-1] * [-1, 1]
+    yield "large", points * 2.0**40
+    yield "small", points * 2.0**-60
+
+
+def assert_same_answers(arranged: pf.Arrangement, count: int, other: pf.Arrangement, frame: str) -> None:
+    """Crossings, turning number, windings and immersions of a curve in another frame."""
+    assert other.n_crossings == arranged.n_crossings, frame
+    assert other.turning_number == arranged.turning_number, frame
+    if arranged.turning_number:  # with none, no direction is the positive one, so windings may change sign
+        assert sorted(other.winding.tolist()) == sorted(arranged.winding.tolist()), frame
+    assert pf.count_immersions(other) == count, frame
