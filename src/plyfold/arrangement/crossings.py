@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from plyfold.arrangement.edge_pairs import Ints, near_pairs
+from plyfold.arrangement.edge_pairs import Bytes, Ints, headings, near_pairs
 from plyfold.predicates import Bools, Floats, Signs, counted_cross_sign, exact_parameter, parameter_along_edge
 
 __all__ = ["Contacts", "Visits", "edge_ends", "find_contacts", "order_visits"]
@@ -78,8 +78,9 @@ def find_contacts(points: Floats) -> Contacts:
         Exact. Cost: O(n log n) plus the number of pairs of edges whose bounding boxes meet.
     """
     ends = edge_ends(points)
-    parts = [_meetings(ends, first, second) for first, second in near_pairs(points)]
-    parts.append(_spikes(ends))
+    heading = headings(points)
+    parts = [_meetings(ends, first, second) for first, second in near_pairs(ends, heading)]
+    parts.append(_spikes(ends, heading))
     touches = np.concatenate([part.touches for part in parts])
     return Contacts(
         edges=np.concatenate([part.edges for part in parts]),
@@ -116,6 +117,8 @@ def _sides(ends: Floats, edge: Ints, other: Ints) -> tuple[Signs, int]:
 def _touches(ends: Floats, edge: Ints, other: Ints, side: Signs) -> Ints:
     """Return the rows (vertex, other edge) where an edge starts or ends on the other; ``side`` is that of its ends."""
     on_line, end = np.nonzero(side == 0)
+    if len(on_line) == 0:
+        return np.empty((0, 2), dtype=np.int64)
     edge, other = edge[on_line], other[on_line]
     place, line = ends[edge, end], ends[other]
     hit = ((line.min(axis=1) <= place) & (place <= line.max(axis=1))).all(axis=1)
@@ -123,11 +126,9 @@ def _touches(ends: Floats, edge: Ints, other: Ints, side: Signs) -> Ints:
     return np.stack([vertex[hit], other[hit]], axis=1)
 
 
-def _spikes(ends: Floats) -> Contacts:
+def _spikes(ends: Floats, heading: Bytes) -> Contacts:
     """Return the contacts of edges that run straight back over the edge before them."""
-    ahead = np.sign(ends[:, 1] - ends[:, 0])
-    following = np.concatenate([ahead[1:], ahead[:1]])
-    edge = np.flatnonzero((ahead * following <= 0).all(axis=1))  # no coordinate goes on
+    edge = np.flatnonzero(heading & np.concatenate([heading[1:], heading[:1]]) == 0)
     after = (edge + 1) % len(ends)
     side, exact = _sides(ends, edge, after)
     other_side, other_exact = _sides(ends, after, edge)

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from plyfold.predicates import Floats
 
-__all__ = ["near_pairs"]
+__all__ = ["Bytes", "Ints", "headings", "near_pairs"]
 
 Ints: TypeAlias = npt.NDArray[np.int64]
 Bytes: TypeAlias = npt.NDArray[np.uint8]
@@ -38,24 +38,39 @@ class _Groups:
     edge_high : (4, edges) float
         The last group is filled up with boxes that meet nothing.
     low, high : (4, groups) float
-    directions : (groups,) uint8
-        A bit for each of eight directions in which all edges of the group get ahead.
+    heading : (groups,) uint8
+        The bits that all edges of a group have in common; see :func:`headings`.
     """
 
     edge_low: Floats
     edge_high: Floats
     low: Floats
     high: Floats
-    directions: Bytes
+    heading: Bytes
 
 
-def near_pairs(points: Floats) -> Iterator[tuple[Ints, Ints]]:
+def headings(points: Floats) -> Bytes:
+    """Return one byte per edge of a closed polyline: a bit for each of eight directions in which the edge gets ahead.
+
+    Consecutive edges whose bytes have a bit in common run steadily in that direction, and meet only where they join.
+    The directions are those of the axes and the diagonals.
+    """
+    x, y = points.T
+    # Rounding the sums keeps their order, or makes them equal.
+    start = np.array([x, y, x + y, x - y])
+    end = np.concatenate([start[:, 1:], start[:, :1]], axis=1)
+    return np.asarray(np.packbits(np.concatenate([start < end, start > end]), axis=0)[0])
+
+
+def near_pairs(ends: Floats, heading: Bytes) -> Iterator[tuple[Ints, Ints]]:
     """Yield, portion by portion, the pairs of edges that may cross or touch.
 
     Parameters
     ----------
-    points : (n, 2) float
-        Vertices of a closed polyline; edge i runs from point i to point i + 1.
+    ends : (n, 2, 2) float
+        Start and end of each edge of a closed polyline.
+    heading : (n,) uint8
+        From :func:`headings`.
 
     Yields
     ------
@@ -67,29 +82,26 @@ def near_pairs(points: Floats) -> Iterator[tuple[Ints, Ints]]:
     -----
     O(n log n) plus the number of pairs. Memory for a portion does not grow with their number.
     """
-    groups = _grouped(points, _GROUP)
+    groups = _grouped(ends, heading, _GROUP)
     pairs = _few_pairs(groups)
     if pairs is None:  # long edges: a box round several of them holds too much
-        groups = _grouped(points, 1)
+        groups = _grouped(ends, heading, 1)
         portions = _group_pairs(groups)
     else:
         portions = _portions(pairs)
     for first, second in portions:
-        yield _edge_pairs(groups, first, second, len(points))
+        yield _edge_pairs(groups, first, second, len(ends))
 
 
-def _grouped(points: Floats, size: int) -> _Groups:
-    x, y = points.T
-    # Rounding the sums keeps their order, or makes them equal.
-    start = np.array([x, y, x + y, x - y])
-    end = np.concatenate([start[:, 1:], start[:, :1]], axis=1)
-    lower, upper = np.minimum(start[:2], end[:2]), np.maximum(start[:2], end[:2])
+def _grouped(ends: Floats, heading: Bytes, size: int) -> _Groups:
+    x, y = ends.transpose(2, 1, 0)
+    lower = np.array([np.minimum(*x), np.minimum(*y)])
+    upper = np.array([np.maximum(*x), np.maximum(*y)])
     edge_high = np.concatenate([upper, -lower])
     low = _in_groups(np.concatenate([lower, -upper]), size, np.inf)
     high = _in_groups(edge_high, size, -np.inf)
-    ahead = np.packbits(np.concatenate([start < end, start > end]), axis=0)
-    directions = np.bitwise_and.reduce(_in_groups(ahead, size, 255)[0], axis=0)
-    return _Groups(low, edge_high, low.min(axis=1), high.max(axis=1), directions)
+    common = np.bitwise_and.reduce(_in_groups(heading[None], size, 255)[0], axis=0)
+    return _Groups(low, edge_high, low.min(axis=1), high.max(axis=1), common)
 
 
 def _in_groups(rows: npt.NDArray[_Number], size: int, filling: float) -> npt.NDArray[_Number]:
@@ -106,7 +118,7 @@ def _few_pairs(groups: _Groups) -> tuple[Ints, Ints] | None:
     for first, second in _group_pairs(groups):
         found.append((first, second))
         total += len(first)
-        if total > _CROWD * len(groups.directions):
+        if total > _CROWD * len(groups.heading):
             return None
     firsts, seconds = zip(*found, strict=True)
     return np.concatenate(firsts), np.concatenate(seconds)
@@ -123,7 +135,7 @@ def _group_pairs(groups: _Groups) -> Iterator[tuple[Ints, Ints]]:
         first += start
         in_order = first <= second
         first, second = first[in_order], second[in_order]
-        steady = (second - first <= 1) & (groups.directions[first] & groups.directions[second] != 0)
+        steady = (second - first <= 1) & (groups.heading[first] & groups.heading[second] != 0)
         yield first[~steady], second[~steady]
 
 
