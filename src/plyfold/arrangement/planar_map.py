@@ -6,7 +6,7 @@ CONVENTIONS.md. The cells are the orbits of *turn left at every crossing*.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import chain
 
 import numpy as np
@@ -56,13 +56,8 @@ def cell_boundaries(following: Ints, outer: int) -> tuple[Ints, Ints]:
     than one numpy call after another for hundreds.
     """
     after = following.tolist()
-    starts: list[int] = []
-    darts: list[int] = []
-    for start in chain([min(_orbit(after, outer))], range(len(after))):
-        if after[start] >= 0:
-            starts.append(len(darts))
-            _walk_off(after, start, darts)
-    return np.array([*starts, len(darts)]), np.array(darts)
+    starts, darts = _walk(after, chain([min(_orbit(after, outer))], range(len(after))))
+    return np.array(starts), np.array(darts)
 
 
 def _orbit(after: list[int], start: int) -> Iterator[int]:
@@ -74,13 +69,25 @@ def _orbit(after: list[int], start: int) -> Iterator[int]:
             return
 
 
-def _walk_off(after: list[int], start: int, darts: list[int]) -> None:
-    """Append the orbit of a dart to ``darts``, and mark it as walked with −1 in ``after``."""
-    dart = start
-    while (next_dart := after[dart]) >= 0:
-        darts.append(dart)
-        after[dart] = -1
-        dart = next_dart
+def _walk(after: list[int], order: Iterable[int]) -> tuple[list[int], list[int]]:
+    """Walk the orbits in the order of these darts; return where each begins in a list of darts, its end, and the list.
+
+    Walked darts are marked in ``after`` by −1. One loop without calls: it is most of the work on a planar map.
+    """
+    starts: list[int] = []
+    darts: list[int] = []
+    add = darts.append
+    for start in order:
+        following = after[start]
+        if following >= 0:
+            starts.append(len(darts))
+            dart = start
+            while following >= 0:
+                add(dart)
+                after[dart] = -1
+                dart = following
+                following = after[dart]
+    return [*starts, len(darts)], darts
 
 
 def left_windings(ccw: Bools, outer: int) -> Ints:
