@@ -6,21 +6,28 @@ import plyfold as pf
 def test_public_names():
     assert sorted(pf.__all__) == [
         "Arrangement",
+        "BlankWord",
         "Curve",
         "Immersion",
         "Layering",
         "Obstruction",
         "Surface",
         "arrangement",
+        "best_immersion",
+        "blank_word",
         "bounds_disk",
+        "changed_borders",
         "count_immersions",
         "errors",
         "find_immersion",
         "find_layering",
+        "flip_distance",
         "gallery",
         "immersions",
+        "irreducible_kernels",
         "lift",
         "read",
+        "sample_immersion",
     ]
     assert all(hasattr(pf, name) for name in pf.__all__)
 

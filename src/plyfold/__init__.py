@@ -9,7 +9,20 @@
 from plyfold import errors, gallery
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.curve import Curve
-from plyfold.immersion import Immersion, bounds_disk, count_immersions, find_immersion, immersions
+from plyfold.immersion import (
+    BlankWord,
+    Immersion,
+    best_immersion,
+    blank_word,
+    bounds_disk,
+    changed_borders,
+    count_immersions,
+    find_immersion,
+    flip_distance,
+    immersions,
+    irreducible_kernels,
+    sample_immersion,
+)
 from plyfold.io import read
 from plyfold.layering import Layering, find_layering
 from plyfold.obstruction import Obstruction
@@ -19,19 +32,26 @@ __version__ = "0.1.0"
 
 __all__ = [
     "Arrangement",
+    "BlankWord",
     "Curve",
     "Immersion",
     "Layering",
     "Obstruction",
     "Surface",
     "arrangement",
+    "best_immersion",
+    "blank_word",
     "bounds_disk",
+    "changed_borders",
     "count_immersions",
     "errors",
     "find_immersion",
     "find_layering",
+    "flip_distance",
     "gallery",
     "immersions",
+    "irreducible_kernels",
     "lift",
     "read",
+    "sample_immersion",
 ]

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from plyfold.curve import Curve
 
-__all__ = ["CURVES", "NamedCurve", "ribbon", "rounded"]
+__all__ = ["CURVES", "NamedCurve", "chain", "ribbon", "rounded"]
 
 Points = npt.NDArray[np.float64]
 
@@ -104,6 +104,43 @@ def rounded(corners: npt.ArrayLike, rounds: int = 3) -> Points:
         following = np.roll(points, -1, axis=0)
         points = np.stack([0.75 * points + 0.25 * following, 0.25 * points + 0.75 * following], axis=1).reshape(-1, 2)
     return points
+
+
+def chain(link: npt.ArrayLike, links: int) -> Points:
+    """Return copies of a curve side by side, each joined to the next by a band.
+
+    Parameters
+    ----------
+    link : array_like, shape (n, 2)
+        A counter-clockwise curve with one leftmost and one rightmost point, at corners.
+    links : int
+        Number of copies, m.
+
+    Returns
+    -------
+    ndarray, shape (m (n + 2), 2)
+        The bands join the disks, so the number of immersions is that of the link to the power of m. Each copy has the
+        two corners cut off.
+
+    Examples
+    --------
+    >>> chain([(0, 0), (2, -1), (4, 0), (2, 1)], 2).shape
+    (12, 2)
+    """
+    points = np.asarray(link, dtype=np.float64)
+    points = np.roll(points, -int(points[:, 0].argmin()), axis=0)
+    right = int(points[:, 0].argmax())
+    left_end, left_start = _cut_corner(points[-1], points[0], points[1])
+    right_end, right_start = _cut_corner(points[right - 1], points[right], points[(right + 1) % len(points)])
+    lower = np.concatenate([[left_start], points[1:right], [right_end]])
+    upper = np.concatenate([[right_start], points[right + 1 :], [left_end]])
+    steps = np.array([(1.25 * np.ptp(points[:, 0]) * number, 0.0) for number in range(links)])
+    return np.concatenate([*(lower + step for step in steps), *(upper + step for step in steps[::-1])])
+
+
+def _cut_corner(before: Points, corner: Points, after: Points) -> tuple[Points, Points]:
+    """Return the points a twentieth of the way from a corner back and ahead."""
+    return 0.95 * corner + 0.05 * before, 0.95 * corner + 0.05 * after
 
 
 def _polar(radius: npt.ArrayLike, angle: npt.NDArray[np.float64]) -> Points:

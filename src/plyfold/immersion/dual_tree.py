@@ -2,8 +2,8 @@
 
 The tree replaces the rays of Blank's theorem [Bla67]_: from every *pit* an arc runs along the tree to the outside.
 A link of the tree leads from a cell to its parent across one border. It **descends** if the parent's winding number
-is lower and **ascends** if it is higher; an immersion is a choice of one sheet for every ascending link, so the tree
-is grown to have few of them.
+is lower and **ascends** if it is higher. An immersion is a choice of one sheet for every ascending link, so the tree
+is grown to have few of them: as water rises, lake by lake, over the lowest saddles.
 
 References
 ----------
@@ -13,169 +13,235 @@ References
 
 from __future__ import annotations
 
-import heapq
+from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import accumulate
+
+import numpy as np
 
 from plyfold.arrangement import Arrangement
+from plyfold.arrangement.planar_map import Ints
 
 __all__ = ["DualTree", "grow_dual_tree"]
 
 
 @dataclass(frozen=True, eq=False)
 class DualTree:
-    """The tree of cells, in plain Python lists indexed by cell (``potential`` by border).
+    """The tree of cells; all arrays are indexed by cell.
 
     Parameters
     ----------
-    parent : list of int
+    parent : (cells,) int
         Parent of each cell; the root, cell 0, is its own.
-    link : list of int
+    link : (cells,) int
         Border that the link to the parent crosses; −1 for the root.
-    ascends : list of bool
+    ascends : (cells,) bool
         True if the parent's winding number is higher.
-    preorder : list of int
-        Cells numbered parents first and, around each cell, from left to right seen in the direction of its parent.
-    size : list of int
-        Number of cells in the subtree: those numbered ``preorder[c]`` to ``preorder[c] + size[c] - 1``.
-    order : list of int
-        The cells sorted by ``preorder``.
-    potential : list of int
-        Φ of each border of the tree: the direction of the curve minus that of an outgoing arc, in quarter turns.
-        Only differences along one path to the root have a meaning.
+    place : (cells,) int
+        Where the link leaves the boundary of the parent: darts counted from the parent's own link on, with the parent
+        on the left. Siblings in this order are siblings from left to right, seen outward.
+    along : (cells,) int
+        Θ: the direction of the curve at the link's border, in quarter turns since the start of the curve.
+    bend : (cells,) int
+        By how much an outgoing arc turns in the parent, from this link to the parent's own, in quarter turns, counted
+        inward; 0 for children of the root.
     """
 
-    parent: list[int]
-    link: list[int]
-    ascends: list[bool]
-    preorder: list[int]
-    size: list[int]
-    order: list[int]
-    potential: list[int]
-
-    def path(self, cell: int) -> list[int]:
-        """Return the cells from a cell towards the root, the root left out."""
-        cells = []
-        while cell != 0:
-            cells.append(cell)
-            cell = self.parent[cell]
-        return cells
+    parent: Ints
+    link: Ints
+    ascends: np.ndarray[tuple[int], np.dtype[np.bool_]]
+    place: Ints
+    along: Ints
+    bend: Ints
 
 
 def grow_dual_tree(arrangement: Arrangement) -> DualTree:
-    """Grow the tree, number it in planar order and solve for the potentials. Cost: O(k log k)."""
-    parent, link, reached = _flood(arrangement)
-    turning = _border_turnings(arrangement, link, reached)
-    order, direction = _walk(arrangement, parent, link, turning)
-    preorder = _inverse(order)
-    winding = arrangement.winding.tolist()
-    along_curve = accumulate(turning[:-1], initial=0)
+    """Grow the tree and measure the turning of curve and arcs. Cost: O(k log k)."""
+    lakes = _flood(arrangement)
+    turning = _border_turnings(arrangement, lakes)
+    link_dart = _dart_inside(arrangement, lakes.link)
+    entry_dart = link_dart ^ 1
+    place, bend = _bends(arrangement, lakes, turning, link_dart, entry_dart)
+    theta = np.cumsum(turning) - turning
     return DualTree(
-        parent=parent,
-        link=link,
-        ascends=[winding[cell] < winding[parent[cell]] for cell in range(len(parent))],
-        preorder=preorder,
-        size=_subtree_sizes(order, parent),
-        order=order,
-        potential=[theta - psi for theta, psi in zip(along_curve, direction, strict=True)],
+        parent=lakes.parent,
+        link=lakes.link,
+        ascends=arrangement.winding < arrangement.winding[lakes.parent],
+        place=place,
+        along=theta[lakes.link],
+        bend=bend,
     )
 
 
-def _flood(arrangement: Arrangement) -> tuple[list[int], list[int], list[int]]:
-    """Return parent and link of each cell, and the cells in the order reached.
+@dataclass(frozen=True, eq=False)
+class _Lakes:
+    """Cells grouped by the pit to which they drain, and the tree over the saddles between the lakes.
 
-    Higher neighbours are free and taken at once; when there are none left, the lowest reachable cell costs one
-    ascending link. So only pits, and the way up from each to its saddle, ascend.
+    ``drain`` and ``drain_link`` lead from each cell to a lower one (from a pit to itself, −1); ``pit`` is where that
+    ends. ``saddles`` has one row (cell, cell beyond, border) for every lake but the root's, each lake after the one
+    beyond it: ``cell`` is the lake's cell at its saddle. ``parent`` and ``link`` are the tree: the drains, turned round
+    between every pit and its saddle.
     """
-    winding, cell_of = arrangement.winding.tolist(), arrangement.cell_of_dart.tolist()
-    parent, link = [0] * len(winding), [-1] * len(winding)
-    reached: list[int] = []
-    known = [False] * len(winding)
-    waiting = [(0, -1, 0, 0)]
+
+    drain: Ints
+    drain_link: Ints
+    pit: Ints
+    saddles: list[tuple[int, int, int]]
+    parent: Ints
+    link: Ints
+
+
+def _flood(arrangement: Arrangement) -> _Lakes:
+    """Let every cell drain into a lower one, and join the lakes over their lowest saddles.
+
+    A cell that has a lower neighbour has it across a border with the cell on its left. Only the way from a pit up to
+    its saddle ascends in the end.
+    """
+    left, right = arrangement.left_cell, arrangement.right_cell
+    link = np.full(arrangement.n_cells, -1)
+    link[left] = np.arange(arrangement.n_borders)
+    drain = np.where(link >= 0, right[link], np.arange(arrangement.n_cells))
+    pit = _end_of_path(drain)
+    saddles = _join_lakes(arrangement, pit)
+    parent, tree_link = drain.copy(), link.copy()
+    for cell, beyond, border in [(0, 0, -1), *saddles]:
+        way = [cell, *_drains(drain, cell)]
+        parent[way], tree_link[way] = [beyond, *way[:-1]], [border, *link[way[:-1]]]
+    return _Lakes(drain, link, pit, saddles, parent, tree_link)
+
+
+def _end_of_path(step: Ints) -> Ints:
+    while (step[step] != step).any():
+        step = step[step]
+    return step
+
+
+def _drains(drain: Ints, cell: int) -> Iterator[int]:
+    """Yield the cells below a cell, down to its pit."""
+    while drain[cell] != cell:
+        cell = int(drain[cell])
+        yield cell
+
+
+def _join_lakes(arrangement: Arrangement, pit: Ints) -> list[tuple[int, int, int]]:
+    """Return the saddles of a minimal spanning tree of the lakes, from the lake of the unbounded cell outward."""
+    left, right = pit[arrangement.left_cell], pit[arrangement.right_cell]
+    between = np.flatnonzero(left != right)
+    rising = between[np.argsort(arrangement.winding[arrangement.left_cell[between]], kind="stable")]
+    shores: dict[int, list[int]] = {}
+    for border in _spanning(left[rising].tolist(), right[rising].tolist(), rising.tolist(), len(pit)):
+        shores.setdefault(int(left[border]), []).append(border)
+        shores.setdefault(int(right[border]), []).append(border)
+    return list(_from_root(arrangement, pit, shores))
+
+
+def _spanning(first: list[int], second: list[int], borders: list[int], n: int) -> Iterator[int]:
+    """Yield the borders that join two lakes not joined before (Kruskal)."""
+    joined = list(range(n))
+
+    def representative(lake: int) -> int:
+        while joined[lake] != lake:
+            joined[lake] = lake = joined[joined[lake]]
+        return lake
+
+    for a, b, border in zip(first, second, borders, strict=True):
+        here, there = representative(a), representative(b)
+        if here != there:
+            joined[here] = there
+            yield border
+
+
+def _from_root(arrangement: Arrangement, pit: Ints, shores: dict[int, list[int]]) -> Iterator[tuple[int, int, int]]:
+    """Yield a saddle (cell, cell beyond, border) for each lake, once the lake beyond is reached."""
+    reached = {int(pit[0])}
+    waiting = [int(pit[0])]
     while waiting:
-        _, border, cell, source = heapq.heappop(waiting)
-        if known[cell]:
-            continue
-        known[cell], parent[cell], link[cell] = True, source, border
-        reached.append(cell)
-        for dart in arrangement.cells[cell]:
-            neighbour = cell_of[dart ^ 1]
-            if not known[neighbour]:
-                # A higher neighbour comes before everything else: its key is below every winding number.
-                key = -len(winding) if winding[neighbour] > winding[cell] else winding[neighbour]
-                heapq.heappush(waiting, (key, dart // 2, neighbour, cell))
-    return parent, link, reached
+        lake = waiting.pop()
+        for border in shores.get(lake, []):
+            sides = int(arrangement.left_cell[border]), int(arrangement.right_cell[border])
+            beyond, cell = sides if pit[sides[0]] == lake else sides[::-1]
+            if pit[cell] not in reached:
+                reached.add(int(pit[cell]))
+                waiting.append(int(pit[cell]))
+                yield cell, beyond, border
 
 
-def _border_turnings(arrangement: Arrangement, link: list[int], reached: list[int]) -> list[int]:
+def _dart_inside(arrangement: Arrangement, link: Ints) -> Ints:
+    """Return the dart of each cell's link that has the cell on its left."""
+    forward = arrangement.left_cell[link] == np.arange(len(link))
+    return 2 * link + ~forward
+
+
+def _border_turnings(arrangement: Arrangement, lakes: _Lakes) -> Ints:
     """Return the turning of each border in quarter turns, as if every crossing were a right angle.
 
-    Around a bounded cell the borders turn by 4 − corners. Borders off the tree are straight; those of the tree
-    follow from the leaves.
+    Around a bounded cell the borders turn by 4 − corners. Borders off the tree are straight; one of the tree turns by
+    the sum over all cells that the tree has behind it, since the turnings of the links among them cancel.
     """
-    turning = [0] * arrangement.n_borders
-    left = arrangement.left_cell.tolist()
-    for cell in reversed(reached[1:]):
-        darts = arrangement.cells[cell]
-        corners = len(darts) if arrangement.n_crossings else 0
-        known = sum(-turning[dart // 2] if dart % 2 else turning[dart // 2] for dart in darts)
-        missing = 4 - corners - known
-        turning[link[cell]] = missing if left[link[cell]] == cell else -missing
+    corners = np.bincount(arrangement.cell_of_dart) if arrangement.n_crossings else 0
+    behind = _sums_behind(arrangement, lakes, 4 - corners + np.zeros(arrangement.n_cells, dtype=np.int64))
+    turning = np.zeros(arrangement.n_borders, dtype=np.int64)
+    forward = arrangement.left_cell[lakes.link[1:]] == np.arange(1, arrangement.n_cells)
+    turning[lakes.link[1:]] = np.where(forward, behind[1:], -behind[1:])
     return turning
 
 
-def _walk(
-    arrangement: Arrangement, parent: list[int], link: list[int], turning: list[int]
-) -> tuple[list[int], list[int]]:
-    """Walk the tree parents first, children from left to right; return the order and each link's direction.
+def _sums_behind(arrangement: Arrangement, lakes: _Lakes, value: Ints) -> Ints:
+    """Return the sum of the values over the subtree of each cell.
 
-    The direction is that of an outgoing arc where it crosses the border, in quarter turns; see ``_children``.
+    Down the drains level by level; the cells between a pit and its saddle have behind them the whole lake, and all
+    lakes beyond, except what is behind the next cell up.
     """
-    cell_of = arrangement.cell_of_dart.tolist()
-    direction = [0] * arrangement.n_borders
-    order: list[int] = []
-    stack = [0]
-    while stack:
-        cell = stack.pop()
-        order.append(cell)
-        children = []
-        for dart, turned in _around(arrangement, cell, link[cell], turning):
-            child = cell_of[dart ^ 1]
-            if parent[child] == cell and link[child] == dart // 2:
-                direction[dart // 2] = direction[link[cell]] + turned - 2 if cell else 0
-                children.append(child)
-        stack.extend(reversed(children))
-    return order, direction
+    lake_sum = np.zeros(arrangement.n_cells, dtype=np.int64)
+    np.add.at(lake_sum, lakes.pit, value)
+    behind = value.copy()
+    for cell, beyond, _ in reversed(lakes.saddles):
+        whole = lake_sum[lakes.pit[cell]]
+        lake_sum[lakes.pit[beyond]] += whole
+        behind[beyond] += whole
+    _sum_down_the_drains(arrangement, lakes, behind)
+    for cell, _, _ in [*lakes.saddles, (0, 0, -1)]:
+        above = 0
+        for inner in [cell, *_drains(lakes.drain, cell)]:
+            behind[inner], above = lake_sum[lakes.pit[cell]] - above, behind[inner]
+    return behind
 
 
-def _around(arrangement: Arrangement, cell: int, start: int, turning: list[int]) -> list[tuple[int, int]]:
-    """Return the darts around a cell from its link to the parent on, with the boundary's turning up to each.
+def _sum_down_the_drains(arrangement: Arrangement, lakes: _Lakes, behind: Ints) -> None:
+    """Add to every cell, in place, what drains into it; a cell drains into one with winding number one lower."""
+    highest_first = np.argsort(-arrangement.winding, kind="stable")
+    levels = np.flatnonzero(np.diff(arrangement.winding[highest_first])) + 1
+    for level in np.split(highest_first, levels):
+        draining = level[lakes.drain_link[level] >= 0]
+        np.add.at(behind, lakes.drain[draining], behind[draining])
 
-    An arc that enters through a dart turned left of it by one quarter and leaves through the link one quarter
-    right of it, so between the two it turns by the boundary's turning less 2. Arcs cross a border near its start,
-    before its own turning.
+
+def _bends(
+    arrangement: Arrangement, lakes: _Lakes, turning: Ints, link_dart: Ints, entry_dart: Ints
+) -> tuple[Ints, Ints]:
+    """Return where each link leaves the boundary of its parent, and how an arc bends from there to the parent's link.
+
+    An arc that enters through a dart turned left of it by one quarter and leaves through the link one quarter right
+    of it, so between the two it turns by the boundary's turning less 2. Arcs cross a border near its start: before its
+    own turning if it is walked forward, after it otherwise.
     """
-    darts = arrangement.cells[cell]
-    first = next((i for i, dart in enumerate(darts) if dart // 2 == start), 0)
-    result: list[tuple[int, int]] = []
-    turned = 0
-    for dart in darts[first:] + darts[:first]:
-        backward = dart % 2
-        turned -= turning[dart // 2] if backward and result else 0
-        result.append((dart, turned))
-        turned += 1 + (0 if backward else turning[dart // 2])
-    return result
+    position, since_start = _around_cells(arrangement, turning)
+    size = np.diff(arrangement.cell_start)[lakes.parent]
+    exit_dart = link_dart[lakes.parent]
+    backward = np.arange(2 * arrangement.n_borders) % 2 == 1
+    crossed_at = since_start - np.where(backward, np.repeat(turning, 2), 0)
+    place = position[entry_dart] - position[exit_dart]
+    bend = crossed_at[entry_dart] - crossed_at[exit_dart] + np.where(place < 0, 4, 0) - 2
+    at_root = lakes.parent == 0
+    return np.where(at_root, position[entry_dart], place % size), np.where(at_root, 0, bend)
 
 
-def _inverse(order: list[int]) -> list[int]:
-    inverse = [0] * len(order)
-    for position, cell in enumerate(order):
-        inverse[cell] = position
-    return inverse
-
-
-def _subtree_sizes(order: list[int], parent: list[int]) -> list[int]:
-    size = [1] * len(order)
-    for cell in reversed(order[1:]):
-        size[parent[cell]] += size[cell]
-    return size
+def _around_cells(arrangement: Arrangement, turning: Ints) -> tuple[Ints, Ints]:
+    """Return for each dart its position in its cell, and the boundary's turning up to it, corners included."""
+    darts, start = arrangement.cell_darts, arrangement.cell_start
+    cell = arrangement.cell_of_dart[darts]
+    step = 1 + np.where(darts % 2 == 1, -1, 1) * turning[darts // 2]
+    total = np.cumsum(step) - step
+    position, since_start = np.empty_like(darts), np.empty_like(darts)
+    position[darts] = np.arange(len(darts)) - start[cell]
+    since_start[darts] = total - total[start[cell]]
+    return position, since_start

@@ -3,40 +3,32 @@
 Over a border the sheets of the lower cell (right) are glued one-to-one to sheets of the higher cell (left); the one
 left over there is the border's own sheet, which has the border on the boundary of the disk.
 
-Sheets get their names for free: a sheet is called by the border through which it leaves the disk when one walks along
-the dual tree to the outside. Across a descending link the names stay and the link's border is added; across an
-ascending link the name of the partner is taken away. The borders off the tree follow, for at every crossing three
-gluings give the fourth.
+Sheets are numbered along the dual tree: a cell behind a descending link has the sheets of its parent in the same order
+and the link's own sheet as the last one; a cell behind an ascending link has them all but the partner's. The borders
+off the tree follow, for at every crossing three gluings give the fourth.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Mapping
+from itertools import chain
+from typing import TypeAlias
 
 import numpy as np
 
 from plyfold.arrangement import Arrangement
+from plyfold.arrangement.planar_map import Ints
 from plyfold.immersion.dual_tree import DualTree
-from plyfold.immersion.immersion import Immersion
-from plyfold.immersion.word import Chord
+from plyfold.immersion.immersion import Immersion, count_each
 
 __all__ = ["glue_sheets"]
 
-
-@dataclass
-class _Seam:
-    """What happens over one border: which lower sheet is glued to which upper one, and the sheet left over."""
-
-    upper_of: dict[int, int]
-    own: int
-
-    @property
-    def lower_of(self) -> dict[int, int]:
-        return {upper: lower for lower, upper in self.upper_of.items()}
+# What happens over one border: the upper sheet that each lower sheet is glued to, and at the end the one left over.
+# Sheets are counted from the first one of their cell.
+Seam: TypeAlias = list[int]
 
 
-def glue_sheets(arrangement: Arrangement, tree: DualTree, chords: Iterable[Chord]) -> Immersion:
+def glue_sheets(arrangement: Arrangement, tree: DualTree, partner: Mapping[int, int]) -> Immersion:
     """Build the immersion that a grouping describes.
 
     Parameters
@@ -45,73 +37,95 @@ def glue_sheets(arrangement: Arrangement, tree: DualTree, chords: Iterable[Chord
         Turning number 1, no negative winding number.
     tree : DualTree
         The tree whose word was grouped.
-    chords : iterable of Chord
-        One chord for every ascending link.
+    partner : mapping of int to int
+        For the link of every ascending cell: the border through which its own sheet leaves the disk.
 
     Returns
     -------
     Immersion
         Cost: O(Σ w), the number of sheets counted once per border.
     """
-    first_sheet = np.concatenate([[0], np.cumsum(arrangement.winding)])
-    names = _name_sheets(arrangement, tree, {chord.border: chord.partner for chord in chords}, first_sheet.tolist())
-    seams = _seams_on_tree(tree, names)
+    seams = _seams_on_tree(arrangement, tree, partner)
     _seams_off_tree(arrangement, seams)
-    rows = [
-        (border, lower, upper)
-        for border in range(arrangement.n_borders)
-        for lower, upper in sorted(seams[border].upper_of.items())
-    ]
+    winding, lower = arrangement.winding, arrangement.winding[arrangement.right_cell]
+    first_sheet = np.cumsum(winding) - winding
+    flat = np.fromiter(chain.from_iterable(seams), dtype=np.int64, count=int(lower.sum()) + len(lower))
+    flat += np.repeat(first_sheet[arrangement.left_cell], lower + 1)
+    last = np.cumsum(lower + 1) - 1
+    border = np.repeat(np.arange(arrangement.n_borders), lower)
     return Immersion(
         arrangement=arrangement,
-        sheet_cell=np.repeat(np.arange(arrangement.n_cells), arrangement.winding),
-        first_sheet=first_sheet[:-1],
-        own_sheet=np.array([seams[border].own for border in range(arrangement.n_borders)], dtype=np.int64),
-        gluing=np.array(rows, dtype=np.int64).reshape(-1, 3),
+        sheet_cell=np.repeat(np.arange(arrangement.n_cells), winding),
+        first_sheet=first_sheet,
+        own_sheet=flat[last],
+        gluing=np.stack(
+            [border, first_sheet[arrangement.right_cell[border]] + count_each(lower), np.delete(flat, last)], axis=1
+        ),
     )
 
 
-def _name_sheets(
-    arrangement: Arrangement, tree: DualTree, partner: dict[int, int], first_sheet: list[int]
-) -> list[dict[int, int]]:
-    """Return for each cell its sheets by name; the name is a descending border, the value the sheet's number."""
-    names: list[dict[int, int]] = [{} for _ in tree.order]
-    for cell in tree.order[1:]:
-        link = tree.link[cell]
-        of_parent = names[tree.parent[cell]]
-        mine = set(of_parent) - {partner[link]} if tree.ascends[cell] else {*of_parent, link}
-        names[cell] = {name: first_sheet[cell] + place for place, name in enumerate(sorted(mine))}
-    return names
+def _seams_on_tree(arrangement: Arrangement, tree: DualTree, partner: Mapping[int, int]) -> list[Seam]:
+    """Return the seam of every link; of the other borders an empty one.
 
-
-def _seams_on_tree(tree: DualTree, names: list[dict[int, int]]) -> dict[int, _Seam]:
-    seams = {}
-    for cell in tree.order[1:]:
-        inner, outer = names[cell], names[tree.parent[cell]]
-        lower, upper = (inner, outer) if tree.ascends[cell] else (outer, inner)
-        (own,) = set(upper) - set(lower)
-        seams[tree.link[cell]] = _Seam({lower[name]: upper[name] for name in lower}, upper[own])
+    A sheet's name is the border through which it leaves the disk when one walks along the tree to the outside.
+    """
+    seams: list[Seam] = [[] for _ in range(arrangement.n_borders)]
+    winding, parent, ascends = arrangement.winding.tolist(), tree.parent.tolist(), tree.ascends.tolist()
+    straight = [list(range(sheets + 1)) for sheets in range(max(winding) + 1)]
+    names: list[list[int]] = [[] for _ in winding]
+    for cell, link in _from_root(tree):
+        above = names[parent[cell]]
+        if ascends[cell]:
+            own = above.index(partner[link])
+            names[cell] = above[:own] + above[own + 1 :]
+            seams[link] = [*range(own), *range(own + 1, len(above)), own]
+        else:
+            names[cell] = [*above, link]
+            seams[link] = straight[len(above)]
     return seams
 
 
-def _seams_off_tree(arrangement: Arrangement, seams: dict[int, _Seam]) -> None:
-    """Complete the seams, crossing by crossing: the borders off the dual tree form a tree of crossings."""
-    around: list[tuple[int, int, int, int]] = corners(arrangement)
-    meeting: dict[int, list[int]] = {}
-    for crossing, borders in enumerate(around):
-        for border in borders:
-            meeting.setdefault(border, []).append(crossing)
-    ready = list(range(len(around)))
+def _from_root(tree: DualTree) -> list[tuple[int, int]]:
+    """Return all cells but the root with their links, parents first."""
+    parent, link = tree.parent.tolist(), tree.link.tolist()
+    children: list[list[int]] = [[] for _ in parent]
+    for cell in range(1, len(parent)):
+        children[parent[cell]].append(cell)
+    order = [0]
+    for cell in order:
+        order.extend(children[cell])
+    return [(cell, link[cell]) for cell in order[1:]]
+
+
+def _seams_off_tree(arrangement: Arrangement, seams: list[Seam]) -> None:
+    """Complete the seams, crossing by crossing: the borders off the dual tree form a tree of crossings.
+
+    A crossing at which one seam is missing gives it to the crossing at the border's other end. ``missing`` is the sum
+    of the borders without seam at each crossing, so where there is one, it is that one.
+    """
+    around = corners(arrangement)
+    first, second = _end_crossings(arrangement, around)
+    unknown = np.array([not seam for seam in seams])
+    missing = np.where(unknown[around], around, 0).sum(axis=1).tolist()
+    count = unknown[around].sum(axis=1)
+    ready: list[int] = np.flatnonzero(count == 1).tolist()
+    left: list[int] = count.tolist()
+    rows = around.tolist()
     while ready:
-        borders = around[ready.pop()]
-        missing = [border for border in borders if border not in seams]
-        if len(missing) == 1:
-            seams[missing[0]] = _fourth_seam(*(seams.get(border) for border in borders))
-            ready.extend(meeting[missing[0]])
+        crossing = ready.pop()
+        if left[crossing] == 0:
+            continue
+        border = missing[crossing]
+        seams[border] = _fourth_seam(seams, border, rows[crossing])
+        for end in (first[border], second[border]):
+            left[end] -= 1
+            missing[end] -= border
+            if left[end] == 1:
+                ready.append(end)
 
 
-def corners(arrangement: Arrangement) -> list[tuple[int, int, int, int]]:
-    """Return for each crossing its borders (a to top, a to bottom, b to top, b to bottom).
+def corners(arrangement: Arrangement) -> Ints:
+    """Return for each crossing its borders: rows (a to top, a to bottom, b to top, b to bottom), shape (k, 4).
 
     Strand b crosses strand a from right to left; the top cell is left of both strands, the bottom cell right of
     both. So a comes along the top and leaves along the bottom, and b comes along the bottom and leaves along the top.
@@ -119,34 +133,44 @@ def corners(arrangement: Arrangement) -> list[tuple[int, int, int, int]]:
     n = arrangement.n_borders
     a = np.flatnonzero(arrangement.ccw)
     b = arrangement.partner[a]
-    return [tuple(row) for row in np.stack([(a - 1) % n, a, b, (b - 1) % n], axis=1).tolist()]
+    return np.stack([(a - 1) % n, a, b, (b - 1) % n], axis=1)
 
 
-def _fourth_seam(a_top: _Seam | None, a_bottom: _Seam | None, b_top: _Seam | None, b_bottom: _Seam | None) -> _Seam:
+def _end_crossings(arrangement: Arrangement, around: Ints) -> tuple[list[int], list[int]]:
+    """Return the row of ``around`` at the start and at the end of each border."""
+    at_visit = np.empty(arrangement.n_borders, dtype=np.int64)
+    at_visit[around[:, 1]] = at_visit[around[:, 2]] = np.arange(len(around))
+    return at_visit.tolist(), np.roll(at_visit, -1).tolist()
+
+
+def _fourth_seam(seams: list[Seam], border: int, around: list[int]) -> Seam:
     """Return the missing one of the four seams around a crossing.
 
     Going from the bottom cell to the top one around either side is the same: b_top ∘ a_bottom = a_top ∘ b_bottom,
     and each strand has one own sheet on both sides of the crossing.
     """
-    if b_bottom is None and a_top and a_bottom and b_top:
-        return _lower_seam(a_bottom, b_top, a_top)
-    if a_bottom is None and a_top and b_top and b_bottom:
-        return _lower_seam(b_bottom, a_top, b_top)
-    if b_top is None and a_top and a_bottom and b_bottom:
-        return _upper_seam(a_bottom, a_top, b_bottom)
-    if a_top is None and b_top and a_bottom and b_bottom:
-        return _upper_seam(b_bottom, b_top, a_bottom)
-    raise ValueError("exactly one of the four seams is to be found")
+    a_top, a_bottom, b_top, b_bottom = around
+    if border == b_bottom:
+        return _lower_seam(seams[a_bottom], seams[b_top], seams[a_top])
+    if border == a_bottom:
+        return _lower_seam(seams[b_bottom], seams[a_top], seams[b_top])
+    if border == b_top:
+        return _upper_seam(seams[a_bottom], seams[a_top], seams[b_bottom])
+    return _upper_seam(seams[b_bottom], seams[b_top], seams[a_bottom])
 
 
-def _lower_seam(bottom: _Seam, top: _Seam, other_top: _Seam) -> _Seam:
+def _lower_seam(bottom: Seam, top: Seam, other_top: Seam) -> Seam:
     """Return the seam below ``other_top``, given the way round the other side: ``bottom``, then ``top``."""
-    back = other_top.lower_of
-    return _Seam({low: back[top.upper_of[side]] for low, side in bottom.upper_of.items()}, back[top.own])
+    lower_of = {upper: lower for lower, upper in enumerate(other_top)}
+    # The last entries are the own sheets: that of ``top`` has one on the other side of the crossing as well.
+    return [*(lower_of[top[side]] for side in bottom[:-1]), lower_of[top[-1]]]
 
 
-def _upper_seam(bottom: _Seam, other_top: _Seam, other_bottom: _Seam) -> _Seam:
+def _upper_seam(bottom: Seam, other_top: Seam, other_bottom: Seam) -> Seam:
     """Return the seam above ``bottom``, given the way round the other side: ``other_bottom``, then ``other_top``."""
-    upper_of = {side: other_top.upper_of[other_bottom.upper_of[low]] for low, side in bottom.upper_of.items()}
-    upper_of[bottom.own] = other_top.own
-    return _Seam(upper_of, other_top.upper_of[other_bottom.own])
+    upper_of = [0] * len(other_top)
+    upper_of[bottom[-1]] = other_top[-1]
+    for side, low in zip(bottom[:-1], other_bottom[:-1], strict=True):
+        upper_of[side] = other_top[low]
+    upper_of[-1] = other_top[other_bottom[-1]]
+    return upper_of

@@ -93,10 +93,6 @@ class Immersion:
             for first, winding in zip(self.first_sheet.tolist(), self.arrangement.winding.tolist(), strict=True)
         )
 
-    @cached_property
-    def _upper(self) -> dict[tuple[int, int], int]:
-        return {(border, lower): upper for border, lower, upper in self.gluing.tolist()}
-
     def disk_layout(self) -> tuple[Group, ...]:
         """Return the disk layout: the borders of the disk, grouped by the sheet they lie on (§2.2 of [MGR11]_).
 
@@ -135,29 +131,51 @@ class Immersion:
 
     def _conditions(self) -> Iterator[tuple[str, bool]]:
         arrangement = self.arrangement
+        lower, upper = arrangement.winding[arrangement.right_cell], arrangement.winding[arrangement.left_cell]
         yield "the curve turns once", arrangement.turning_number == 1
         yield (
             "as many sheets as windings",
-            np.array_equal(np.bincount(self.sheet_cell, minlength=arrangement.n_cells), arrangement.winding),
+            np.array_equal(self.sheet_cell, np.repeat(np.arange(arrangement.n_cells), arrangement.winding)),
         )
-        lower_cell, upper_cell = arrangement.right_cell.tolist(), arrangement.left_cell.tolist()
-        for border, own in enumerate(self.own_sheet.tolist()):
-            lower = self.sheets[lower_cell[border]]
-            upper = [self._upper.get((border, sheet), -1) for sheet in lower] + [own]
-            yield f"border {border} glues one to one", sorted(upper) == list(self.sheets[upper_cell[border]])
-        yield "nothing else is glued", len(self.gluing) == arrangement.winding[arrangement.right_cell].sum()
-        for visit in np.flatnonzero(arrangement.ccw).tolist():
-            yield f"the gluings agree around the crossing at visit {visit}", self._agree_around(visit)
+        border = np.repeat(np.arange(arrangement.n_borders), lower)
+        right = self.first_sheet[arrangement.right_cell[border]] + count_each(lower)
+        yield "every sheet on the right is glued once", np.array_equal(self.gluing[:, :2], np.stack([border, right], 1))
+        taken = np.zeros(int(upper.sum()), dtype=np.int64)
+        first_taken = np.cumsum(upper) - upper - self.first_sheet[arrangement.left_cell]
+        inside = arrangement.left_cell[border] == self.sheet_cell[self.gluing[:, 2]]
+        inside_own = arrangement.left_cell == self.sheet_cell[self.own_sheet]
+        yield "sheets are glued to sheets on the left", bool(inside.all() and inside_own.all())
+        np.add.at(taken, first_taken[border] + self.gluing[:, 2], 1)
+        np.add.at(taken, first_taken + self.own_sheet, 1)
+        yield "every sheet on the left is glued once or has the border for its own", bool((taken == 1).all())
+        yield "the gluings agree around every crossing", self._agree_around_crossings()
 
-    def _agree_around(self, a: int) -> bool:
-        """Compare the two ways from the bottom cell to the top cell around a crossing."""
-        n, own = self.arrangement.n_borders, self.own_sheet
-        b = int(self.arrangement.partner[a])
+    def _agree_around_crossings(self) -> bool:
+        """Compare the two ways from the bottom cell to the top cell around every crossing."""
+        arrangement, own = self.arrangement, self.own_sheet
+        n = arrangement.n_borders
+        a = np.flatnonzero(arrangement.ccw)
+        b = arrangement.partner[a]
         a_top, a_bottom, b_top, b_bottom = (a - 1) % n, a, b, (b - 1) % n
-        bottom = self.sheets[self.arrangement.right_cell[a_bottom]]
-        up = self._upper
+        sheets = arrangement.winding[arrangement.right_cell[a_bottom]]
+        bottom = np.repeat(self.first_sheet[arrangement.right_cell[a_bottom]], sheets) + count_each(sheets)
+        at = np.repeat(np.arange(len(a)), sheets)
+        one_way = self._glued_to(b_top[at], self._glued_to(a_bottom[at], bottom))
+        other_way = self._glued_to(a_top[at], self._glued_to(b_bottom[at], bottom))
         return (
-            all(up[b_top, up[a_bottom, s]] == up[a_top, up[b_bottom, s]] for s in bottom)
-            and up[b_top, int(own[a_bottom])] == own[a_top]
-            and up[a_top, int(own[b_bottom])] == own[b_top]
+            np.array_equal(one_way, other_way)
+            and np.array_equal(self._glued_to(b_top, own[a_bottom]), own[a_top])
+            and np.array_equal(self._glued_to(a_top, own[b_bottom]), own[b_top])
         )
+
+    def _glued_to(self, border: Ints, right_sheet: Ints) -> Ints:
+        """Return the sheets on the left that are glued to sheets on the right of borders."""
+        cell = self.arrangement.right_cell
+        sheets = self.arrangement.winding[cell]
+        first_row = np.cumsum(sheets) - sheets - self.first_sheet[cell]
+        return np.asarray(self.gluing[first_row[border] + right_sheet, 2])
+
+
+def count_each(lengths: Ints) -> Ints:
+    """Return 0, 1, … for each length, one after the other."""
+    return np.arange(int(lengths.sum())) - np.repeat(np.cumsum(lengths) - lengths, lengths)

@@ -1,32 +1,43 @@
-"""Decide, count and list the immersions of a curve (§2.3 and §2.4 of the paper, after Blank)."""
+"""Decide, count, list and sample the immersions of a curve (§2.3 of the paper, after Blank)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, Literal
 
 import numpy as np
 
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.core import CurveLike
+from plyfold.errors import InputError
 from plyfold.immersion.dual_tree import DualTree, grow_dual_tree
 from plyfold.immersion.gluing import glue_sheets
-from plyfold.immersion.grouping import count_groupings, list_groupings
+from plyfold.immersion.grouping import (
+    Grouping,
+    Groupings,
+    count_groupings,
+    find_groupings,
+    list_groupings,
+    nth_grouping,
+)
 from plyfold.immersion.immersion import Immersion
-from plyfold.immersion.word import ascending_cells, write_word
+from plyfold.immersion.obstructions import no_grouping, visible_obstruction
+from plyfold.immersion.word import write_word
 from plyfold.obstruction import Obstruction
 
-__all__ = ["bounds_disk", "count_immersions", "find_immersion", "immersions"]
-
-# Above this many ascending links, the conflict that an obstruction names is not made minimal.
-_MINIMISE_UP_TO = 60
+__all__ = ["best_immersion", "bounds_disk", "count_immersions", "find_immersion", "immersions", "sample_immersion"]
 
 
-def find_immersion(curve: CurveLike) -> Immersion | Obstruction:
+def find_immersion(curve: CurveLike, method: Literal["exact", "paper"] = "exact") -> Immersion | Obstruction:
     """Find an immersed disk that has the curve as its boundary, or say why there is none (§2.3 of [MGR11]_).
 
     Parameters
     ----------
     curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    method : {"exact", "paper"}
+        Decide exactly, or run the paper's own greedy procedure, which may fail on curves that have an immersion and
+        then says so; see :mod:`plyfold.immersion.paper`.
 
     Returns
     -------
@@ -42,7 +53,9 @@ def find_immersion(curve: CurveLike) -> Immersion | Obstruction:
 
     Notes
     -----
-    Exact. After the crossings are known the cost is polynomial in their number; the decision follows [Bla67]_.
+    Exact and polynomial; the decision follows [Bla67]_. After the crossings are known the cost is near-linear in the
+    number of sheets, counted once per border, for ribbons and the like: 16,000 crossings take about 0.2 s. What
+    propagation cannot settle, in curves that cover themselves dozens of times, goes to an interval program.
 
     References
     ----------
@@ -56,11 +69,17 @@ def find_immersion(curve: CurveLike) -> Immersion | Obstruction:
     >>> print(find_immersion(limacon))
     The curve turns 2 times, and the outline of a disk turns once.
     """
+    if method not in ("exact", "paper"):
+        raise InputError(f'method must be "exact" or "paper", not {method!r}')
     arranged = arrangement(curve)
-    obstruction = _visible_obstruction(arranged)
+    obstruction = visible_obstruction(arranged)
     if obstruction is not None:
         return obstruction
-    return next(_immersions(arranged), None) or _no_grouping(arranged)
+    if method == "paper":
+        from plyfold.immersion.paper import paper_immersion
+
+        return paper_immersion(arranged)
+    return next(immersions(arranged), None) or no_grouping(arranged)
 
 
 def immersions(curve: CurveLike) -> Iterator[Immersion]:
@@ -73,7 +92,8 @@ def immersions(curve: CurveLike) -> Iterator[Immersion]:
     Yields
     ------
     Immersion
-        There can be exponentially many; they are made one at a time, each in polynomial time.
+        There can be exponentially many; they are made one at a time. After the decision each takes time proportional
+        to its size.
 
     Examples
     --------
@@ -82,9 +102,10 @@ def immersions(curve: CurveLike) -> Iterator[Immersion]:
     >>> [len(immersion.disk_layout()) for immersion in immersions(milnor)]
     [9, 9]
     """
-    arranged = arrangement(curve)
-    if _visible_obstruction(arranged) is None:
-        yield from _immersions(arranged)
+    family = _family(curve)
+    if family is not None:
+        for grouping in list_groupings(family.groupings):
+            yield _glued(family, grouping)
 
 
 def count_immersions(curve: CurveLike) -> int:
@@ -105,10 +126,8 @@ def count_immersions(curve: CurveLike) -> int:
     >>> count_immersions([(0, 0), (1, 0), (0, 1)])
     1
     """
-    arranged = arrangement(curve)
-    if _visible_obstruction(arranged) is not None:
-        return 0
-    return count_groupings(write_word(grow_dual_tree(arranged)))[0]
+    family = _family(curve)
+    return 0 if family is None else count_groupings(family.groupings)
 
 
 def bounds_disk(curve: CurveLike) -> bool:
@@ -121,61 +140,98 @@ def bounds_disk(curve: CurveLike) -> bool:
     Returns
     -------
     bool
-        Exact. See :func:`find_immersion` for the reason.
+        Exact. See :func:`find_immersion` for the reason and the cost.
 
     Examples
     --------
     >>> bounds_disk([(0, 0), (2, 2), (2, 0), (0, 2)])
     False
     """
-    return count_immersions(curve) > 0
+    return _family(curve) is not None
 
 
-def _immersions(arranged: Arrangement) -> Iterator[Immersion]:
+def sample_immersion(curve: CurveLike, rng: np.random.Generator) -> Immersion | Obstruction:
+    """Draw one of the immersions of a curve at random, all with the same probability.
+
+    Parameters
+    ----------
+    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    rng : numpy.random.Generator
+        The source of randomness.
+
+    Returns
+    -------
+    Immersion or Obstruction
+        As from :func:`find_immersion`. Cost: that of :func:`count_immersions`, however many immersions there are.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> sample_immersion([(0, 0), (1, 0), (0, 1)], np.random.default_rng(1)).n_sheets
+    1
+    """
+    family = _family(curve)
+    if family is None:
+        return find_immersion(curve)
+    index = _random_below(count_groupings(family.groupings), rng)
+    return _glued(family, nth_grouping(family.groupings, index))
+
+
+def best_immersion(curve: CurveLike, key: Callable[[Immersion], Any]) -> Immersion | Obstruction:
+    """Return the immersion with the smallest key, the first one of several.
+
+    Parameters
+    ----------
+    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    key : callable
+        Takes an immersion and returns what to compare.
+
+    Returns
+    -------
+    Immersion or Obstruction
+        As from :func:`find_immersion`. A plain loop over :func:`immersions`: where there are thousands, sample some
+        instead.
+
+    Examples
+    --------
+    >>> milnor = [(88, 39), (62, 102), (-17, -15), (-17, -13), (44, -7), (-75, 180),
+    ...           (-88, -39), (-62, -102), (17, 15), (17, 13), (-44, 7), (75, -180)]
+    >>> best_immersion(milnor, key=lambda immersion: len(immersion.disk_layout())).n_sheets
+    12
+    """
+    arranged = arrangement(curve)
+    return min(immersions(arranged), key=key, default=None) or find_immersion(arranged)
+
+
+@dataclass(frozen=True, eq=False)
+class _Family:
+    """All immersions of a curve."""
+
+    arrangement: Arrangement
+    tree: DualTree
+    groupings: Groupings
+
+
+def _family(curve: CurveLike) -> _Family | None:
+    arranged = arrangement(curve)
+    if visible_obstruction(arranged) is not None:
+        return None
     tree = grow_dual_tree(arranged)
-    word = write_word(tree)
-    _, counts = count_groupings(word)
-    for chords in list_groupings(word, counts):
-        immersion = glue_sheets(arranged, tree, chords)
-        immersion.check()
-        yield immersion
+    groupings = find_groupings(write_word(tree))
+    return None if groupings is None else _Family(arranged, tree, groupings)
 
 
-def _visible_obstruction(arranged: Arrangement) -> Obstruction | None:
-    """Return the obstruction that numbers alone show, if there is one: the turning number or a winding number."""
-    turning = arranged.turning_number
-    if turning != 1:
-        sentence = f"The curve turns {turning} times, and the outline of a disk turns once."
-        return Obstruction("turning number", sentence, value=turning)
-    lowest = int(np.argmin(arranged.winding))
-    winding = int(arranged.winding[lowest])
-    if winding < 0:
-        sentence = (
-            f"The curve winds {winding} times around a cell, and cloth cannot cover it a negative number of times."
-        )
-        return Obstruction("negative winding", sentence, _places(arranged, [lowest]), winding)
-    return None
+def _glued(family: _Family, grouping: Grouping) -> Immersion:
+    word, link = family.groupings.word, family.tree.link.tolist()
+    partner = {link[word.cells[label]]: word.border[letter] for label, letter in grouping.items()}
+    immersion = glue_sheets(family.arrangement, family.tree, partner)
+    immersion.check()
+    return immersion
 
 
-def _places(arranged: Arrangement, cells: list[int]) -> tuple[tuple[float, float], ...]:
-    return () if arranged.curve is None else tuple(arranged.cell_point(cell) for cell in cells)
-
-
-def _no_grouping(arranged: Arrangement) -> Obstruction:
-    tree = grow_dual_tree(arranged)
-    cells = _conflict(tree)
-    if len(cells) == 1:
-        sentence = "No grouping: the way out of a cell can be joined to no border that would cut off a disk."
-    else:
-        sentence = f"No grouping: the ways out of {len(cells)} cells cannot be joined to borders without crossing."
-    return Obstruction("no grouping", sentence, _places(arranged, cells), tuple(tree.link[cell] for cell in cells))
-
-
-def _conflict(tree: DualTree) -> list[int]:
-    """Return cells whose ascending links cannot all be joined; as few as leaving out one at a time can reach."""
-    cells = ascending_cells(tree)
-    for cell in cells if len(cells) <= _MINIMISE_UP_TO else ():
-        fewer = [other for other in cells if other != cell]
-        if count_groupings(write_word(tree, fewer))[0] == 0:
-            cells = fewer
-    return cells
+def _random_below(limit: int, rng: np.random.Generator) -> int:
+    """Return a whole number from 0 to limit − 1, however large, all with the same probability."""
+    while True:
+        number = int.from_bytes(rng.bytes((limit.bit_length() + 7) // 8)) >> (-limit.bit_length() % 8)
+        if number < limit:
+            return number

@@ -9,7 +9,7 @@ e to border y. The word lists the possible ends of chords in order along the cur
 
 A chord must cut off a piece of turning number 1, which leaves few partners to choose from. The arcs behind a chord's
 own cell run along with it, so on the border y a chord occupies not only its own plus letter but also those of the
-links behind it: the *block* of the chord.
+links behind it: the *block* of the letter.
 
 References
 ----------
@@ -18,57 +18,61 @@ References
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
 
 from plyfold.immersion.dual_tree import DualTree
 
-__all__ = ["Chord", "Word", "write_word"]
-
-
-@dataclass(frozen=True)
-class Chord:
-    """A possible pairing of an ascending border with one through which its upper sheet leaves the disk.
-
-    Parameters
-    ----------
-    border, partner : int
-        The ascending border e and the descending border y.
-    minus : int
-        Position of the minus letter in the word.
-    block : (int, int)
-        Positions first and last that the chord occupies on y; the last is its own plus letter.
-    """
-
-    border: int
-    partner: int
-    minus: int
-    block: tuple[int, int]
+__all__ = ["Word", "ascending_cells", "write_word"]
 
 
 @dataclass(frozen=True, eq=False)
 class Word:
-    """The letters along the curve, as the chords that may end on them.
+    """The letters along the curve.
 
     Parameters
     ----------
-    length : int
-        Number of letters.
-    chords_from : dict of int to list of Chord
-        For the position of each minus letter: the chords from there.
-    chords_to : dict of int to list of Chord
-        For the position of a plus letter: the chords whose block begins there.
+    cells : list of int
+        The cell below each label: labels are numbered 0, 1, …
+    border : list of int
+        The border of each letter.
+    label : list of int
+        The label of each letter.
+    minus : list of int
+        The minus letter of each label.
+    partners : list of list of int
+        The plus letters of each label in order: where its chord may end.
+    block : list of int
+        For a plus letter the first letter of its block, which ends with itself; for a minus letter itself.
     """
 
-    length: int
-    chords_from: dict[int, list[Chord]]
-    chords_to: dict[int, list[Chord]]
+    cells: list[int]
+    border: list[int]
+    label: list[int]
+    minus: list[int]
+    partners: list[list[int]]
+    block: list[int]
+
+    def __len__(self) -> int:
+        return len(self.border)
+
+
+@dataclass(frozen=True, eq=False)
+class _Arcs:
+    """The arcs of some cells: their order across a shared link, those that run behind, and where they may end."""
+
+    order: dict[int, int]
+    last_behind: dict[int, int]
+    ends: list[tuple[int, list[int]]]
 
 
 def ascending_cells(tree: DualTree) -> list[int]:
     """Return the cells whose link to the parent ascends."""
-    return [cell for cell in tree.order if tree.ascends[cell]]
+    cells: list[int] = np.flatnonzero(tree.ascends).tolist()
+    return cells
 
 
 def write_word(tree: DualTree, cells: Iterable[int] | None = None) -> Word:
@@ -83,41 +87,80 @@ def write_word(tree: DualTree, cells: Iterable[int] | None = None) -> Word:
     Returns
     -------
     Word
-        Cost: the lengths of the paths from the ascending links to the root.
+        Cost: the number of cells on the ways from ascending links to the root, and of letters, times its logarithm.
     """
-    partners = {cell: _partners(tree, cell) for cell in (ascending_cells(tree) if cells is None else cells)}
-    letters = sorted(
-        [(tree.link[cell], tree.preorder[cell]) for cell in partners]
-        + [(tree.link[outer], -tree.preorder[cell]) for cell, outers in partners.items() for outer in outers]
+    arcs = _draw_arcs(tree, ascending_cells(tree) if cells is None else list(cells))
+    n = len(arcs.ends)
+    link = tree.link[np.array([cell for cell, _ in arcs.ends], dtype=np.int64)]
+    order = np.array([arcs.order[cell] for cell, _ in arcs.ends], dtype=np.int64)
+    last = np.array([arcs.last_behind[cell] for cell, _ in arcs.ends], dtype=np.int64)
+    label = np.repeat(np.arange(n), [len(ends) for _, ends in arcs.ends])
+    partner = np.array([border for _, ends in arcs.ends for border in ends], dtype=np.int64)
+    # On a descending border the curve meets the rightmost arc first, so the arcs behind come before the label's own.
+    width = int(last.max(initial=0)) + 1
+    keys = np.concatenate([link * width, partner * width + width - 1 - order[label]])
+    by_place = np.argsort(keys)
+    letter = np.empty_like(by_place)
+    letter[by_place] = np.arange(len(keys))
+    block = np.concatenate([letter[:n], np.searchsorted(keys[by_place], partner * width + width - 1 - last[label])])
+    starts = np.searchsorted(label, np.arange(n + 1)).tolist()
+    plus = letter[n:].tolist()
+    return Word(
+        cells=[cell for cell, _ in arcs.ends],
+        border=np.concatenate([link, partner])[by_place].tolist(),
+        label=np.concatenate([np.arange(n), label])[by_place].tolist(),
+        minus=letter[:n].tolist(),
+        partners=[sorted(plus[low:high]) for low, high in pairwise(starts)],
+        block=block[by_place].tolist(),
     )
-    chords_from: dict[int, list[Chord]] = {}
-    chords_to: dict[int, list[Chord]] = {}
-    for cell, outers in partners.items():
-        minus = bisect_left(letters, (tree.link[cell], tree.preorder[cell]))
-        chords_from[minus] = [_chord(tree, letters, cell, outer, minus) for outer in outers]
-        for chord in chords_from[minus]:
-            chords_to.setdefault(chord.block[0], []).append(chord)
-    return Word(len(letters), chords_from, chords_to)
 
 
-def _partners(tree: DualTree, cell: int) -> list[int]:
-    """Return the cells further out whose descending link may be joined to the ascending link of a cell.
+def _draw_arcs(tree: DualTree, cells: list[int]) -> _Arcs:
+    """Walk the tree from the root, in planar order, over the cells that have an arc to draw behind them.
 
-    The piece that the chord cuts off must turn once: Φ grows by 2 from e to y if y comes later along the curve, and
-    shrinks by 2 if it comes earlier.
+    An arc may end on a descending border y further out where the piece that the chord cuts off turns once: Φ, the
+    direction of the curve less that of the arc, grows by 2 from e to y if y comes later along the curve, and shrinks
+    by 2 if it comes earlier.
     """
-    border = tree.link[cell]
-    return [
-        outer
-        for outer in tree.path(tree.parent[cell])
-        if not tree.ascends[outer]
-        and tree.potential[tree.link[outer]] - tree.potential[border] == (2 if tree.link[outer] > border else -2)
-    ]
+    children = _children(tree, cells)
+    link, along, bend, ascends = tree.link.tolist(), tree.along.tolist(), tree.bend.tolist(), tree.ascends.tolist()
+    wanted = set(cells)
+    arcs = _Arcs({}, {}, [])
+    open_borders: dict[int, list[int]] = {}
+    stack = [(child, 0) for child in children.get(0, [])]
+    while stack:
+        cell, direction = stack.pop()
+        if cell < 0:  # the way back
+            arcs.last_behind[~cell] = len(arcs.order) - 1
+            if not ascends[~cell]:
+                open_borders[direction].pop()
+            continue
+        arcs.order[cell] = len(arcs.order)
+        direction += bend[cell]
+        potential = along[cell] - direction
+        border = link[cell]
+        if not ascends[cell]:
+            open_borders.setdefault(potential, []).append(border)
+        elif cell in wanted:
+            later = [outer for outer in open_borders.get(potential + 2, ()) if outer > border]
+            arcs.ends.append((cell, later + [y for y in open_borders.get(potential - 2, ()) if y < border]))
+        stack.append((~cell, potential))
+        stack.extend((child, direction) for child in children.get(cell, ()))
+    return arcs
 
 
-def _chord(tree: DualTree, letters: list[tuple[int, int]], cell: int, outer: int, minus: int) -> Chord:
-    partner = tree.link[outer]
-    # On a descending border the curve meets the rightmost arc first, so the arcs behind come before the cell's own.
-    last = bisect_left(letters, (partner, -tree.preorder[cell]))
-    first = bisect_left(letters, (partner, -(tree.preorder[cell] + tree.size[cell] - 1)))
-    return Chord(tree.link[cell], partner, minus, (first, last))
+def _children(tree: DualTree, cells: list[int]) -> dict[int, list[int]]:
+    """Return the children of each cell on a way from the given cells to the root, from right to left."""
+    parent = tree.parent.tolist()
+    on_the_way = {0}
+    for start in cells:
+        cell = start
+        while cell not in on_the_way:
+            on_the_way.add(cell)
+            cell = parent[cell]
+    on_the_way.discard(0)
+    children: dict[int, list[int]] = {}
+    place = tree.place
+    for cell in sorted(on_the_way, key=place.tolist().__getitem__, reverse=True):
+        children.setdefault(parent[cell], []).append(cell)
+    return children

@@ -1,0 +1,90 @@
+"""Words: propagation and the interval program against trying all choices, on words of curves and on any words."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import plyfold as pf
+from plyfold.immersion.dual_tree import grow_dual_tree
+from plyfold.immersion.grouping import count_groupings, find_groupings, list_groupings, nth_grouping
+from plyfold.immersion.propagation import narrow
+from plyfold.immersion.word import Word, write_word
+from reference import groupings as reference
+from reference import random_curves
+from reference.planar_maps import census, may_bound_disk, oriented
+
+
+@st.composite
+def words(draw):
+    """Any words without blocks: one minus letter per label, plus letters anywhere."""
+    labels = draw(st.integers(1, 6))
+    spare = draw(st.lists(st.integers(0, labels - 1), max_size=12))
+    letters = draw(st.permutations([(label, -1) for label in range(labels)] + [(label, 1) for label in spare]))
+    n = len(letters)
+    return Word(
+        cells=list(range(1, labels + 1)),
+        border=list(range(n)),
+        label=[label for label, _ in letters],
+        minus=[letters.index((label, -1)) for label in range(labels)],
+        partners=[[i for i in range(n) if letters[i] == (label, 1)] for label in range(labels)],
+        block=list(range(n)),
+    )
+
+
+def as_tuple(word, grouping):
+    return tuple(grouping[label] for label in range(len(word.minus)))
+
+
+def assert_all_groupings_found(word):
+    expected = set(reference.groupings(word.minus, word.partners, word.block))
+    narrowed = narrow(word)
+    assert narrowed is not None or not expected
+    if narrowed is not None:
+        for grouping in expected:
+            assert all(grouping[label] == plus for label, plus in narrowed.chosen.items())
+            assert all(plus in narrowed.partners[label] for label, plus in enumerate(grouping))
+    found = find_groupings(word)
+    assert (found is None) == (not expected)
+    if found is not None:
+        listed = [as_tuple(word, grouping) for grouping in list_groupings(found)]
+        assert len(listed) == len(expected) == count_groupings(found)
+        assert set(listed) == expected
+        assert {as_tuple(word, nth_grouping(found, i)) for i in range(len(expected))} == expected
+
+
+@settings(max_examples=400, deadline=None)
+@given(words())
+def test_any_word(word):
+    assert_all_groupings_found(word)
+
+
+@pytest.mark.parametrize("crossings", [2, 4])
+def test_words_of_all_curves(crossings):
+    for code in map(oriented, census(crossings)):
+        if may_bound_disk(code):
+            assert_all_groupings_found(write_word(grow_dual_tree(pf.Arrangement.from_gauss(*code))))
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_words_of_dense_disks_have_blocks(seed):
+    """Dense disks, where arcs run one behind the other; as many labels as all choices can be tried for."""
+    arranged = pf.arrangement(random_curves.glued_disk(np.random.default_rng(seed), 60))
+    tree = grow_dual_tree(arranged)
+    cells, choices = [], 1
+    for cell, partners in zip((word := write_word(tree)).cells, word.partners, strict=True):
+        choices *= len(partners)
+        cells += [cell] if choices <= 3000 else []
+    assert_all_groupings_found(write_word(tree, cells))
+
+
+def test_a_label_without_partner_is_a_conflict():
+    word = Word(cells=[1], border=[0], label=[0], minus=[0], partners=[[]], block=[0])
+    assert narrow(word) is None
+    assert find_groupings(word) is None
+
+
+def test_the_empty_word_has_one_grouping():
+    found = find_groupings(Word([], [], [], [], [], []))
+    assert count_groupings(found) == 1
+    assert list(list_groupings(found)) == [{}]
