@@ -39,7 +39,7 @@ def changed_borders(first: Immersion, second: Immersion) -> tuple[int, ...]:
     >>> milnor = [(88, 39), (62, 102), (-17, -15), (-17, -13), (44, -7), (-75, 180),
     ...           (-88, -39), (-62, -102), (17, 15), (17, 13), (-44, 7), (75, -180)]
     >>> changed_borders(*immersions(milnor))
-    (0, 2, 3, 5, 6, 8, 9, 11)
+    (0, 1, 2, 3, 4, 6, 7, 8, 9, 10)
     """
     both = _meet(first, second)
     sizes = [_sizes(groups) for groups in (first.own_sheet, second.own_sheet, both)]
