@@ -17,6 +17,8 @@ from plyfold.strokes import join_strokes
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
+    from plyfold.arrangement.gauss import GaussCode
+
 __all__ = ["Curve", "Repair", "as_curve"]
 
 
@@ -111,6 +113,56 @@ class Curve:
         """
         points, repairs = join_strokes(strokes, max_gap)
         return cls(points, repairs)
+
+    @classmethod
+    def from_gauss(
+        cls, partner: npt.ArrayLike | GaussCode, ccw: npt.ArrayLike | None = None, outer: int | None = None
+    ) -> Curve:
+        """Draw a round, evenly spaced curve with a given signed Gauss code and unbounded cell.
+
+        Parameters
+        ----------
+        partner : array_like of int, shape (2k,), or GaussCode
+            The other visit to the same crossing. A whole code needs no further argument.
+        ccw : array_like of bool, shape (2k,)
+            True where the other strand crosses from right to left.
+        outer : int
+            A dart whose left cell is to be the unbounded one.
+
+        Returns
+        -------
+        Curve
+            In the direction of the code, starting on the border before its visit 0; the longer side of its bounding
+            box is about 2. Its code was read back and is the same; an arrangement of it is turned round if the
+            turning number is negative, and then has the code's ``reversed()``.
+
+        Raises
+        ------
+        GaussCodeError
+            If no closed plane curve has this code.
+        PrecisionError
+            If no drawing was found that double precision can hold.
+
+        Notes
+        -----
+        See :func:`plyfold.arrangement.drawing.draw_code` for the method. Up to ten crossings take milliseconds, some
+        hundreds about a second.
+
+        Examples
+        --------
+        >>> from plyfold.arrangement import arrangement
+        >>> limacon = Curve.from_gauss([1, 0], [True, False], outer=1)
+        >>> arrangement(limacon).turning_number
+        2
+        """
+        from plyfold.arrangement.core import Arrangement
+        from plyfold.arrangement.drawing import draw_code
+        from plyfold.arrangement.gauss import GaussCode
+
+        code = partner if isinstance(partner, GaussCode) else GaussCode(partner, ccw, outer)  # type: ignore[arg-type]
+        wanted = Arrangement.from_gauss(code.partner, code.ccw, code.outer)
+        drawn = draw_code(wanted)
+        return drawn.reversed() if wanted.reversed else drawn
 
     def reversed(self) -> Curve:
         """Return the same curve run the other way from the same first point.

@@ -11,10 +11,11 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.edge_pairs import Ints
 from plyfold.arrangement.general_position import in_general_position
 from plyfold.arrangement.planar_map import (
+    Ints,
     cell_boundaries,
+    checked_code,
     left_windings,
     next_darts,
     reversed_code,
@@ -135,7 +136,7 @@ class Arrangement:
         >>> limacon.turning_number, limacon.winding.tolist()
         (2, [0, 1, 2])
         """
-        code = _checked_code(partner, ccw, outer)
+        code = checked_code(partner, ccw, outer)
         turning = whitney_turning_number(*code)
         code = reversed_code(*code) if turning < 0 else code
         return cls._from_code(*code, turning_number=abs(turning), reversed=turning < 0)
@@ -227,7 +228,7 @@ class Arrangement:
         A cell that touches itself at a crossing passes through that point twice.
         """
         pieces = []
-        for dart in self.cells[cell]:
+        for dart in self.cell_darts[self.cell_start[cell] : self.cell_start[cell + 1]].tolist():
             points = self.border_points(dart // 2)
             points = points[::-1] if dart % 2 else points
             pieces.append(points if self.n_crossings == 0 else points[:-1])
@@ -305,30 +306,6 @@ def _number_crossings(partner: Ints) -> Ints:
     visit = np.arange(len(partner))
     first = visit < partner
     return np.asarray((np.cumsum(first) - 1)[np.where(first, visit, partner)], dtype=np.int64)
-
-
-def _checked_code(partner: npt.ArrayLike, ccw: npt.ArrayLike, outer: int) -> tuple[Ints, Bools, int]:
-    visits, signs = _whole_numbers("partner", partner), _whole_numbers("ccw", ccw)
-    if not np.isin(signs, [0, 1]).all():
-        raise GaussCodeError("ccw holds something that is neither true nor false")
-    n = len(visits)
-    if len(signs) != n:
-        raise GaussCodeError(f"partner has {n} visits and ccw has {len(signs)}")
-    for visit, other in enumerate(visits.tolist()):
-        if not 0 <= other < n or other == visit or visits[other] != visit:
-            raise GaussCodeError(f"visit {visit} and visit {other} are not each other's partner")
-        if signs[visit] == signs[other]:
-            raise GaussCodeError(f"visits {visit} and {other} say that both strands cross from the same side")
-    if not 0 <= outer < max(2 * n, 2):
-        raise GaussCodeError(f"dart {outer} does not exist: there are {max(2 * n, 2)}")
-    return visits, signs.astype(bool), int(outer)
-
-
-def _whole_numbers(name: str, values: npt.ArrayLike) -> Ints:
-    array = np.array(values)
-    if array.ndim != 1 or (array.size and array.dtype.kind not in "biu"):
-        raise GaussCodeError(f"{name} is not a list of whole numbers")
-    return array.astype(np.int64)
 
 
 def polygon_turning_number(points: Floats) -> int:

@@ -9,11 +9,11 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 import numpy.typing as npt
 
+from plyfold.arrangement.planar_map import Ints
 from plyfold.predicates import Floats
 
-__all__ = ["Bytes", "Ints", "headings", "near_pairs"]
+__all__ = ["Bytes", "headings", "near_pairs"]
 
-Ints: TypeAlias = npt.NDArray[np.int64]
 Bytes: TypeAlias = npt.NDArray[np.uint8]
 _Number = TypeVar("_Number", np.float64, np.uint8)
 

@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 
 from plyfold.arrangement.crossings import Contacts, Visits, find_contacts, order_visits
-from plyfold.arrangement.edge_pairs import Ints
+from plyfold.arrangement.planar_map import Ints
 from plyfold.curve import Curve, Repair
 from plyfold.errors import GeneralPositionError, InputError
 from plyfold.predicates import Bools, Floats, orient

@@ -8,13 +8,45 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from itertools import chain
+from typing import TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
-from plyfold.arrangement.edge_pairs import Ints
+from plyfold.errors import GaussCodeError
 from plyfold.predicates import Bools
 
-__all__ = ["cell_boundaries", "left_windings", "next_darts", "reversed_code", "whitney_turning_number"]
+__all__ = ["cell_boundaries", "checked_code", "left_windings", "next_darts", "reversed_code", "whitney_turning_number"]
+
+Ints: TypeAlias = npt.NDArray[np.int64]
+
+
+def checked_code(partner: npt.ArrayLike, ccw: npt.ArrayLike, outer: int) -> tuple[Ints, Bools, int]:
+    """Return a code as arrays if it is one, of whatever surface; raise a GaussCodeError that says why not."""
+    visits, signs = _whole_numbers("partner", partner), _whole_numbers("ccw", ccw)
+    if not np.isin(signs, [0, 1]).all():
+        raise GaussCodeError("ccw holds something that is neither true nor false")
+    n = len(visits)
+    if len(signs) != n:
+        raise GaussCodeError(f"partner has {n} visits and ccw has {len(signs)}")
+    visit = np.arange(n)
+    there = visits.clip(0, n - 1) if n else visits
+    if (lonely := (visits != there) | (visits == visit) | (visits[there] != visit)).any():
+        first = int(lonely.argmax())
+        raise GaussCodeError(f"visit {first} and visit {visits[first]} are not each other's partner")
+    if (same := signs == signs[visits]).any():
+        first = int(same.argmax())
+        raise GaussCodeError(f"visits {first} and {visits[first]} say that both strands cross from the same side")
+    if not 0 <= outer < max(2 * n, 2):
+        raise GaussCodeError(f"dart {outer} does not exist: there are {max(2 * n, 2)}")
+    return visits, signs.astype(bool), int(outer)
+
+
+def _whole_numbers(name: str, values: npt.ArrayLike) -> Ints:
+    array = np.array(values)
+    if array.ndim != 1 or (array.size and array.dtype.kind not in "biu"):
+        raise GaussCodeError(f"{name} is not a list of whole numbers")
+    return array.astype(np.int64)
 
 
 def next_darts(partner: Ints, ccw: Bools) -> Ints:
