@@ -1,0 +1,202 @@
+"""The paper's procedure, compared with the exact answers of the reference; its figures are those of docs/paper.md."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+
+from plyfold.arrangement import Arrangement, arrangement
+from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.layout import glue_layout
+from plyfold.immersion.paper import paper_immersion, run_paper
+from reference import gluings, random_curves
+from reference.planar_maps import (
+    census,
+    gauss_code,
+    left_and_right,
+    may_bound_disk,
+    symmetric_copies,
+    turning_number,
+    windings,
+)
+
+FIRST_FAILURE = ([3, 2, 1, 0, 5, 4, 7, 6], [1, 1, 0, 0, 1, 0, 1, 0], 3)
+"""The first curve in the census that bounds a disk and that the literal reading gets wrong."""
+
+
+def code_of(arranged):
+    return gauss_code(arranged.partner, arranged.ccw, arranged.outer)
+
+
+def key_of(immersion):
+    return gluings.key_of(*code_of(immersion.arrangement), immersion.own_sheet, immersion.gluing)
+
+
+def accepts(code, run):
+    """Algorithm 1's own verdict, from the definition: no cell has more groups than its winding number."""
+    left = [left for left, _ in left_and_right(code)]
+    groups = Counter(left[group[0]] for group in run.groups)
+    return all(windings(code)[cell] >= count for cell, count in groups.items())
+
+
+def judge(code, reading):
+    """What the procedure says about one curve, and whether that is right; what it builds is in the reference."""
+    arranged = Arrangement.from_gauss(*code)
+    exact = gluings.keys(*code_of(arranged))
+    run, result = run_paper(arranged, reading), paper_immersion(arranged, reading)
+    if result:
+        assert key_of(result) in exact
+        return "found"
+    assert result.reason == "paper's procedure"
+    assert f"border {result.value};" in result.sentence
+    if run.stuck_at is not None:
+        return "stuck"
+    if accepts(code_of(arranged), run):
+        return "wrong groups" if exact else "accepts a curve that bounds no disk"
+    return "refuses a disk" if exact else "refuses"
+
+
+def tally(k, reading):
+    return Counter(judge(code, reading) for code in census(k) if may_bound_disk(code))
+
+
+class TestEveryCurve:
+    def test_literal_reading_up_to_four_crossings(self):
+        assert [tally(k, "literal") for k in (0, 1, 2, 3, 4)] == [
+            {"found": 1},
+            {},
+            {"found": 1},
+            {},
+            {"found": 6, "wrong groups": 1, "refuses": 4},
+        ]
+
+    def test_repaired_reading_up_to_four_crossings(self):
+        assert [tally(k, "repaired") for k in (0, 2, 4)] == [{"found": 1}, {"found": 1}, {"found": 7, "refuses": 4}]
+
+    @pytest.mark.slow
+    def test_literal_reading_with_six_crossings(self):
+        assert tally(6, "literal") == {
+            "found": 58,
+            "wrong groups": 26,
+            "refuses a disk": 1,
+            "stuck": 1,
+            "refuses": 140,
+            "accepts a curve that bounds no disk": 20,
+        }
+
+    @pytest.mark.slow
+    def test_repaired_reading_with_six_crossings(self):
+        assert tally(6, "repaired") == {"found": 86, "refuses": 160}
+
+    @pytest.mark.slow
+    def test_every_start_and_mirror_image_with_six_crossings(self):
+        verdicts = {"literal": [], "repaired": []}
+        for code in census(6):
+            if may_bound_disk(code) and gluings.immersions(*code):
+                copies = [copy for copy in symmetric_copies(code) if turning_number(copy) == 1]
+                for reading, seen in verdicts.items():
+                    seen.append([bool(paper_immersion(Arrangement.from_gauss(*copy), reading)) for copy in copies])
+        always, never = sum(map(all, verdicts["literal"])), sum(not any(seen) for seen in verdicts["literal"])
+        assert (always, never, len(verdicts["literal"])) == (36, 21, 86)
+        assert all(map(all, verdicts["repaired"]))
+
+    def test_without_the_turning_number_the_procedure_accepts_curves_that_turn_twice_or_more(self):
+        """Algorithm 1 alone, with its own test at the end: Pascal's limaçon is the first that it gets wrong."""
+        accepted = Counter()
+        for k in range(5):
+            for code in census(k):
+                run = run_paper(Arrangement.from_gauss(*code))
+                accepted[k] += run.stuck_at is None and accepts(code, run) and not may_bound_disk(code)
+        assert [accepted[k] for k in range(5)] == [0, 1, 2, 8, 27]
+        limacon = Arrangement.from_gauss([1, 0], [True, False], 1)
+        assert run_paper(limacon).groups == ((0,), (1,))
+        assert not paper_immersion(limacon)
+
+
+class TestFirstFailure:
+    def test_it_is_the_first(self):
+        assert next(c for c in census(4) if may_bound_disk(c) and judge(c, "literal") == "wrong groups") == gauss_code(
+            *FIRST_FAILURE
+        )
+
+    def test_borders_of_two_sheets_are_joined_from_every_start(self):
+        for copy in symmetric_copies(gauss_code(*FIRST_FAILURE)):
+            if turning_number(copy) == 1:
+                assert judge(copy, "literal") == "wrong groups"
+                assert judge(copy, "repaired") == "found"
+        assert run_paper(Arrangement.from_gauss(*FIRST_FAILURE)).groups == ((0, 2, 4, 6), (1,), (3,), (5,), (7,))
+
+    def test_the_one_immersion_has_two_sheets_there(self):
+        (immersion,) = gluings.immersions(*FIRST_FAILURE)
+        own = immersion.own_sheet
+        assert own[0] == own[6] != own[2] == own[4]
+
+
+class TestRandomDisks:
+    @staticmethod
+    def verdicts(outline, sizes, reading):
+        rng = np.random.default_rng(2011)
+        return Counter(bool(paper_immersion(arrangement(outline(rng, size)), reading)) for size in sizes)
+
+    def test_ribbons(self):
+        """Long ribbons cross their own partitions, where the literal reading goes round in circles."""
+        sizes = range(10, 110, 4)
+        literal = self.verdicts(random_curves.ribbon_outline, sizes, "literal")
+        repaired = self.verdicts(random_curves.ribbon_outline, sizes, "repaired")
+        assert literal[True] < repaired[True] < len(sizes)
+
+    def test_dense_disks(self):
+        sizes = range(5, 55, 2)
+        assert self.verdicts(random_curves.glued_disk, sizes, "repaired") == {True: len(sizes)}
+
+    @pytest.mark.parametrize(("polygon", "k", "layering_counts"), random_curves.SEVERAL_IMMERSIONS)
+    def test_curves_with_several_immersions(self, polygon, k, layering_counts):
+        arranged = arrangement(polygon)
+        stuck = paper_immersion(arranged)
+        assert not stuck
+        assert "round in circles" in stuck.sentence
+        assert len(stuck.where) == 1
+        assert key_of(paper_immersion(arranged, "repaired")) in gluings.keys(*code_of(arranged))
+
+    def test_calls_grow_linearly_with_the_borders(self):
+        rng = np.random.default_rng(3)
+        for size in (20, 60, 180):
+            arranged = arrangement(random_curves.ribbon_outline(rng, size))
+            assert run_paper(arranged, "repaired").calls == arranged.n_borders
+            literal = run_paper(arranged)
+            assert literal.stuck_at is not None or literal.calls <= 3 * arranged.n_borders
+
+
+class TestGluingOfALayout:
+    @pytest.mark.parametrize("k", [0, 2, 4, pytest.param(6, marks=pytest.mark.slow)])
+    def test_every_immersion_is_determined_by_its_layout(self, k):
+        for code in census(k):
+            for immersion in gluings.immersions(*code) if may_bound_disk(code) else ():
+                found = glue_layout(Arrangement.from_gauss(*code), groups_of(immersion.own_sheet))
+                assert key_of(found) == gluings.key_of(*code, *immersion)
+
+    @pytest.mark.parametrize(("polygon", "k", "layering_counts"), random_curves.SEVERAL_IMMERSIONS)
+    def test_curves_with_several_immersions(self, polygon, k, layering_counts):
+        arranged = arrangement(polygon)
+        code = code_of(arranged)
+        for immersion in gluings.immersions(*code):
+            assert key_of(glue_layout(arranged, groups_of(immersion.own_sheet))) == gluings.key_of(*code, *immersion)
+
+    def test_any_other_grouping_is_refused(self):
+        """All partitions of the borders of the first failure's middle cell into two sheets; one of them is right."""
+        arranged = Arrangement.from_gauss(*FIRST_FAILURE)
+        rest = [(1,), (3,), (5,), (7,)]
+        splits = [[(0,), (2, 4, 6)], [(0, 2), (4, 6)], [(0, 4), (2, 6)], [(0, 6), (2, 4)], [(0, 2, 6), (4,)]]
+        found = [isinstance(glue_layout(arranged, [*split, *rest]), Immersion) for split in splits]
+        assert found == [False, False, False, True, False]
+
+    def test_more_groups_than_windings_are_refused(self):
+        arranged = Arrangement.from_gauss(*FIRST_FAILURE)
+        assert glue_layout(arranged, [(border,) for border in range(8)]) is None
+
+
+def groups_of(own_sheet):
+    groups = {}
+    for border, sheet in enumerate(own_sheet):
+        groups.setdefault(sheet, []).append(border)
+    return list(groups.values())
