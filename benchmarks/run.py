@@ -61,30 +61,28 @@ def lines_of(words: list[str], limit: float) -> Iterator[dict[str, Any]]:
         yield {"failed": f"exit code {process.returncode}"}
 
 
-def contenders(vertices: int, peers: list[Peer], options: argparse.Namespace) -> list[str | Peer]:
+def contenders(vertices: int, options: argparse.Namespace) -> list[str | Peer]:
     """Return who gets a curve: the slow ones only small curves."""
     chosen: list[str | Peer] = ["plyfold", "GEOS"]
     chosen += ["reference"] if vertices <= options.reference_up_to else []
     chosen += ["lift"] if vertices <= options.lift_up_to else []
-    return [*chosen, *peers]
+    return [*chosen, *options.peer]
 
 
-def measure(family: str, vertices: int, peers: list[Peer], options: argparse.Namespace, clock: Clock) -> Row:
-    """Draw a curve and give it to all contenders."""
-    row = Row(family, vertices)
+def measure(row: Row, options: argparse.Namespace, clock: Clock) -> None:
+    """Draw the curve of a row and give it to all contenders; the row is filled as they finish."""
     with tempfile.TemporaryDirectory() as folder:
         points = Path(folder, "points.npy")
-        drawing = [str(HERE / "families.py"), family, str(vertices), str(options.seed), str(points)]
+        drawing = [str(HERE / "families.py"), row.family, str(row.vertices), str(options.seed), str(points)]
         if subprocess.run([sys.executable, *drawing], check=False, start_new_session=True).returncode:
             row.failures.append("could not be drawn")
-            return row
-        for contender in contenders(vertices, peers, options):
+            return
+        for contender in contenders(row.vertices, options):
             if isinstance(contender, Peer):
                 row.add(contender.name, contender.measure(points.with_suffix(".txt"), clock.left()))
                 continue
             for line in lines_of([str(HERE / "contenders.py"), contender, str(points)], clock.left()):
                 row.add(contender, line)
-    return row
 
 
 def progress(row: Row) -> str:
@@ -101,7 +99,8 @@ def run(options: argparse.Namespace, rows: list[Row], skipped: list[str]) -> Non
             if clock.left() < 1:
                 skipped.append(f"{family}, n = {vertices:,}: over the budget of {options.budget:.0f} s per family")
                 continue
-            rows.append(measure(family, vertices, options.peer, options, clock))
+            rows.append(Row(family, vertices))
+            measure(rows[-1], options, clock)
             say(progress(rows[-1]))
 
 
