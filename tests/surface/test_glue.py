@@ -8,10 +8,10 @@ import pytest
 from plyfold import find_layering, immersions
 from plyfold.arrangement import arrangement
 from plyfold.certify import CertificateError, check_disk_mesh, check_immersed_disk, check_layered
+from plyfold.flat.cells import triangulate_cells
 from plyfold.gallery import CURVES
 from plyfold.layering import Layering
 from plyfold.surface.glue import glue_sheets
-from plyfold.surface.triangulation import triangulate
 from reference import random_curves
 
 
@@ -35,7 +35,7 @@ def layering(request):
 
 @pytest.fixture(params=[10, 500], scope="module")
 def planar(request, layering):
-    return triangulate(layering.immersion.arrangement, triangles=request.param)
+    return triangulate_cells(layering.immersion.arrangement, triangles=request.param)
 
 
 @pytest.fixture(scope="module")
@@ -92,7 +92,7 @@ def test_immersion_without_layering():
     failing = [immersion for immersion in immersions(CURVES["bennequin"].curve) if not find_layering(immersion)]
     assert len(failing) == 2
     for immersion in failing:
-        planar = triangulate(immersion.arrangement, triangles=100)
+        planar = triangulate_cells(immersion.arrangement, triangles=100)
         any_order = np.arange(immersion.n_sheets) - immersion.first_sheet[immersion.sheet_cell] + 1
         lifted = glue_sheets(Layering(immersion, any_order), planar)
         places = planar.points[lifted.planar_vertex]
@@ -110,7 +110,7 @@ def test_wrong_levels_are_noticed():
     a, b = np.flatnonzero(immersion.sheet_cell == cell)[:2]
     level = layering.level.copy()
     level[[a, b]] = level[[b, a]]
-    planar = triangulate(immersion.arrangement, triangles=100)
+    planar = triangulate_cells(immersion.arrangement, triangles=100)
     lifted = glue_sheets(Layering(immersion, level), planar)
     with pytest.raises(CertificateError, match="change their order"):
         check_layered(np.column_stack([planar.points[lifted.planar_vertex], lifted.level]), lifted.faces)

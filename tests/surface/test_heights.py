@@ -4,20 +4,20 @@ import numpy as np
 import pytest
 from scipy.optimize import nnls
 
-from plyfold import find_immersion, find_layering
+from plyfold import find_layering, immersions
+from plyfold.flat.cells import triangulate_cells
 from plyfold.gallery import CURVES
 from plyfold.surface import lift
 from plyfold.surface.glue import glue_sheets
 from plyfold.surface.heights import _contact_problem, smooth_heights
-from plyfold.surface.triangulation import triangulate
 from reference import random_curves
 
 RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], dtype=np.float64)
 
 
 def glued(points, triangles=150):
-    layering = find_layering(find_immersion(points))
-    planar = triangulate(layering.immersion.arrangement, triangles=triangles)
+    layering = next(filter(None, map(find_layering, immersions(points))))
+    planar = triangulate_cells(layering.immersion.arrangement, triangles=triangles)
     return planar.points, glue_sheets(layering, planar)
 
 

@@ -16,6 +16,7 @@ from plyfold.arrangement.core import CurveLike
 from plyfold.arrangement.planar_map import Ints
 from plyfold.curve import Curve
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError
+from plyfold.flat.cells import DEFAULT_TRIANGLES, MOST_TRIANGLES, refuse_max_area, triangulate_cells
 from plyfold.immersion import Immersion, find_immersion, immersions
 from plyfold.io.saving import refuse_existing, save_bytes
 from plyfold.layering import Layering, Progress, first_layering
@@ -24,14 +25,12 @@ from plyfold.predicates import Floats
 from plyfold.surface.glue import glue_sheets
 from plyfold.surface.heights import smooth_heights
 from plyfold.surface.mesh_files import WRITERS
-from plyfold.surface.triangulation import DEFAULT_TRIANGLES, triangulate
 
 __all__ = ["Surface", "lift"]
 
 # Distance of neighbouring sheets, as a fraction of the drawing's larger side.
 _DEFAULT_GAP = 0.05
 _LARGEST_GAP = 1000.0
-_MOST_TRIANGLES = 10_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -213,7 +212,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     distance = _distance(drawn, gap)
     _refuse_sizes(drawn, triangles, max_area)
     report("triangulating the cells", 0.0)
-    cells = triangulate(drawn, max_area, triangles)
+    cells = triangulate_cells(drawn, max_area, triangles)
     report("gluing the sheets", 0.0)
     mesh = glue_sheets(layering, cells)
     report("smoothing heights", 0.0)
@@ -241,19 +240,10 @@ def _distance(drawn: Arrangement, gap: float | None) -> float:
 
 def _refuse_sizes(drawn: Arrangement, triangles: int, max_area: float | None) -> None:
     """Raise InputError for sizes that make no mesh, or one that no machine can hold."""
-    if not 1 <= triangles <= _MOST_TRIANGLES:
-        raise InputError(f"the number of triangles must be from 1 to {_MOST_TRIANGLES:,}, not {triangles!r}")
-    if max_area is None:
-        return
-    if not max_area > 0:
-        raise InputError(f"the largest area of a triangle must be positive, not {max_area!r}")
-    assert drawn.curve is not None
-    width, height = np.ptp(drawn.curve.points, axis=0)
-    if width * height > _MOST_TRIANGLES * max_area:
-        raise InputError(
-            f"triangles of area {max_area:g} are too small for a drawing of {width:g} by {height:g}",
-            hint=f"at most {_MOST_TRIANGLES:,} triangles are made",
-        )
+    if not 1 <= triangles <= MOST_TRIANGLES:
+        raise InputError(f"the number of triangles must be from 1 to {MOST_TRIANGLES:,}, not {triangles!r}")
+    if max_area is not None and drawn.curve is not None:
+        refuse_max_area(drawn.curve.points, max_area)
 
 
 def _layering_of(curve: CurveLike | Immersion | Layering, time_limit: float | None, report: Progress) -> Layering:

@@ -8,9 +8,9 @@ import pytest
 
 from plyfold.arrangement import arrangement
 from plyfold.errors import PlyfoldError, PrecisionError
+from plyfold.flat.cells import triangulate_cells
+from plyfold.flat.sheets import following
 from plyfold.gallery import CURVES
-from plyfold.surface.halfedges import HalfEdges, following
-from plyfold.surface.triangulation import triangulate
 from reference import random_curves
 
 RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], dtype=np.float64)
@@ -51,7 +51,7 @@ def drawn(request):
 
 @pytest.fixture(scope="module")
 def mesh(drawn):
-    return triangulate(drawn, triangles=400)
+    return triangulate_cells(drawn, triangles=400)
 
 
 def test_covers_each_cell(drawn, mesh):
@@ -80,9 +80,9 @@ def test_chain_runs_along_the_curve(drawn, mesh):
     assert mesh.chain[mesh.chain < n].tolist() == list(range(n))
     times = Counter(mesh.chain.tolist())
     assert all(times[vertex] == (2 if n <= vertex < n + drawn.n_crossings else 1) for vertex in times)
-    sides = HalfEdges(mesh.triangles)
-    left = sides.find(mesh.chain, np.roll(mesh.chain, -1))
-    assert (mesh.cell[left // 3] == drawn.left_cell[mesh.chain_border]).all()
+    ends = np.stack([mesh.triangles, np.roll(mesh.triangles, -1, axis=1)], axis=2).reshape(-1, 2)
+    assert ends[mesh.left].tolist() == np.stack([mesh.chain, np.roll(mesh.chain, -1)], axis=1).tolist()
+    assert (mesh.cell[mesh.left // 3] == drawn.left_cell[mesh.chain_border]).all()
 
 
 def test_borders_change_at_crossings(drawn, mesh):
@@ -95,7 +95,7 @@ def test_borders_change_at_crossings(drawn, mesh):
 def test_good_angles():
     """No corner of a circle is sharp, and those of a square are not either."""
     for points in (CURVES["circle"].curve.points, [(0, 0), (4, 0), (4, 4), (0, 4)]):
-        mesh = triangulate(arrangement(points), triangles=1000)
+        mesh = triangulate_cells(arrangement(points), triangles=1000)
         assert smallest_angles(mesh.points, mesh.triangles).min() >= 25 - 1e-6
 
 
@@ -103,18 +103,18 @@ def test_good_angles():
 def test_number_of_triangles(triangles):
     """Of the lifted surface, where triangles over deep cells count several times."""
     drawn = arrangement(CURVES["two-turn-spiral"].curve)
-    mesh = triangulate(drawn, triangles=triangles)
+    mesh = triangulate_cells(drawn, triangles=triangles)
     assert 0.6 * triangles < drawn.winding[mesh.cell].sum() < 2 * triangles
 
 
 def test_max_area():
-    mesh = triangulate(arrangement(RAMP), max_area=0.05)
+    mesh = triangulate_cells(arrangement(RAMP), max_area=0.05)
     assert areas(mesh.points, mesh.triangles).max() <= 0.05 * (1 + 1e-9)
 
 
 @pytest.mark.parametrize("exponent", [-300, -60, 60, 300])
 def test_powers_of_two_change_nothing(exponent):
-    plain, scaled = triangulate(arrangement(RAMP)), triangulate(arrangement(np.ldexp(RAMP, exponent)))
+    plain, scaled = triangulate_cells(arrangement(RAMP)), triangulate_cells(arrangement(np.ldexp(RAMP, exponent)))
     assert np.ldexp(plain.points, exponent).tobytes() == scaled.points.tobytes()
     assert plain.triangles.tolist() == scaled.triangles.tolist()
 
@@ -124,24 +124,22 @@ def test_crossings_closer_than_doubles():
     strip = RAMP.copy()
     strip[8:, 1] = 1e-17
     with pytest.raises(PrecisionError, match="fall on each other") as caught:
-        triangulate(arrangement(strip))
+        triangulate_cells(arrangement(strip))
     assert {(3.0, 0.0), (4.0, 0.0)} <= set(caught.value.where)
 
 
 def test_needs_a_drawing():
     ramp = arrangement(RAMP)
     with pytest.raises(PlyfoldError, match="Gauss code"):
-        triangulate(type(ramp).from_gauss(ramp.partner, ramp.ccw, ramp.outer))
+        triangulate_cells(type(ramp).from_gauss(ramp.partner, ramp.ccw, ramp.outer))
 
 
 def test_half_edges():
     """Against dictionaries, on a triangulated drawing."""
-    triangles = triangulate(arrangement(RAMP), triangles=100).triangles
-    sides = HalfEdges(triangles)
-    ends = [(t[i], t[(i + 1) % 3]) for t in triangles.tolist() for i in range(3)]
+    mesh = triangulate_cells(arrangement(RAMP), triangles=100)
+    ends = [(t[i], t[(i + 1) % 3]) for t in mesh.triangles.tolist() for i in range(3)]
     number = {pair: i for i, pair in enumerate(ends)}
-    assert sides.twin.tolist() == [number.get((b, a), -1) for a, b in ends]
+    assert mesh.twin.tolist() == [number.get((b, a), -1) for a, b in ends]
     half_edge = np.arange(len(ends))
-    assert (sides.start[following(half_edge)] == sides.end).all()
+    assert [ends[i][0] for i in following(half_edge)] == [b for a, b in ends]
     assert (following(half_edge) // 3 == half_edge // 3).all()
-    assert sides.find(np.array([10**6]), np.array([0])).tolist() == [-1]

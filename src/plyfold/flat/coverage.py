@@ -1,0 +1,60 @@
+"""How often a closed curve covers each part of the plane."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from plyfold.arrangement import arrangement
+from plyfold.arrangement.core import CurveLike
+from plyfold.flat.outlines import outlined
+
+if TYPE_CHECKING:
+    from shapely import Polygon
+
+__all__ = ["Covered", "coverage"]
+
+
+class Covered(NamedTuple):
+    """A cell, and how often the curve goes round it."""
+
+    polygon: Polygon
+    winding: int
+
+
+def coverage(curve: CurveLike) -> list[Covered]:
+    """Return the cells that a closed curve winds round, with their winding numbers.
+
+    Parameters
+    ----------
+    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+        Any closed curve, whether it bounds a disk or not.
+
+    Returns
+    -------
+    list of Covered
+        Pairs (polygon, winding), in the order of the arrangement's cells; those with winding number 0 are left out.
+        The polygons are valid and do not overlap; one that touches itself at a crossing has a hole that touches its
+        outline there. A curve with negative turning number counts as turned round, see
+        :class:`~plyfold.Arrangement`. Crossings are rounded to double precision.
+
+    Raises
+    ------
+    PrecisionError
+        If a polygon is no longer valid with its crossings rounded; it names the place.
+
+    Notes
+    -----
+    O((n + k) log n) for n points and k crossings.
+
+    Examples
+    --------
+    >>> eight = [(0, 0), (2, 2), (2, 0), (0, 2)]
+    >>> [(cell.polygon.area, cell.winding) for cell in coverage(eight)]
+    [(1.0, -1), (1.0, 1)]
+    """
+    drawn = arrangement(curve)
+    wound = np.flatnonzero(drawn.winding).tolist()
+    polygons = outlined(drawn, [drawn.cells[cell] for cell in wound])
+    return [Covered(*pair) for pair in zip(polygons, drawn.winding[wound].tolist(), strict=True)]

@@ -1,0 +1,136 @@
+"""Few simple polygons that cover an immersed disk once: its triangles, put together as long as they do not overlap."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from plyfold.arrangement.core import CurveLike
+from plyfold.arrangement.planar_map import Bools, Ints
+from plyfold.flat.triangulate import chosen_immersion, own_triangles
+from plyfold.immersion import Immersion
+from plyfold.predicates import Floats, orient
+
+if TYPE_CHECKING:
+    from shapely import Polygon
+
+__all__ = ["decompose"]
+
+# The triangles whose neighbourhoods are looked at together, so that no more memory is needed than for their pairs.
+_AT_ONCE = 1000
+
+
+def decompose(curve: CurveLike, immersion: Immersion | None = None) -> list[Polygon]:
+    """Cut the disk that a curve bounds, along straight chords, into few polygons that do not overlap themselves.
+
+    Parameters
+    ----------
+    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+        It may cross itself.
+    immersion : Immersion, optional
+        The disk to cut, if the curve bounds several; by default the first one.
+
+    Returns
+    -------
+    list of shapely.Polygon
+        Simple polygons without holes, counter-clockwise, whose corners are points of the curve. Together they cover
+        each place as often as the curve winds round it. A curve without overlaps gives one polygon.
+
+    Raises
+    ------
+    NotImmersibleError
+        If the curve bounds no immersed disk; ``error.obstruction`` says why.
+    PrecisionError
+        If :func:`triangulate` cannot make its triangles; it names the place.
+    InputError
+        If the immersion is one of another curve.
+
+    Notes
+    -----
+    The triangles of :func:`triangulate` are a tree, in which pairs that overlap must be separated. It is cut as near
+    to the root as can be, from the leaves on: the least number of cuts where the tree is a path, and few where not.
+    Cost: that of the triangles, and linear in the number of pairs whose bounding boxes overlap.
+
+    Examples
+    --------
+    >>> ramp = [(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)]
+    >>> len(decompose(ramp))
+    2
+    """
+    import shapely
+
+    points, faces = own_triangles(chosen_immersion(curve, immersion))
+    piece = _pieces(_conflicts(points, faces), *_tree(faces))
+    # Around a piece its corners follow each other in the order of the curve.
+    part, corner = np.divmod(np.unique(np.repeat(piece, 3) * len(points) + faces.ravel()), len(points))
+    return list(shapely.polygons(shapely.linearrings(points[corner], indices=part)))
+
+
+def _tree(faces: Ints) -> tuple[list[int], list[int]]:
+    """Return the triangles in an order that begins with the root, and before each triangle the one it hangs on."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import breadth_first_order
+
+    start, end = faces.ravel(), faces[:, [1, 2, 0]].ravel()
+    key = np.minimum(start, end) * (faces.max() + 1) + np.maximum(start, end)
+    order = np.argsort(key)
+    same = np.flatnonzero(np.diff(key[order]) == 0)
+    first, second = order[same] // 3, order[same + 1] // 3
+    size = len(faces)
+    graph = coo_array((np.ones(len(same), dtype=np.int8), (first, second)), shape=(size, size))
+    reached, parent = breadth_first_order(graph, 0, directed=False)
+    return reached.tolist(), parent.tolist()
+
+
+def _conflicts(points: Floats, faces: Ints) -> list[list[int]]:
+    """Return for each triangle those that overlap or touch it, without having a corner in common with it.
+
+    Triangles around a common corner are parts of its fan, which is less than a full turn.
+    """
+    conflicts: list[list[int]] = [[] for _ in faces]
+    for first, second in _overlapping_boxes(points[faces]):
+        common = (faces[first][:, :, None] == faces[second][:, None, :]).reshape(-1, 9).any(axis=1)
+        i, j = first[~common], second[~common]
+        meet = ~_apart(points[faces[i]], points[faces[j]])
+        for one, other in zip(i[meet].tolist(), j[meet].tolist(), strict=True):
+            conflicts[one].append(other)
+            conflicts[other].append(one)
+    return conflicts
+
+
+def _overlapping_boxes(triangles: Floats) -> Iterator[tuple[Ints, Ints]]:
+    """Yield pairs of triangles whose bounding boxes meet, some at a time, each pair once."""
+    from shapely import STRtree, box
+
+    (left, low), (right, high) = triangles.min(axis=1).T, triangles.max(axis=1).T
+    boxes = box(left, low, right, high)
+    tree = STRtree(boxes)
+    for begin in range(0, len(boxes), _AT_ONCE):
+        first, second = tree.query(boxes[begin : begin + _AT_ONCE])
+        once = begin + first < second
+        yield begin + first[once], second[once]
+
+
+def _apart(one: Floats, other: Floats) -> Bools:
+    """Tell which pairs of triangles a line along a side of one of them separates; of those that are apart, one does."""
+    return _beyond_a_side(one, other) | _beyond_a_side(other, one)
+
+
+def _beyond_a_side(one: Floats, other: Floats) -> Bools:
+    side = orient(one[:, :, None], one[:, [1, 2, 0], None], other[:, None])
+    return np.asarray(np.any(np.all(side < 0, axis=2), axis=1))
+
+
+def _pieces(conflicts: list[list[int]], order: list[int], parent: list[int]) -> Ints:
+    """Return the piece of each triangle; a piece joins that of the triangle it hangs on unless they conflict."""
+    piece = list(range(len(order)))
+    members = [[triangle] for triangle in piece]
+    for triangle in reversed(order[1:]):
+        small, large = sorted((piece[triangle], piece[parent[triangle]]), key=lambda p: len(members[p]))
+        if all(piece[other] != large for member in members[small] for other in conflicts[member]):
+            for member in members[small]:
+                piece[member] = large
+            members[large] += members[small]
+    return np.unique(piece, return_inverse=True)[1]

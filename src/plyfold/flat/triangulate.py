@@ -1,0 +1,166 @@
+"""Triangles on the curve's own points that make an immersed disk, as Shor and Van Wyk's program finds them."""
+
+from __future__ import annotations
+
+from typing import overload
+
+import numpy as np
+
+from plyfold.arrangement import Arrangement, arrangement
+from plyfold.arrangement.core import CurveLike
+from plyfold.arrangement.planar_map import Ints
+from plyfold.curve import as_curve
+from plyfold.errors import InputError, NotImmersibleError, PrecisionError
+from plyfold.flat.cells import refuse_max_area, triangulate_cells
+from plyfold.flat.deletion import without_vertices
+from plyfold.flat.sheets import glue_copies
+from plyfold.immersion import Immersion, find_immersion
+from plyfold.predicates import Floats, orient
+
+__all__ = ["chosen_immersion", "own_triangles", "triangulate"]
+
+
+@overload
+def triangulate(curve: CurveLike, immersion: Immersion | None = None, refine: None = None) -> Ints: ...
+
+
+@overload
+def triangulate(curve: CurveLike, immersion: Immersion | None = None, *, refine: float) -> tuple[Floats, Ints]: ...
+
+
+def triangulate(
+    curve: CurveLike, immersion: Immersion | None = None, refine: float | None = None
+) -> Ints | tuple[Floats, Ints]:
+    """Cut the disk that a curve bounds into n − 2 triangles on the curve's own n points.
+
+    Parameters
+    ----------
+    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+        It may cross itself.
+    immersion : Immersion, optional
+        The disk to triangulate, if the curve bounds several; by default the first one.
+    refine : float, optional
+        Largest area of a triangle, in square units of the drawing. Points are then added inside the disk, none on its
+        boundary.
+
+    Returns
+    -------
+    faces : (n − 2, 3) int
+        Rows of three points of the curve, by number, counter-clockwise (exactly, and strictly). Glued along their
+        common sides they are a disk, immersed in the plane, with the curve as its boundary. A curve that runs
+        clockwise keeps its numbers; the triangles are counter-clockwise all the same.
+    points, faces : (m, 2) float and (m' , 3) int
+        With ``refine``; the first n points are the curve's.
+
+    Raises
+    ------
+    NotImmersibleError
+        If the curve bounds no immersed disk; ``error.obstruction`` says why.
+    PrecisionError
+        If crossings, rounded to doubles, are in the way of each other or of the curve's points; it names the place.
+    InputError
+        If ``refine`` is not positive or makes too many triangles, or the immersion is one of another curve.
+
+    Notes
+    -----
+    The same input and output as programs after Shor and Van Wyk [SW92]_ have, which take O(n³). Here the cells are
+    triangulated together with the crossings, copied once per sheet, glued, and then the vertices over crossings and
+    those under other sheets are deleted one at a time. That such triangles exist is proved in [SW92]_ and [WZ14]_.
+    O(m log m) for m copied triangles, about two million points a minute.
+
+    Points that repeat the one before them are left out (see :class:`~plyfold.Curve`) and do not count. If vertices had
+    to be moved into general position, the triangles are those of the moved curve, ``arrangement(curve).curve``.
+
+    References
+    ----------
+    .. [SW92] P. W. Shor, C. J. Van Wyk, "Detecting and decomposing self-overlapping curves", Computational
+       Geometry 2, 1992.
+    .. [WZ14] O. Weber, D. Zorin, "Locally injective parametrization with arbitrary fixed boundaries", ACM
+       Transactions on Graphics 33, 2014.
+
+    Examples
+    --------
+    >>> ramp = [(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)]
+    >>> triangulate(ramp).shape
+    (8, 3)
+    >>> points, faces = triangulate([(0, 0), (6, 0), (0, 6)], refine=4.0)
+    >>> len(points) > 3
+    True
+    """
+    chosen = chosen_immersion(curve, immersion)
+    if refine is not None:
+        return _refined(chosen, float(refine))
+    points, faces = own_triangles(chosen)
+    return _input_order(chosen.arrangement, len(points))[faces]
+
+
+def chosen_immersion(curve: CurveLike, immersion: Immersion | None) -> Immersion:
+    """Return the immersion asked for, or the curve's first; raise an error if there is none."""
+    if immersion is None:
+        found = find_immersion(arrangement(curve))
+        if not isinstance(found, Immersion):
+            raise NotImmersibleError(found)
+        return found
+    drawn = immersion.arrangement
+    same = curve is drawn if isinstance(curve, Arrangement) else len(as_curve(curve)) == len(drawn.curve or ())
+    if not same:
+        raise InputError("the immersion belongs to another curve", hint="make it from the same arrangement")
+    return immersion
+
+
+def own_triangles(immersion: Immersion) -> tuple[Floats, Ints]:
+    """Return the points of the arrangement's curve, and triangles on them that make the disk of the immersion."""
+    mesh = triangulate_cells(immersion.arrangement, triangles=0)
+    glued = glue_copies(immersion, mesh)
+    n = len(mesh.points) - immersion.arrangement.n_crossings
+    extra = np.ones(len(glued.planar_vertex), dtype=bool)
+    extra[glued.boundary[mesh.chain < n]] = False
+    faces = glued.planar_vertex[without_vertices(mesh.points[glued.planar_vertex], glued.faces, extra)]
+    points = mesh.points[:n]
+    a, b, c = points[faces].swapaxes(0, 1)
+    if len(faces) != n - 2 or (orient(a, b, c) <= 0).any():
+        raise PrecisionError("rounding the crossings to double precision spoils the triangles", where=mesh.points[n:])
+    return points, faces
+
+
+def _input_order(drawn: Arrangement, n: int) -> Ints:
+    """Return the number that each point of the arrangement's curve has in the input."""
+    return -np.arange(n) % n if drawn.reversed else np.arange(n)
+
+
+def _refined(immersion: Immersion, max_area: float) -> tuple[Floats, Ints]:
+    """Triangulate with added points, and take those on the boundary out again."""
+    drawn = immersion.arrangement
+    assert drawn.curve is not None
+    n = len(drawn.curve.points)
+    refuse_max_area(drawn.curve.points, max_area)
+    mesh = triangulate_cells(drawn, max_area)
+    glued = glue_copies(immersion, mesh)
+    places = mesh.points[glued.planar_vertex]
+    own = mesh.chain < n
+    extra = np.zeros(len(places), dtype=bool)
+    extra[glued.boundary[~own]] = True
+    faces = without_vertices(places, glued.faces, extra)
+    number = np.arange(len(places)) - len(glued.boundary) + n
+    number[glued.boundary[own]] = _input_order(drawn, n)
+    points = np.empty((len(places) - int(extra.sum()), 2))
+    points[number[~extra]] = places[~extra]
+    return _split_large(points, number[faces], max_area)
+
+
+def _split_large(points: Floats, faces: Ints, max_area: float) -> tuple[Floats, Ints]:
+    """Split triangles at their centres until none is larger than allowed, or none of those can be split exactly."""
+    while True:
+        a, b, c = points[faces].swapaxes(0, 1)
+        (ux, uy), (vx, vy) = (b - a).T, (c - a).T
+        large = np.flatnonzero(ux * vy - uy * vx > 2 * max_area)
+        centre = a[large] + ((b - a)[large] + (c - a)[large]) / 3
+        inside = [orient(p[large], q[large], centre) > 0 for p, q in ((a, b), (b, c), (c, a))]
+        large, centre = large[np.all(inside, axis=0)], centre[np.all(inside, axis=0)]
+        if len(large) == 0:
+            return points, faces
+        new = len(points) + np.arange(len(large))
+        first, second, third = faces[large].T
+        parts = [(first, second, new), (second, third, new), (third, first, new)]
+        faces = np.concatenate([np.delete(faces, large, axis=0), *(np.stack(part, axis=1) for part in parts)])
+        points = np.concatenate([points, centre])

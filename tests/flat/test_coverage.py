@@ -1,0 +1,83 @@
+"""Cells with their winding numbers, against what GEOS makes of the same loop."""
+
+import math
+
+import numpy as np
+import pytest
+import shapely
+
+import plyfold as pf
+from plyfold.errors import PrecisionError
+from plyfold.flat import coverage
+from plyfold.gallery import CURVES
+from reference import random_curves
+
+
+def winding_number(points, place):
+    """By adding up angles."""
+    z = (np.asarray(points) - place) @ np.array([1, 1j])
+    return round(np.angle(np.roll(z, -1) / z).sum() / (2 * math.pi))
+
+
+def by_geos(points):
+    """Area, perimeter and winding number of every cell that does not wind 0 times, by noding and polygonizing."""
+    noded = shapely.unary_union(shapely.LinearRing(points))
+    cells = shapely.get_parts(shapely.polygonize([noded]))
+    wound = [(cell.area, cell.length, winding_number(points, cell.point_on_surface().coords[0])) for cell in cells]
+    return sorted(row for row in wound if row[2] != 0)
+
+
+def curves():
+    yield from (pytest.param(named.curve.points, id=name) for name, named in CURVES.items())
+    for seed in range(10):
+        rng = np.random.default_rng(seed)
+        yield pytest.param(random_curves.random_polygon(rng, 20), id=f"polygon {seed}")
+        yield pytest.param(random_curves.smooth_curve(rng, 6), id=f"smooth {seed}")
+        yield pytest.param(random_curves.glued_disk(rng, 30), id=f"disk {seed}")
+
+
+@pytest.mark.parametrize("points", list(curves()))
+def test_cells_of_geos(points):
+    points = np.array(points, dtype=np.float64)
+    drawn = pf.arrangement(points)
+    found = coverage(drawn)
+    assert all(cell.polygon.is_valid and cell.polygon.exterior.is_ccw for cell in found)
+    expected = by_geos(drawn.curve.points)
+    rows = sorted((cell.polygon.area, cell.polygon.length, cell.winding) for cell in found)
+    assert [row[2] for row in rows] == [row[2] for row in expected]
+    np.testing.assert_allclose([row[:2] for row in rows], [row[:2] for row in expected], rtol=1e-6)
+
+
+def test_a_cell_that_touches_itself():
+    """Small loops inside and outside of a big one: the ring between has holes that touch its outline."""
+    big = [(0, 0), (10, 0), (10, 10), (0, 10)]
+    inward = [*big[:1], (6, 0), (6, 2), (4, 2), (4, -1), (3, -1), (3, 0.5), *big[1:]]
+    found = coverage(inward)
+    assert [cell.polygon.is_valid for cell in found] == [True] * len(found)
+    x, y = np.array(inward, dtype=np.float64).T
+    total = sum(cell.winding * cell.polygon.area for cell in found)
+    assert total == pytest.approx((x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2)
+
+
+def test_loops_in_a_row_touch_from_inside():
+    """A flower: eight inner loops hang on the outline of one cell, which passes through eight crossings twice."""
+    t = 2 * np.pi * (np.arange(800) + 0.5) / 800
+    z = 4 * np.exp(1j * t) + 0.6 * np.exp(9j * t)
+    points = np.stack([z.real, z.imag], axis=1)
+    found = coverage(points)
+    assert sorted((len(cell.polygon.interiors), cell.winding) for cell in found) == [(0, 2)] * 8 + [(8, 1)]
+    rows = sorted((cell.polygon.area, cell.polygon.length, cell.winding) for cell in found)
+    np.testing.assert_allclose(rows, by_geos(pf.arrangement(points).curve.points), rtol=1e-6)
+
+
+def test_needles_are_named():
+    """Cells that are gone when their crossings are rounded."""
+    strip = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1e-17), (0, 1e-17)])
+    with pytest.raises(PrecisionError) as caught:
+        coverage(strip)
+    assert len(caught.value.where) > 0
+
+
+def test_nothing_to_cover_but_one_cell():
+    (only,) = coverage([(0, 0), (1, 0), (0, 1)])
+    assert (only.polygon.area, only.winding) == (0.5, 1)

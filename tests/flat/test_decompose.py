@@ -1,0 +1,76 @@
+"""Simple pieces: valid, and together they cover every place as often as the curve winds round it."""
+
+import math
+
+import numpy as np
+import pytest
+import shapely
+
+import plyfold as pf
+from plyfold.errors import NotImmersibleError
+from plyfold.flat import decompose
+from plyfold.gallery import CURVES
+from reference import random_curves
+
+# Found to be the least by hand: one more than the places where the ribbon must be cut, or what a deep cell needs.
+PIECES = {"circle": 1, "horseshoe": 2, "exit-ramp": 2, "two-loops": 3, "knotted-ribbon": 2, "pentagram": 2}
+
+
+def winding_numbers(points, places):
+    """By adding up angles."""
+    z = (np.asarray(points)[None] - places[:, None]) @ np.array([1, 1j])
+    return np.round(np.angle(np.roll(z, -1, axis=1) / z).sum(axis=1) / (2 * math.pi)).astype(int)
+
+
+def signed_area(points):
+    x, y = np.asarray(points, dtype=np.float64).T
+    return (x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+
+
+def disks():
+    for name, named in CURVES.items():
+        if named.immersions:
+            yield pytest.param(named.curve.points, id=name)
+    for seed in range(8):
+        rng = np.random.default_rng(seed)
+        yield pytest.param(np.array(random_curves.glued_disk(rng, 40), dtype=np.float64), id=f"glued disk {seed}")
+        yield pytest.param(np.array(random_curves.ribbon_outline(rng, 150), dtype=np.float64), id=f"ribbon {seed}")
+
+
+@pytest.mark.parametrize("points", list(disks()))
+def test_covers_the_disk_once(points):
+    drawn = pf.arrangement(points)
+    places = np.random.default_rng(1).uniform(points.min(axis=0), points.max(axis=0), (400, 2))
+    for immersion in list(pf.immersions(drawn))[:3]:
+        pieces = decompose(drawn, immersion)
+        for piece in pieces:
+            assert piece.is_valid
+            assert piece.exterior.is_simple
+            assert piece.exterior.is_ccw
+            assert len(piece.interiors) == 0
+        covered = sum(shapely.contains_xy(piece, places) for piece in pieces)
+        assert covered.tolist() == np.abs(winding_numbers(points, places)).tolist()
+        assert sum(piece.area for piece in pieces) == pytest.approx(abs(signed_area(points)))
+        corners = {corner for piece in pieces for corner in piece.exterior.coords}
+        assert corners == set(map(tuple, drawn.curve.points.tolist()))
+
+
+@pytest.mark.parametrize("name", PIECES)
+def test_few_pieces(name):
+    assert len(decompose(CURVES[name].curve)) == PIECES[name]
+
+
+def test_never_fewer_than_the_depth_nor_as_many_as_triangles():
+    for name in ("stacked-spiral", "milnor", "ten-gon", "bennequin"):
+        drawn = pf.arrangement(CURVES[name].curve)
+        assert drawn.winding.max() <= len(decompose(drawn)) <= drawn.winding.max() + 2
+
+
+def test_bow_ties_are_no_disks():
+    with pytest.raises(NotImmersibleError):
+        decompose([(0, 0), (2, 2), (2, 0), (0, 2)])
+
+
+def test_clockwise():
+    points = CURVES["exit-ramp"].curve.points
+    assert all(piece.exterior.is_ccw for piece in decompose(points[::-1]))

@@ -1,0 +1,211 @@
+"""Triangles on the curve's own points: certified, and against the dynamic program of Shor and Van Wyk."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import plyfold as pf
+from plyfold.certify import check_immersed_disk
+from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError, PrecisionError
+from plyfold.flat import triangulate
+from plyfold.gallery import CURVES
+from reference import random_curves, shor_van_wyk
+
+RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], dtype=np.float64)
+DISKS = [name for name, named in CURVES.items() if named.immersions]
+
+
+def certify(points, faces):
+    """The certificate of an immersed disk with nothing but the polygon's own points."""
+    points = np.asarray(points, dtype=np.float64)
+    assert faces.shape == (len(points) - 2, 3)
+    assert faces.dtype == np.int64
+    check_immersed_disk(points, points, faces, boundary=np.arange(len(points)))
+
+
+def certify_clockwise(points, faces):
+    """The same for a curve that runs clockwise: the disk is on the left of the curve run backward."""
+    points = np.asarray(points, dtype=np.float64)
+    backward = -np.arange(len(points)) % len(points)
+    check_immersed_disk(points[backward], points, faces, boundary=backward)
+
+
+def double_areas(points, faces):
+    a, b, c = np.asarray(points, dtype=np.float64)[faces].swapaxes(0, 1)
+    (ux, uy), (vx, vy) = (b - a).T, (c - a).T
+    return ux * vy - uy * vx
+
+
+def times_covered(points, faces, places):
+    """In how many triangles each place lies."""
+    corners = np.asarray(points, dtype=np.float64)[np.asarray(faces)]
+    inside = np.ones((len(places), len(faces)), dtype=bool)
+    for i in range(3):
+        start, end = corners[:, i], corners[:, (i + 1) % 3]
+        (ux, uy), away = (end - start).T, places[:, None] - start
+        inside &= ux * away[..., 1] - uy * away[..., 0] > 0
+    return inside.sum(axis=1)
+
+
+@pytest.mark.parametrize("name", DISKS)
+def test_gallery(name):
+    """Every immersion has triangles of its own."""
+    drawn = pf.arrangement(CURVES[name].curve)
+    found = [triangulate(drawn, immersion) for immersion in pf.immersions(drawn)]
+    for faces in found:
+        certify(drawn.curve.points, faces)
+    assert len({frozenset(map(frozenset, faces.tolist())) for faces in found}) == CURVES[name].immersions
+
+
+@pytest.mark.parametrize(("polygon", "layerings"), [(p, layers) for p, _, layers in random_curves.SEVERAL_IMMERSIONS])
+def test_several_immersions(polygon, layerings):
+    found = [triangulate(polygon, immersion) for immersion in pf.immersions(polygon)]
+    for faces in found:
+        certify(polygon, faces)
+    assert len({frozenset(map(frozenset, faces.tolist())) for faces in found}) == len(layerings)
+    assert found[0].tolist() == triangulate(polygon).tolist()
+
+
+def random_polygons(seed, count):
+    rng = np.random.default_rng(seed)
+    for _ in range(count):
+        yield random_curves.random_polygon(rng, int(rng.integers(4, 9)), size=100)
+        yield random_curves.random_polygon(rng, int(rng.integers(9, 15)), size=100)
+        yield random_curves.glued_disk(rng, int(rng.integers(2, 20)))
+        yield random_curves.ribbon_outline(rng, int(rng.integers(2, 20)))
+
+
+def test_verdicts_of_the_dynamic_program():
+    """The same verdict on random polygons; and the triangles cover random places as often as the program's."""
+    rng = np.random.default_rng(7)
+    disks, others = 0, 0
+    for polygon in random_polygons(seed=3, count=120):
+        ordered = polygon if shor_van_wyk.turning_number(polygon) >= 0 else polygon[::-1]
+        try:
+            pf.arrangement(ordered, general_position="raise")
+        except GeneralPositionError:
+            continue
+        expected = shor_van_wyk.triangulation(ordered)
+        if expected is None:
+            with pytest.raises(NotImmersibleError):
+                triangulate(ordered)
+            others += 1
+        else:
+            faces = triangulate(ordered)
+            certify(ordered, faces)
+            certify(ordered, np.array(expected, dtype=np.int64))
+            places = rng.uniform(np.min(ordered, axis=0), np.max(ordered, axis=0), (50, 2))
+            assert times_covered(ordered, faces, places).tolist() == times_covered(ordered, expected, places).tolist()
+            disks += 1
+    assert disks > 150
+    assert others > 50
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 2**32), st.sampled_from(["ribbon", "disk"]), st.integers(0, 40))
+def test_frames(seed, family, start):
+    rng = np.random.default_rng(seed)
+    outline = random_curves.ribbon_outline if family == "ribbon" else random_curves.glued_disk
+    points = np.array(outline(rng, 20), dtype=np.float64)
+    try:
+        drawn = pf.arrangement(points, general_position="raise")
+    except GeneralPositionError:
+        return
+    faces = triangulate(drawn)
+    certify(points, faces)
+    for scaled in (points * 1e8, points * 1e-8):
+        certify(scaled, triangulate(scaled))
+    assert triangulate(np.ldexp(points, 80)).tolist() == faces.tolist()
+    moved = np.roll(points, start, axis=0)
+    certify(moved, triangulate(moved))
+    certify_clockwise(points[::-1], triangulate(points[::-1]))
+    mirrored = points * [-1, 1]
+    certify_clockwise(mirrored, triangulate(mirrored))
+
+
+@pytest.mark.parametrize("name", DISKS)
+@pytest.mark.parametrize("share", [0.5, 0.01])
+def test_refined(name, share):
+    """No triangle is too large, the outline is the polygon with no more points, and the area is the same."""
+    points = CURVES[name].curve.points
+    whole = double_areas(points, triangulate(points)).sum() / 2
+    places, faces = triangulate(points, refine=share * whole)
+    assert places[: len(points)].tobytes() == points.tobytes()
+    check_immersed_disk(points, places, faces, boundary=np.arange(len(points)))
+    areas = double_areas(places, faces) / 2
+    assert areas.max() <= share * whole * (1 + 1e-9)
+    assert areas.sum() == pytest.approx(whole)
+
+
+def test_refined_clockwise():
+    points = RAMP[::-1]
+    places, faces = triangulate(points, refine=0.5)
+    assert places[: len(points)].tobytes() == points.tobytes()
+    backward = -np.arange(len(points)) % len(points)
+    check_immersed_disk(points[backward], places, faces, boundary=backward)
+
+
+def test_refinement_is_limited():
+    for refine in (0.0, -1.0, float("nan")):
+        with pytest.raises(InputError, match="must be positive"):
+            triangulate(RAMP, refine=refine)
+    with pytest.raises(InputError, match="too small"):
+        triangulate(RAMP, refine=1e-12)
+
+
+def test_no_disk():
+    with pytest.raises(NotImmersibleError) as caught:
+        triangulate(CURVES["limacon"].curve)
+    assert caught.value.obstruction.reason == "turning number"
+
+
+def test_immersion_of_another_curve():
+    immersion = pf.find_immersion(RAMP)
+    assert len(triangulate(RAMP, immersion)) == 8
+    with pytest.raises(InputError, match="another curve"):
+        triangulate(CURVES["circle"].curve, immersion)
+    with pytest.raises(InputError, match="another curve"):
+        triangulate(pf.arrangement(RAMP), immersion)
+
+
+@pytest.mark.parametrize("exponent", range(1, 18))
+@pytest.mark.parametrize("turned", [0.0, 0.4])
+def test_needles(exponent, turned):
+    """However thin the strip: triangles that are certified, or an error that names its place; never wrong ones."""
+    strip = RAMP.copy()
+    strip[8:, 1] = 10.0**-exponent
+    cosine, sine = np.cos(turned), np.sin(turned)
+    strip = strip @ np.array([[cosine, sine], [-sine, cosine]])
+    if exponent <= 13:
+        certify(strip, triangulate(strip))
+    else:
+        certify_or_place(strip)
+
+
+def certify_or_place(points):
+    faces, places = None, ()
+    try:
+        faces = triangulate(points)
+    except PrecisionError as error:
+        places = error.where
+    if faces is None:
+        assert len(places) > 0
+    else:
+        certify(points, faces)
+
+
+def test_flat_corners():
+    """Corners of 180 degrees stay corners."""
+    points = [(0, 0), (1, 0), (2, 0), (4, 0), (4, 1), (4, 4), (3, 4), (0, 4), (0, 2)]
+    certify(points, triangulate(points))
+
+
+def test_moved_into_general_position():
+    """A vertex on another edge: the triangles are those of the moved curve."""
+    points = RAMP.copy()
+    points[5] = (4, 0)
+    points[4] = (3, -3)
+    drawn = pf.arrangement(points)
+    assert drawn.curve.repairs
+    certify(drawn.curve.points, triangulate(points))
