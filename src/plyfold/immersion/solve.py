@@ -197,7 +197,7 @@ def best_immersion(curve: CurveLike, key: Callable[[Immersion], Any]) -> Immersi
     >>> milnor = [(88, 39), (62, 102), (-17, -15), (-17, -13), (44, -7), (-75, 180),
     ...           (-88, -39), (-62, -102), (17, 15), (17, 13), (-44, 7), (75, -180)]
     >>> best_immersion(milnor, key=lambda immersion: len(immersion.disk_layout())).n_sheets
-    12
+    11
     """
     arranged = arrangement(curve)
     return min(immersions(arranged), key=key, default=None) or find_immersion(arranged)
