@@ -132,9 +132,9 @@ class Curve:
         Returns
         -------
         Curve
-            In the direction of the code, starting on the border before its visit 0; the longer side of its bounding
-            box is about 2. Its code was read back and is the same; an arrangement of it is turned round if the
-            turning number is negative, and then has the code's ``reversed()``.
+            In the direction of the code, starting on the border before its visit 0, around the origin; the longer side
+            of its bounding box is 2. Its code was read back and is the same. An arrangement of it is turned round if
+            the turning number is negative, and then has the code's ``reversed()``.
 
         Raises
         ------

@@ -1,0 +1,184 @@
+"""Curves drawn from their codes: the code read back is the same, and the pictures are round and even."""
+
+import numpy as np
+import pytest
+import shapely
+
+import plyfold as pf
+from plyfold.arrangement.drawing.relaxation import energy, relaxed
+from plyfold.arrangement.drawing.skeleton import skeleton
+from plyfold.arrangement.drawing.straight_lines import grid_drawing, tutte_drawing
+from plyfold.arrangement.gauss import GaussCode
+from plyfold.errors import GaussCodeError
+from reference import planar_maps
+from reference.crossings import crossings, turning_number
+from reference.random_curves import glued_disk, random_polygon, ribbon_outline, star_polygon
+
+
+def read_back(curve):
+    """The code of a drawing, in its own direction, by the library's arrangement."""
+    drawn = pf.arrangement(curve, "raise")
+    return GaussCode.of(drawn).reversed() if drawn.reversed else GaussCode.of(drawn)
+
+
+def both_directions(code):
+    oriented = GaussCode(*code)
+    return oriented, oriented.reversed()
+
+
+def crossing_angles(drawn):
+    """The angles between the strands in degrees, at most 90."""
+    along = np.roll(drawn.curve.points, -1, axis=0) - drawn.curve.points
+    u, v = along[drawn.visit_edge], along[drawn.visit_edge[drawn.partner]]
+    return np.degrees(np.arctan2(np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]), np.abs((u * v).sum(axis=1))))
+
+
+def smallest_cell(drawn):
+    """The diameter of the largest circle in the narrowest cell, as a part of the size of the drawing."""
+    size = np.ptp(drawn.curve.points, axis=0).max()
+    cells = (shapely.Polygon(drawn.cell_outline(cell)) for cell in range(1, drawn.n_cells))
+    return min(2 * shapely.maximum_inscribed_circle(cell, tolerance=size / 5000).length for cell in cells) / size
+
+
+@pytest.mark.parametrize("k", [1, 2])
+def test_reference_reads_the_code_of_small_curves(k):
+    for census_code in planar_maps.census(k):
+        for code in both_directions(census_code):
+            points = pf.Curve.from_gauss(code).points.tolist()
+            found = planar_maps.with_smallest_outer_dart(crossings(points).code)
+            assert found == (code.partner, code.ccw, code.outer)
+            assert turning_number(points) == planar_maps.turning_number(found)
+
+
+@pytest.mark.parametrize("k", [3, 4])
+def test_every_curve_is_drawn_well(k):
+    for census_code in planar_maps.census(k):
+        code = GaussCode(*census_code)
+        drawn = pf.arrangement(pf.Curve.from_gauss(code), "raise")
+        assert GaussCode.of(drawn) == code
+        assert crossing_angles(drawn).min() > 40
+        assert smallest_cell(drawn) > 1 / 100
+
+
+def test_some_curves_with_five_crossings_in_both_directions():
+    for census_code in planar_maps.census(5)[::20]:
+        for code in both_directions(census_code):
+            assert read_back(pf.Curve.from_gauss(code)) == code
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("k", [5, 6])
+def test_every_larger_curve_is_drawn_well(k):
+    for census_code in planar_maps.census(k):
+        drawn = pf.arrangement(pf.Curve.from_gauss(GaussCode(*census_code)), "raise")
+        assert GaussCode.of(drawn) == GaussCode(*census_code)
+        assert crossing_angles(drawn).min() > 25
+        assert smallest_cell(drawn) > 1 / 200
+
+
+RNG = np.random.default_rng(4)
+LARGE = {
+    "ribbon": ribbon_outline(RNG, 150),
+    "disk": glued_disk(RNG, 100),
+    "star": star_polygon(25, 7),
+    "polygon": random_polygon(RNG, 30),
+    "coil": [(t * np.cos(t), t * np.sin(t)) for t in np.linspace(6, 60 * np.pi, 900)],
+}
+
+
+@pytest.mark.parametrize("name", LARGE)
+def test_large_curves(name):
+    code = GaussCode.of(LARGE[name])
+    assert 25 <= code.n_crossings <= 300
+    assert read_back(pf.Curve.from_gauss(code)) == code
+
+
+def test_arguments_may_be_lists():
+    limacon = pf.arrangement(pf.Curve.from_gauss([1, 0], [True, False], 1))
+    assert (limacon.gauss_code(), limacon.reversed) == (([1, 0], [True, False], 1), False)
+    with pytest.raises(GaussCodeError):
+        pf.Curve.from_gauss([2, 3, 0, 1], [True, True, False, False], 0)
+
+
+@pytest.mark.parametrize(("outer", "turns"), [(1, 1), (0, -1)])
+def test_circles(outer, turns):
+    points = pf.Curve.from_gauss([], [], outer).points
+    assert turning_number(points.tolist()) == turns
+    assert np.hypot(*points.T) == pytest.approx(1.0)
+
+
+def test_a_drawing_fills_its_frame():
+    for census_code in planar_maps.census(3):
+        points = pf.Curve.from_gauss(GaussCode(*census_code)).points
+        assert np.ptp(points, axis=0).max() == pytest.approx(2.0)
+        assert points.max(axis=0) + points.min(axis=0) == pytest.approx(0.0, abs=1e-12)
+
+
+def disks():
+    codes = [*planar_maps.census(3), *(GaussCode.of(LARGE[name]) for name in ("ribbon", "coil"))]
+    for code in codes:
+        known = GaussCode(*code) if isinstance(code, tuple) else code
+        yield skeleton(pf.Arrangement.from_gauss(known.partner, known.ccw, known.outer))
+
+
+def doubled_areas(places, triangles):
+    """Exact for integer places of moderate size."""
+    a, b, c = places[triangles].T
+    return ((b - a).conjugate() * (c - a)).imag
+
+
+def test_skeletons_are_triangulated_disks_without_double_edges():
+    for disk in disks():
+        sides = [side for a, b, c in disk.triangles.tolist() for side in ((a, b), (b, c), (c, a))]
+        once = set(sides)
+        assert len(once) == len(sides)
+        edges = {frozenset(side) for side in sides}
+        assert disk.n_vertices - len(edges) + len(disk.triangles) == 1
+        open_sides = {(a, b) for a, b in sides if (b, a) not in once}
+        assert open_sides == set(zip(disk.rim.tolist(), np.roll(disk.rim, -1).tolist(), strict=True))
+
+
+def test_grid_drawings_are_exact():
+    for disk in disks():
+        places = grid_drawing(disk.triangles, disk.rim)
+        assert (places == np.round(places.real) + 1j * np.round(places.imag)).all()
+        assert np.abs(places).max() <= 3 * disk.n_vertices
+        assert doubled_areas(places, disk.triangles).min() >= 1
+
+
+def test_tutte_drawings_put_vertices_between_their_neighbours():
+    disk = next(disks())
+    places = tutte_drawing(disk.triangles, disk.rim)
+    inner = np.setdiff1d(np.arange(disk.n_vertices), disk.rim)
+    for vertex in inner.tolist():
+        around = np.unique(disk.triangles[(disk.triangles == vertex).any(axis=1)])
+        assert places[vertex] == pytest.approx(places[around[around != vertex]].mean(), abs=1e-12)
+
+
+def test_relaxing_lowers_the_energy_and_turns_no_triangle_over():
+    for disk in disks():
+        start = grid_drawing(disk.triangles, disk.rim)
+        places = relaxed(start, disk)
+        assert energy(places, disk) < energy(start, disk)
+        assert doubled_areas(places, disk.triangles).min() > 0
+        rim = places[disk.rim]
+        assert shapely.LinearRing(np.column_stack([rim.real, rim.imag])).is_simple
+
+
+def test_energy_has_the_gradient_that_newton_uses():
+    from plyfold.arrangement.drawing.relaxation import _newton
+
+    disk = next(disks())
+    places = tutte_drawing(disk.triangles, disk.rim) * 5
+    direction, slope = _newton(places, disk)
+    step = 1e-6
+    change = energy(places + step * direction, disk) - energy(places - step * direction, disk)
+    assert change / (2 * step) == pytest.approx(slope, rel=1e-5)
+
+
+def test_flat_and_overturned_triangles_cost_infinitely_much():
+    disk = next(disks())
+    places = tutte_drawing(disk.triangles, disk.rim)
+    assert np.isfinite(energy(places, disk))
+    assert energy(places.conjugate(), disk) == np.inf
+    assert energy(places * 0, disk) == np.inf
