@@ -12,6 +12,7 @@ from reference.random_curves import (
     random_polygon,
     ribbon_outline,
     smooth_curve,
+    without_repeats,
 )
 
 Draw = Callable[[np.random.Generator], Polygon]
@@ -79,6 +80,6 @@ class Drawn(NamedTuple):
 
 
 def draw(seed: int) -> Drawn:
-    """The curve of a seed."""
+    """The curve of a seed. Equal vertices in a row are dropped: the library does so too, the reference refuses them."""
     kind = MIX[seed % len(MIX)]
-    return Drawn(seed, kind, KINDS[kind](np.random.default_rng(seed)))
+    return Drawn(seed, kind, without_repeats(KINDS[kind](np.random.default_rng(seed))))
