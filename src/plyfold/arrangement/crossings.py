@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from plyfold.arrangement.edge_pairs import Bytes, headings, near_pairs
+from plyfold.arrangement.edge_pairs import near_pairs
 from plyfold.arrangement.planar_map import Ints
 from plyfold.predicates import Bools, Floats, Signs, counted_cross_sign, exact_parameter, parameter_along_edge
 
@@ -78,10 +78,9 @@ def find_contacts(points: Floats) -> Contacts:
     Contacts
         Exact. Cost: O(n log n) plus the number of pairs of edges whose bounding boxes meet.
     """
+    # Neighbours need no look: where one runs back over the other, the edge beyond touches too.
     ends = edge_ends(points)
-    heading = headings(points)
-    parts = [_meetings(ends, first, second) for first, second in near_pairs(ends, heading)]
-    parts.append(_spikes(ends, heading))
+    parts = [_meetings(ends, first, second) for first, second in near_pairs(points)]
     touches = np.concatenate([part.touches for part in parts])
     return Contacts(
         edges=np.concatenate([part.edges for part in parts]),
@@ -125,18 +124,6 @@ def _touches(ends: Floats, edge: Ints, other: Ints, side: Signs) -> Ints:
     hit = ((line.min(axis=1) <= place) & (place <= line.max(axis=1))).all(axis=1)
     vertex = (edge + end) % len(ends)
     return np.stack([vertex[hit], other[hit]], axis=1)
-
-
-def _spikes(ends: Floats, heading: Bytes) -> Contacts:
-    """Return the contacts of edges that run straight back over the edge before them."""
-    edge = np.flatnonzero(heading & np.concatenate([heading[1:], heading[:1]]) == 0)
-    after = (edge + 1) % len(ends)
-    side, exact = _sides(ends, edge, after)
-    other_side, other_exact = _sides(ends, after, edge)
-    # The end that both edges share says nothing.
-    side[:, 0], other_side[:, 1] = 1, 1
-    touches = np.concatenate([_touches(ends, after, edge, side), _touches(ends, edge, after, other_side)])
-    return Contacts(np.empty((0, 2), dtype=np.int64), np.empty(0, dtype=np.bool_), touches, exact + other_exact)
 
 
 def order_visits(points: Floats, contacts: Contacts) -> Visits:

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from plyfold.arrangement.planar_map import Ints
 from plyfold.predicates import Floats
 
-__all__ = ["Bytes", "headings", "near_pairs"]
+__all__ = ["near_pairs"]
 
 Bytes: TypeAlias = npt.NDArray[np.uint8]
 _Number = TypeVar("_Number", np.float64, np.uint8)
@@ -39,7 +39,8 @@ class _Groups:
         The last group is filled up with boxes that meet nothing.
     low, high : (4, groups) float
     heading : (groups,) uint8
-        The bits that all edges of a group have in common; see :func:`headings`.
+        A bit for each of eight directions, those of the axes and the diagonals, in which all edges of the group get
+        ahead. Consecutive groups with a bit in common make one strand that runs steadily in that direction.
     """
 
     edge_low: Floats
@@ -49,59 +50,47 @@ class _Groups:
     heading: Bytes
 
 
-def headings(points: Floats) -> Bytes:
-    """Return one byte per edge of a closed polyline: a bit for each of eight directions in which the edge gets ahead.
-
-    Consecutive edges whose bytes have a bit in common run steadily in that direction, and meet only where they join.
-    The directions are those of the axes and the diagonals.
-    """
-    x, y = points.T
-    # Rounding the sums keeps their order, or makes them equal.
-    start = np.array([x, y, x + y, x - y])
-    end = np.concatenate([start[:, 1:], start[:, :1]], axis=1)
-    return np.asarray(np.packbits(np.concatenate([start < end, start > end]), axis=0)[0])
-
-
-def near_pairs(ends: Floats, heading: Bytes) -> Iterator[tuple[Ints, Ints]]:
+def near_pairs(points: Floats) -> Iterator[tuple[Ints, Ints]]:
     """Yield, portion by portion, the pairs of edges that may cross or touch.
 
     Parameters
     ----------
-    ends : (n, 2, 2) float
-        Start and end of each edge of a closed polyline.
-    heading : (n,) uint8
-        From :func:`headings`.
+    points : (n, 2) float
+        Vertices of a closed polyline; edge i runs from point i to point i + 1.
 
     Yields
     ------
     first, second : (m,) int
         Edges, first < second, no neighbours. Every pair whose bounding boxes meet comes once, but for edges of a
-        strand that runs steadily in some direction and so cannot meet itself.
+        strand that runs steadily in some direction and so cannot meet itself. At least one portion comes.
 
     Notes
     -----
     O(n log n) plus the number of pairs. Memory for a portion does not grow with their number.
     """
-    groups = _grouped(ends, heading, _GROUP)
+    groups = _grouped(points, _GROUP)
     pairs = _few_pairs(groups)
     if pairs is None:  # long edges: a box round several of them holds too much
-        groups = _grouped(ends, heading, 1)
+        groups = _grouped(points, 1)
         portions = _group_pairs(groups)
     else:
         portions = _portions(pairs)
     for first, second in portions:
-        yield _edge_pairs(groups, first, second, len(ends))
+        yield _edge_pairs(groups, first, second, len(points))
 
 
-def _grouped(ends: Floats, heading: Bytes, size: int) -> _Groups:
-    x, y = ends.transpose(2, 1, 0)
-    lower = np.array([np.minimum(*x), np.minimum(*y)])
-    upper = np.array([np.maximum(*x), np.maximum(*y)])
+def _grouped(points: Floats, size: int) -> _Groups:
+    x, y = points.T
+    # Rounding the sums keeps their order, or makes them equal.
+    start = np.array([x, y, x + y, x - y])
+    end = np.concatenate([start[:, 1:], start[:, :1]], axis=1)
+    ahead = np.packbits(np.concatenate([start < end, start > end]), axis=0)
+    heading = np.bitwise_and.reduce(_in_groups(ahead, size, 255)[0], axis=0)
+    lower, upper = np.minimum(start[:2], end[:2]), np.maximum(start[:2], end[:2])
     edge_high = np.concatenate([upper, -lower])
     low = _in_groups(np.concatenate([lower, -upper]), size, np.inf)
     high = _in_groups(edge_high, size, -np.inf)
-    common = np.bitwise_and.reduce(_in_groups(heading[None], size, 255)[0], axis=0)
-    return _Groups(low, edge_high, low.min(axis=1), high.max(axis=1), common)
+    return _Groups(low, edge_high, low.min(axis=1), high.max(axis=1), heading)
 
 
 def _in_groups(rows: npt.NDArray[_Number], size: int, filling: float) -> npt.NDArray[_Number]:
@@ -141,7 +130,7 @@ def _group_pairs(groups: _Groups) -> Iterator[tuple[Ints, Ints]]:
 
 def _portions(pairs: tuple[Ints, Ints]) -> Iterator[tuple[Ints, Ints]]:
     first, second = pairs
-    for start in range(0, len(first), _PORTION):
+    for start in range(0, len(first) or 1, _PORTION):
         yield first[start : start + _PORTION], second[start : start + _PORTION]
 
 
