@@ -175,7 +175,8 @@ def _unit_square(points: Floats) -> tuple[Floats, Floats, float]:
     Both steps are exact: the scale is a power of two, and where the centre is not left at 0 it is so far away that
     the difference of two doubles has no rounding error (Sterbenz).
     """
-    low, high = points.min(axis=0), points.max(axis=0)
+    x, y = points.T  # one column at a time is faster
+    low, high = np.array([x.min(), y.min()]), np.array([x.max(), y.max()])
     size = float((high / 2 - low / 2).max())
     scale = 2.0 ** (np.frexp(size)[1] + 1)
     middle = low / 2 + high / 2
@@ -382,5 +383,6 @@ def _components(mesh: _Mesh, left: Ints, right: Ints) -> Ints:
     linked = twin >= 0
     t = len(mesh.triangles)
     row = np.concatenate([[0], np.cumsum(linked.reshape(t, 3).sum(axis=1))])
-    graph = csr_array((np.ones(row[-1], dtype=np.int8), twin[linked] // 3, row), shape=(t, t))
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
+    graph = csr_array((np.ones(row[-1]), twin[linked] // 3, row), shape=(t, t))
+    # Links go both ways, so the strong components are the components, and they need no second copy of the graph.
+    return np.asarray(connected_components(graph, connection="strong")[1], dtype=np.int64)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plyfold.arrangement.core import CurveLike
-from plyfold.arrangement.planar_map import Bools, Ints
+from plyfold.arrangement.planar_map import Ints
 from plyfold.flat.triangulate import chosen_immersion, own_triangles
 from plyfold.immersion import Immersion
-from plyfold.predicates import Floats, orient
+from plyfold.predicates import Bools, Floats, orient
 
 if TYPE_CHECKING:
     from shapely import Polygon

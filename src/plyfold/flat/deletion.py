@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from heapq import heapify, heappop, heappush
+from math import inf
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -21,10 +22,13 @@ from plyfold.predicates import Floats
 __all__ = ["without_vertices"]
 
 Triangle: TypeAlias = tuple[int, int, int]
+# A vertex seen from another one: x, y, squared distance, and its number.
+_Seen: TypeAlias = tuple[float, float, float, int]
 
-# The rounding error of a cross product of differences is at most 3.4e-16 of the sizes of its two products, which are
-# at most the product of the distances; three are added, with as much error again.
-_ERROR = 4e-15
+# The rounding error of a cross product of differences is at most 3.4e-16 of the sizes of its two products, which
+# together are at most the product of the two distances, and that is at most half the sum of their squares. For a turn
+# three are added, with as much error again.
+_ERROR = 2e-15
 # Below this size a product may have underflowed, and the bound above does not hold.
 _UNDERFLOW = 1e-290
 
@@ -124,29 +128,37 @@ def _delete(disk: _Disk, vertex: int) -> list[Triangle]:
 def _gap_filled(disk: _Disk, vertex: int, fan: dict[int, int]) -> list[Triangle]:
     """Return positive triangles that cover what the fan of a vertex has covered."""
     ends = fan.keys() - fan.values()
-    here = ends.pop() if ends else next(iter(fan))
+    closed = not ends
+    here = next(iter(fan)) if closed else ends.pop()
     ring = [here]
-    for _ in range(1, len(fan)):
+    for _ in range(len(fan) - closed):
         here = fan[here]
         ring.append(here)
-    if len(fan) > 2 and fan[here] == ring[0]:
-        closed = True
-    else:
-        closed = False
-        ring.append(fan[here])
-    if len(ring) < 4:
-        return [_positive(disk, vertex, (ring[0], ring[1], ring[2]))] if len(ring) == 3 else []
-    return _ears_cut(disk, vertex, ring, closed)
+    if len(ring) == 3:
+        return [_positive(disk, vertex, (ring[0], ring[1], ring[2]))]
+    if len(ring) == 4:
+        return _four_cut(disk, vertex, ring)
+    return _ears_cut(disk, vertex, ring, closed) if len(ring) > 4 else []
 
 
-class _Star(NamedTuple):
-    """The neighbours of a vertex, seen from there, and their squared distances; ``error`` bounds that of a turn."""
-
-    ring: list[int]
-    x: list[float]
-    y: list[float]
-    square: list[float]
-    error: float
+def _four_cut(disk: _Disk, vertex: int, ring: list[int]) -> list[Triangle]:
+    """Cut a polygon of four corners along its Delaunay diagonal, or the one inside; no bookkeeping is needed."""
+    _, x, y = disk
+    a, b, c, d = ring
+    x0, y0 = x[d], y[d]
+    ax, ay, bx, by, cx, cy = x[a] - x0, y[a] - y0, x[b] - x0, y[b] - y0, x[c] - x0, y[c] - y0
+    ab, bc, ac = ax * by - ay * bx, bx * cy - by * cx, ax * cy - ay * cx
+    square_a, square_b, square_c = ax * ax + ay * ay, bx * bx + by * by, cx * cx + cy * cy
+    error = _ERROR * (square_a + square_b + square_c) + _UNDERFLOW
+    # The turns of the other triangles: ac is that of a, c, d; ab that of a, b, d; and bc that of b, c, d.
+    sure_ac, sure_bd = ab + bc - ac > error and ac > error, ab > error and bc > error
+    if sure_ac and not (sure_bd and square_a * bc - square_b * ac + square_c * ab > 0):
+        return [(a, b, c), (a, c, d)]
+    if sure_bd:
+        return [(a, b, d), (b, c, d)]
+    if _exact_turn(disk, a, b, c) > 0 and _exact_turn(disk, a, c, d) > 0:
+        return [(a, b, c), (a, c, d)]
+    return [_positive(disk, vertex, (a, b, d)), _positive(disk, vertex, (b, c, d))]
 
 
 def _ears_cut(disk: _Disk, vertex: int, ring: list[int], closed: bool) -> list[Triangle]:
@@ -164,49 +176,47 @@ def _ears_cut(disk: _Disk, vertex: int, ring: list[int], closed: bool) -> list[T
     left = len(ring)
     before, after = [left - 1, *range(left - 1)], [*range(1, left), 0]
     corners = range(left) if closed else range(1, left - 1)
-    ears = [ear for b in corners if (ear := _ear(disk, vertex, star, (before[b], b, after[b])))]
+    ears = [(_depth(disk, vertex, star[b - 1], star[b], star[after[b]]), before[b], b, after[b]) for b in corners]
     heapify(ears)
     triangles = []
-    a = 0
-    while left > 3:
-        if not ears:
+    while True:
+        depth, a, b, c = heappop(ears) if ears else (inf, 0, 0, 0)
+        if depth == inf:
             raise _in_the_way(disk, vertex)
-        _, (first, b, c) = heappop(ears)
-        if before[b] != first or after[b] != c:
+        if before[b] != a or after[b] != c:
             continue
-        a = first
         triangles.append((ring[a], ring[b], ring[c]))
         after[a], before[c], after[b] = c, a, -1
         left -= 1
-        for corner in (a, c) if left > 3 else ():
-            if corner in corners and (ear := _ear(disk, vertex, star, (before[corner], corner, after[corner]))):
-                heappush(ears, ear)
-    triangles.append(_positive(disk, vertex, (ring[a], ring[after[a]], ring[before[a]])))
-    return triangles
+        if left == 3:
+            return [*triangles, _positive(disk, vertex, (ring[before[a]], ring[a], ring[c]))]
+        for corner in (a, c):
+            if corner in corners:
+                first, last = before[corner], after[corner]
+                depth = _depth(disk, vertex, star[first], star[corner], star[last])
+                heappush(ears, (depth, first, corner, last))
 
 
-def _star(disk: _Disk, vertex: int, ring: list[int]) -> _Star:
-    x, y = disk.x, disk.y
+def _star(disk: _Disk, vertex: int, ring: list[int]) -> list[_Seen]:
+    _, x, y = disk
     x0, y0 = x[vertex], y[vertex]
-    away_x, away_y = [x[v] - x0 for v in ring], [y[v] - y0 for v in ring]
-    square = [u * u + v * v for u, v in zip(away_x, away_y, strict=True)]
-    return _Star(ring, away_x, away_y, square, _ERROR * max(square) + _UNDERFLOW)
+    return [(u := x[v] - x0, w := y[v] - y0, u * u + w * w, v) for v in ring]
 
 
-def _ear(disk: _Disk, vertex: int, star: _Star, corner: Triangle) -> tuple[float, Triangle] | None:
-    """Return a corner that can be cut off, after how far its circle goes beyond the vertex; None if it cannot."""
-    a, b, c = corner
-    ring, x, y, square, error = star
-    ax, ay, bx, by, cx, cy = x[a], y[a], x[b], y[b], x[c], y[c]
+def _depth(disk: _Disk, vertex: int, a: _Seen, b: _Seen, c: _Seen) -> float:
+    """Return how far the circle around a corner goes beyond the vertex; infinity if it cannot be cut off."""
+    (ax, ay, aa, i), (bx, by, bb, j), (cx, cy, cc, k) = a, b, c
     ac = ax * cy - ay * cx
-    if not ac > error and (ac < -error or _exact_turn(disk, vertex, ring[a], ring[c]) < 0):
-        return None
+    error = _ERROR * (aa + bb + cc) + _UNDERFLOW
+    if not ac > error and (ac < -error or _exact_turn(disk, vertex, i, k) < 0):
+        return inf
     ab, bc = ax * by - ay * bx, bx * cy - by * cx
     turn = ab + bc - ac
-    if not turn > error and (turn < -error or _exact_turn(disk, ring[a], ring[b], ring[c]) <= 0):
-        return None
-    circle = square[a] * bc - square[b] * ac + square[c] * ab
-    return circle / turn if turn else 0.0, corner
+    if not turn > error and (turn < -error or _exact_turn(disk, i, j, k) <= 0):
+        return inf
+    depth = (aa * bc - bb * ac + cc * ab) / turn if turn else 0.0
+    # Beyond the range of doubles any order will do.
+    return depth if -inf < depth < inf else 0.0
 
 
 def _positive(disk: _Disk, vertex: int, triangle: Triangle) -> Triangle:

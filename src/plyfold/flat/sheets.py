@@ -158,7 +158,7 @@ def _joined(point: Ints, shared: Ints, beside: Ints, points: int) -> Ints:
     linked = beside >= 0
     row = np.concatenate([[0], np.cumsum(linked)])
     other = place[following(beside[linked])]
-    graph = csr_array((np.ones(len(other), dtype=np.int8), other, row), shape=(len(shared), len(shared)))
+    graph = csr_array((np.ones(len(other)), other, row), shape=(len(shared), len(shared)))
     label[shared] = points + connected_components(graph, directed=False)[1]
     return label
 
