@@ -10,6 +10,7 @@ import plyfold as pf
 from plyfold.arrangement import winding_number
 from plyfold.errors import GaussCodeError, PlyfoldError
 from plyfold.gallery import CURVES
+from reference.random_curves import ribbon_outline
 
 NAMES = list(CURVES)
 
@@ -124,3 +125,79 @@ def test_random_polygons_check(seed):
             int(drawn.winding[cell]),
             None,
         }
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_boundaries_as_arrays(name):
+    drawn = pf.arrangement(CURVES[name].curve)
+    assert sorted(drawn.cell_darts.tolist()) == list(range(2 * drawn.n_borders))
+    assert len(drawn.cell_start) == drawn.n_cells + 1
+    lowest = []
+    for cell in range(drawn.n_cells):
+        darts = drawn.cell_darts[drawn.cell_start[cell] : drawn.cell_start[cell + 1]].tolist()
+        assert drawn.next_dart[darts].tolist() == darts[1:] + darts[:1]
+        assert set(drawn.cell_of_dart[darts].tolist()) == {cell}
+        assert tuple(darts) == drawn.cells[cell]
+        assert darts[0] == min(darts)
+        lowest.append(darts[0])
+    assert drawn.outer in drawn.cells[0]
+    assert lowest[1:] == sorted(lowest[1:])
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_clockwise_drawings_are_turned_round_alike(name):
+    points = pf.arrangement(CURVES[name].curve).curve.points
+    forward, backward = (
+        pf.arrangement(way, general_position="raise") for way in (points, np.concatenate([points[:1], points[:0:-1]]))
+    )
+    assert backward.reversed == (forward.turning_number > 0)
+    if backward.reversed:
+        assert backward.gauss_code() == forward.gauss_code()
+        assert np.array_equal(backward.winding, forward.winding)
+        for border in range(forward.n_borders):
+            np.testing.assert_allclose(backward.border_points(border), forward.border_points(border), atol=1e-9)
+
+
+def test_exact_signs_are_counted_and_shown():
+    plain = pf.arrangement([(0, 0), (4, 0), (4, 3), (1, -1)])
+    assert plain.exact_signs == 0
+    assert "exact" not in repr(plain)
+    middle = 0.1 + (0.7 - 0.1) / 3
+    close = pf.arrangement([(0.1, 0.1), (0.7, 0.7), (0.7, -1.0), (middle, middle - 2e-16), (0.2, -1.0)])
+    assert close.exact_signs > 0
+    assert f"{close.exact_signs} exact signs" in repr(close)
+    assert pf.Arrangement.from_gauss(*close.gauss_code()).exact_signs == 0
+
+
+@pytest.mark.parametrize("step", [1, 2, 7])
+def test_stars_have_the_known_crossings(step):
+    """The star {n/m} has n (m − 1) crossings, and winds m times round its middle."""
+    n = 307
+    angle = 2 * np.pi * step * np.arange(n) / n
+    drawn = pf.arrangement(np.stack([np.cos(angle), np.sin(angle)], axis=1))
+    assert (drawn.n_crossings, drawn.turning_number, drawn.winding.max()) == (n * (step - 1), step, step)
+
+
+def test_a_long_ribbon_has_the_cells_of_geos():
+    points = np.array(ribbon_outline(np.random.default_rng(8), 4000), dtype=float)
+    drawn = pf.arrangement(points, general_position="raise")
+    drawn.check()
+    cells = shapely.polygonize([shapely.unary_union(shapely.LinearRing(points))])
+    assert drawn.n_crossings > 4000
+    assert drawn.n_cells == len(cells.geoms) + 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scale", ["vertices", "crossings", "long edges"])
+def test_a_million(scale):
+    rng = np.random.default_rng(1)
+    angle = 2 * np.pi * 1000 / 2001 * np.arange(2001)
+    points = {
+        "vertices": lambda: np.array(ribbon_outline(rng, 500_000, wildness=0.05), dtype=float),
+        "crossings": lambda: rng.normal(size=(1_000_000, 2)).cumsum(axis=0),
+        "long edges": lambda: np.stack([np.cos(angle), np.sin(angle)], axis=1),
+    }[scale]()
+    drawn = pf.arrangement(points)
+    drawn.check()
+    assert max(len(points), drawn.n_crossings) >= 1_000_000
+    assert scale != "long edges" or drawn.n_crossings == 2001 * 999

@@ -3,10 +3,10 @@
 from fractions import Fraction
 
 import numpy as np
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from plyfold.predicates import compare_along_edge, cross_sign, orient
+from plyfold.predicates import compare_along_edge, counted_cross_sign, cross_sign, orient
 
 numbers = st.one_of(
     st.integers(-3, 3).map(float),
@@ -57,3 +57,52 @@ def test_order_along_an_edge_of_crossings_closer_than_rounding():
     assert compare_along_edge(edge, first, second) == -1
     assert compare_along_edge(edge, second, first) == 1
     assert compare_along_edge(edge, first, first[::-1]) == 0
+
+
+@given(
+    st.lists(st.integers(-(2**30), 2**30), min_size=8, max_size=8), st.integers(-20, 20), st.sampled_from([1, 2**20])
+)
+def test_whole_numbers_need_no_fractions(numbers, times, scale):
+    """Parallel directions and nearly parallel ones on a lattice; Python's integers know the answer."""
+    ax, ay, ux, uy, cx, cy, dx, dy = numbers
+    vx, vy = times * (ux % 1000) + dx % 2, times * (uy % 1000) + dy % 2
+    corners = [(ax, ay), (ax + ux % 1000, ay + uy % 1000), (cx, cy), (cx + vx, cy + vy)]
+    value = (ux % 1000) * vy - (uy % 1000) * vx
+    signs, count = counted_cross_sign(*(np.array(corner, dtype=float) * scale for corner in corners))
+    assert signs == (value > 0) - (value < 0)
+    assert count == 0
+
+
+def test_long_products_of_whole_numbers_need_no_fractions():
+    """Products of 106 bits that differ in the last one, or not at all."""
+    u, v = 2**53 - 1, 2**53 - 3
+    ends = np.array([[u, u - 2], [u - 2, v - 2], [u, v], [v, u]], dtype=float)
+    signs, count = counted_cross_sign([0, 0], ends, [0, 0], np.array([[v, v - 2], [u, v], [u, v], [u, v]], dtype=float))
+    values = [u * (v - 2) - (u - 2) * v, (u - 2) * v - (v - 2) * u, 0, v * v - u * u]
+    assert signs.tolist() == [(value > 0) - (value < 0) for value in values]
+    assert count == 0
+
+
+def test_signs_settled_with_fractions_are_counted():
+    start, end = [0.1, 0.1], [0.7, 0.7]
+    signs, count = counted_cross_sign(start, end, start, [[1e9, 1e9], [3.3, 3.3], [1e9, 1.0], [0.0, 1.0]])
+    assert signs.tolist() == [0, 0, -1, 1]
+    assert count == 2
+
+
+def near_line(draw):
+    """Two points, and two more on their line up to a few units in the last place."""
+    a, b = np.array(draw(points)), np.array(draw(points))
+    shares = draw(st.lists(st.sampled_from([0.0, 0.5, 1.0, 2.0, -1.0, 1 / 3, 7.7]), min_size=2, max_size=2))
+    units = np.array(draw(st.lists(st.integers(-2, 2), min_size=4, max_size=4))).reshape(2, 2)
+    with np.errstate(all="ignore"):
+        on_line = a + np.array(shares)[:, None] * (b - a)
+        return np.array([a, b, *(on_line + units * np.spacing(on_line))])
+
+
+@given(st.data())
+def test_signs_of_nearly_parallel_directions_are_exact(data):
+    places = near_line(data.draw)
+    assume(np.isfinite(places).all())
+    assert cross_sign(*places) == exact_cross(*places)
+    assert orient(*places[:3]) == exact_cross(places[0], places[1], places[0], places[2])
