@@ -8,7 +8,9 @@ import subprocess
 import sys
 import time
 
+import numpy as np
 import pytest
+import shapely
 import trimesh
 
 import plyfold as pf
@@ -301,10 +303,52 @@ def test_interrupted_runs_leave_nothing(tmp_path):
     out = tmp_path / "big.glb"
     words = [sys.executable, "-m", "plyfold", "lift", "gallery:bennequin", "--triangles", "400000", "-o", str(out)]
     with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
-        time.sleep(1.5)
+        time.sleep(5)
         process.send_signal(signal.SIGINT)
         errors = process.stderr.read()
     assert process.returncode == 130
     assert b"interrupted" in errors
     assert b"Traceback" not in errors
     assert list(tmp_path.iterdir()) == []
+
+
+def test_split_writes_polygons_that_cover_the_disk_once(loop, tmp_path, capsys):
+    paths = [tmp_path / f"pieces.{ending}" for ending in ("geojson", "wkt", "svg")]
+    assert main(["split", str(loop), *(word for path in paths for word in ("-o", str(path)))]) == 0
+    assert "2 simple polygon(s)" in capsys.readouterr().out
+    shapes = [shapely.geometry.shape(f["geometry"]) for f in json.loads(paths[0].read_text())["features"]]
+    assert shapes == [shapely.from_wkt(line) for line in paths[1].read_text().splitlines()]
+    # The shoelace formula counts overlaps twice, as the two polygons together do.
+    x, y = np.loadtxt(loop, delimiter=",").T
+    assert sum(shape.area for shape in shapes) == pytest.approx(abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2)
+    assert paths[2].read_text().count("<path") == 2
+
+
+def test_split_cells_of_a_curve_that_is_no_disk(eight, tmp_path):
+    path = tmp_path / "cells.geojson"
+    assert main(["split", str(eight), "--cells", "-o", str(path)]) == 0
+    assert [f["properties"]["winding"] for f in json.loads(path.read_text())["features"]] == [-1, 1]
+    assert main(["split", str(eight), "-o", str(tmp_path / "pieces.wkt")]) == 1
+    assert not (tmp_path / "pieces.wkt").exists()
+
+
+def test_triangulate_numbers_the_points_of_the_file(loop, tmp_path):
+    turned = tmp_path / "turned.csv"
+    turned.write_text("".join(reversed(loop.read_text().splitlines(keepends=True))))
+    for name, file in (("a", loop), ("b", turned)):
+        obj = tmp_path / f"{name}.obj"
+        assert main(["triangulate", str(file), "-o", str(obj), "-o", str(tmp_path / f"{name}-faces.csv")]) == 0
+        points = np.array([line.split()[1:3] for line in obj.read_text().splitlines() if line[0] == "v"], dtype=float)
+        assert points.tolist() == np.loadtxt(file, delimiter=",").tolist()
+        faces = np.loadtxt(tmp_path / f"{name}-faces.csv", delimiter=",", skiprows=1, dtype=int)
+        assert faces.shape == (8, 3)
+        a, b, c = points[faces].swapaxes(0, 1)
+        assert (((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) > 0).all()
+
+
+def test_word_prints_the_groupings(capsys):
+    assert main(["word", "gallery:milnor"]) == 0
+    assert "2 grouping(s)" in capsys.readouterr().out
+    assert main(["word", "gallery:bennequin", "--most", "3"]) == 0
+    assert "3 or more grouping(s)" in capsys.readouterr().out
+    assert main(["word", "gallery:figure-eight"]) == 1

@@ -8,12 +8,14 @@ import os
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plyfold import __version__
+from plyfold.cli_gallery import add_gallery_command, named_curve
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
-from plyfold.io.saving import refuse_existing, save_bytes
+from plyfold.io.saving import refuse_output, save_bytes
 
 if TYPE_CHECKING:
     from plyfold.arrangement import Arrangement
@@ -29,12 +31,14 @@ examples:
   plyfold lift loop.svg -o loop.html         the layered surface, as a 3D page for any browser
   plyfold lift loop.csv -o a.glb -o a.obj    as meshes; the ending chooses the format
   plyfold draw loop.svg -o loop.png          cells, disk layout, layers and surface in one picture
+  plyfold split loop.svg -o pieces.geojson   simple polygons that cover the disk once
+  plyfold word loop.svg                      Blank's word and its groupings
   plyfold gallery                            named curves to begin with
   plyfold lift gallery:exit-ramp -o ramp.glb
 
 FILE is an SVG, CSV, TXT, NPY, JSON, WKT or GeoJSON file, "-" for standard input, or gallery:NAME.
 
-exit codes: 0 a disk (lift: written), 1 no disk or not to be lifted, 2 bad input, 3 unknown (time limit),
+exit codes: 0 a disk (or written), 1 no disk or not to be lifted, 2 bad input, 3 unknown (time limit),
 130 interrupted
 """
 
@@ -130,7 +134,17 @@ def _parser() -> argparse.ArgumentParser:
     draw.add_argument(
         "--what", choices=["all", "arrangement", "layout", "layers", "surface"], default="all", help="one panel only"
     )
-    _gallery_command(commands)
+    split = _command(commands, "split", _split, "cut a disk into simple polygons, or any curve into its cells")
+    _outputs(split, ".geojson .wkt .svg")
+    split.add_argument(
+        "--cells", action="store_true", help="the cells with their winding numbers, of a curve that need be no disk"
+    )
+    triangles = _command(commands, "triangulate", _triangulate, "cut a disk into triangles on the points of the curve")
+    _outputs(triangles, ".obj .csv")
+    _command(commands, "word", _word, "print Blank's word of a curve, and its groupings").add_argument(
+        "--most", type=int, default=20, help="how many groupings to print (default: %(default)s)"
+    )
+    add_gallery_command(commands)
     return parser
 
 
@@ -153,20 +167,6 @@ def _command(commands: Any, name: str, run: Callable[..., int], summary: str) ->
 def _outputs(command: argparse.ArgumentParser, endings: str) -> None:
     command.add_argument("-o", "--output", action="append", required=True, metavar="OUT", help=f"one of {endings}")
     command.add_argument("--force", action="store_true", help="replace existing files")
-
-
-def _gallery_command(commands: Any) -> None:
-    gallery = commands.add_parser("gallery", help="list the named curves, or save one", description="Named curves.")
-    gallery.set_defaults(run=_gallery)
-    gallery.add_argument("name", nargs="?", help="a curve to print as CSV, or to save with -o")
-    gallery.add_argument(
-        "-o",
-        "--output",
-        metavar="OUT",
-        help="a .csv or .json file, which is read back exactly, or an .svg file, whose view box moves the curve",
-    )
-    gallery.add_argument("--all", metavar="DIR", help="save all curves there, as CSV files")
-    gallery.add_argument("--force", action="store_true", help="replace existing files")
 
 
 def _progress_is_seen() -> bool:
@@ -209,19 +209,11 @@ def _arranged(options: argparse.Namespace, watch: _Stopwatch) -> Arrangement:
 
     watch("reading")
     if options.file.startswith("gallery:"):
-        curve = _named(options.file.removeprefix("gallery:")).curve
+        curve = named_curve(options.file.removeprefix("gallery:")).curve
     else:
         curve = read(options.file, id=options.id, tolerance=options.tolerance)
     watch("finding the crossings")
     return arrangement(curve, options.general_position)
-
-
-def _named(name: str) -> Any:
-    from plyfold.gallery import CURVES
-
-    if name not in CURVES:
-        raise InputError(f"the gallery has no curve {name!r}", hint=f"it has {', '.join(CURVES)}")
-    return CURVES[name]
 
 
 def _check(options: argparse.Namespace) -> int:
@@ -247,11 +239,8 @@ def _timing(watch: _Stopwatch) -> str:
 def _lift(options: argparse.Namespace) -> int:
     from plyfold.surface import lift
 
-    options.output = list(dict.fromkeys(options.output))
-    for path in options.output:
-        _refuse_output(path, (".glb", ".obj", ".ply", ".stl", ".html"), options.force)
     watch = _Stopwatch()
-    arranged = _arranged(options, watch)
+    arranged = _prepared(options, (".glb", ".obj", ".ply", ".stl", ".html"), watch)
     surface = lift(
         arranged, gap=options.gap, triangles=options.triangles, time_limit=options.time_limit, progress=watch
     )
@@ -269,15 +258,6 @@ def _lift(options: argparse.Namespace) -> int:
     return DISK
 
 
-def _refuse_output(path: str, endings: tuple[str, ...], force: bool) -> None:
-    """Refuse before any work is done what could not be written after it."""
-    if Path(path).suffix.lower() not in endings:
-        raise InputError(f"{path} cannot be written: its ending is none of {' '.join(endings)}")
-    if not Path(path).absolute().parent.is_dir():
-        raise InputError(f"{path} cannot be written: there is no folder {Path(path).parent}")
-    refuse_existing(path, force)
-
-
 def _title(file: str) -> str:
     return "plyfold" if file == "-" else Path(file.removeprefix("gallery:")).stem
 
@@ -285,11 +265,8 @@ def _title(file: str) -> str:
 def _draw(options: argparse.Namespace) -> int:
     from plyfold.draw.figures import save
 
-    options.output = list(dict.fromkeys(options.output))
-    for path in options.output:
-        _refuse_output(path, (".svg", ".png", ".pdf"), options.force)
     watch = _Stopwatch()
-    arranged = _arranged(options, watch)
+    arranged = _prepared(options, (".svg", ".png", ".pdf"), watch)
     value, obstruction = _furthest(arranged, options, watch)
     watch("drawing")
     figure = _figure(value, obstruction, options.what)
@@ -337,69 +314,68 @@ def _figure(value: Any, obstruction: Any, what: str) -> Any:
     return ax.figure
 
 
-def _gallery(options: argparse.Namespace) -> int:
-    if options.all is not None:
-        _save_gallery(options)
-    elif options.name is None:
-        _list_gallery(options)
-    elif options.output is None:
-        print(_as_csv(_named(options.name).curve.points.tolist()), end="")
+def _split(options: argparse.Namespace) -> int:
+    from plyfold.flat import coverage, decompose
+    from plyfold.io.pieces import POLYGON_WRITERS
+
+    watch = _Stopwatch()
+    arranged = _prepared(options, tuple(POLYGON_WRITERS), watch)
+    watch("cutting")
+    if options.cells:
+        cells = coverage(arranged)
+        polygons, told = [cell.polygon for cell in cells], [{"winding": cell.winding} for cell in cells]
     else:
-        _save_named(options)
+        polygons = decompose(arranged)
+        told = [{"piece": number} for number in range(len(polygons))]
+    watch.stop()
+    print(f"{len(polygons)} {'cell(s)' if options.cells else 'simple polygon(s)'}")
+    _write(options, {ending: partial(write, polygons, told) for ending, write in POLYGON_WRITERS.items()})
     return DISK
 
 
-def _list_gallery(options: argparse.Namespace) -> None:
-    from plyfold.gallery import CURVES
+def _triangulate(options: argparse.Namespace) -> int:
+    from plyfold.curve import as_curve
+    from plyfold.flat import triangulate
+    from plyfold.io.pieces import TRIANGLE_WRITERS
 
-    if options.output is not None:
-        raise InputError("no curve was named to be saved", hint="give a NAME, or --all DIR for all curves")
-    print(f"{'name':<18}{'crossings':>9}{'turning':>9}{'immersions':>12}{'lifted':>8}  title")
-    for curve in CURVES.values():
-        figures = f"{curve.crossings:>9}{curve.turning_number:>9}{curve.immersions:>12}{curve.embeddable:>8}"
-        print(f"{curve.name:<18}{figures}  {curve.title}")
-
-
-def _save_named(options: argparse.Namespace) -> None:
-    points = _named(options.name).curve.points.tolist()
-    writers = {".csv": _as_csv, ".json": _as_json, ".svg": _as_svg}
-    _refuse_output(options.output, tuple(writers), options.force)
-    content = writers[Path(options.output).suffix.lower()](points)
-    save_bytes(options.output, content.encode(), options.force)
-    print(f"wrote {options.output}")
+    watch = _Stopwatch()
+    arranged = _prepared(options, tuple(TRIANGLE_WRITERS), watch)
+    watch("triangulating")
+    faces = triangulate(arranged)
+    watch.stop()
+    drawn = as_curve(arranged)
+    points = (drawn.reversed() if arranged.reversed else drawn).points
+    print(f"{len(faces):,} triangles")
+    _write(options, {ending: partial(write, points, faces) for ending, write in TRIANGLE_WRITERS.items()})
+    return DISK
 
 
-def _save_gallery(options: argparse.Namespace) -> None:
-    from plyfold.gallery import CURVES
-
-    if options.name is not None or options.output is not None:
-        raise InputError("--all saves every curve", hint="leave out the NAME and -o")
-    Path(options.all).mkdir(parents=True, exist_ok=True)
-    paths = {name: Path(options.all) / f"{name}.csv" for name in CURVES}
-    for path in paths.values():
-        refuse_existing(path, options.force)
-    for name, path in paths.items():
-        save_bytes(path, _as_csv(CURVES[name].curve.points.tolist()).encode(), options.force)
-        print(f"wrote {path}")
+def _prepared(options: argparse.Namespace, endings: tuple[str, ...], watch: _Stopwatch) -> Arrangement:
+    """Refuse outputs that cannot be written, then read the input."""
+    options.output = list(dict.fromkeys(options.output))
+    for path in options.output:
+        refuse_output(path, endings, options.force)
+    return _arranged(options, watch)
 
 
-def _as_csv(points: list[list[float]]) -> str:
-    return "x,y\n" + "".join(f"{x!r},{y!r}\n" for x, y in points)
+def _write(options: argparse.Namespace, content: dict[str, Callable[[], str]]) -> None:
+    for path in options.output:
+        save_bytes(path, content[Path(path).suffix.lower()]().encode(), options.force)
+        print(f"  wrote {path}")
 
 
-def _as_json(points: list[list[float]]) -> str:
-    return json.dumps({"points": points}) + "\n"
+def _word(options: argparse.Namespace) -> int:
+    from itertools import islice
 
+    from plyfold.immersion import blank_word
 
-def _as_svg(points: list[list[float]]) -> str:
-    """Return an SVG in the curve's own units, y down, with a margin."""
-    xs, ys = [x for x, _ in points], [-y for _, y in points]
-    size = max(max(xs) - min(xs), max(ys) - min(ys))
-    margin = 0.05 * size
-    box = f"{min(xs) - margin} {min(ys) - margin} {max(xs) - min(xs) + 2 * margin} {max(ys) - min(ys) + 2 * margin}"
-    corners = " ".join(f"{x!r},{y!r}" for x, y in zip(xs, ys, strict=True))
-    style = f'fill="none" stroke="#1d2638" stroke-width="{size / 200}" stroke-linejoin="round"'
-    return f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}">\n<polygon {style} points="{corners}"/>\n</svg>\n'
+    word = blank_word(_arranged(options, watch := _Stopwatch()))
+    watch.stop()
+    print(word)
+    groupings = word.groupings()
+    shown = [word.bracketed(grouping) for grouping in islice(groupings, options.most)]
+    print(f"\n{len(shown)}{' or more' if next(groupings, None) else ''} grouping(s)", *shown, sep="\n  ")
+    return DISK if shown else NO_DISK
 
 
 if __name__ == "__main__":

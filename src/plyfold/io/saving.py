@@ -6,7 +6,9 @@ import os
 import tempfile
 from pathlib import Path
 
-__all__ = ["refuse_existing", "save_bytes"]
+from plyfold.errors import InputError
+
+__all__ = ["refuse_existing", "refuse_output", "save_bytes"]
 
 
 def refuse_existing(path: str | os.PathLike[str], force: bool = False) -> None:
@@ -50,3 +52,12 @@ def save_bytes(path: str | os.PathLike[str], content: bytes, force: bool = False
             draft.replace(target)
     except OSError as error:  # it would name the draft
         raise OSError(error.errno, error.strerror, str(target)) from error
+
+
+def refuse_output(path: str, endings: tuple[str, ...], force: bool) -> None:
+    """Refuse before any work is done what could not be written after it."""
+    if Path(path).suffix.lower() not in endings:
+        raise InputError(f"{path} cannot be written: its ending is none of {' '.join(endings)}")
+    if not Path(path).absolute().parent.is_dir():
+        raise InputError(f"{path} cannot be written: there is no folder {Path(path).parent}")
+    refuse_existing(path, force)

@@ -1,0 +1,102 @@
+"""The gallery on the command line: list the named curves, print one, or save them."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import Any
+
+from plyfold.errors import InputError
+from plyfold.io.saving import refuse_existing, refuse_output, save_bytes
+
+__all__ = ["add_gallery_command", "named_curve"]
+
+
+def add_gallery_command(commands: Any) -> None:
+    """Add the subcommand to a parser."""
+    gallery = commands.add_parser("gallery", help="list the named curves, or save one", description="Named curves.")
+    gallery.set_defaults(run=_gallery)
+    gallery.add_argument("name", nargs="?", help="a curve to print as CSV, or to save with -o")
+    gallery.add_argument(
+        "-o",
+        "--output",
+        metavar="OUT",
+        help="a .csv or .json file, which is read back exactly, or an .svg file, whose view box moves the curve",
+    )
+    gallery.add_argument("--all", metavar="DIR", help="save all curves there, as CSV files")
+    gallery.add_argument("--force", action="store_true", help="replace existing files")
+
+
+def named_curve(name: str) -> Any:
+    """Return a curve of the gallery, or raise InputError with the names it has."""
+    from plyfold.gallery import CURVES
+
+    if name not in CURVES:
+        raise InputError(f"the gallery has no curve {name!r}", hint=f"it has {', '.join(CURVES)}")
+    return CURVES[name]
+
+
+def _gallery(options: argparse.Namespace) -> int:
+    if options.all is not None:
+        _save_gallery(options)
+    elif options.name is None:
+        _list_gallery(options)
+    elif options.output is None:
+        print(_as_csv(named_curve(options.name).curve.points.tolist()), end="")
+    else:
+        _savenamed_curve(options)
+    return 0
+
+
+def _list_gallery(options: argparse.Namespace) -> None:
+    from plyfold.gallery import CURVES
+
+    if options.output is not None:
+        raise InputError("no curve was named to be saved", hint="give a NAME, or --all DIR for all curves")
+    print(f"{'name':<18}{'crossings':>9}{'turning':>9}{'immersions':>12}{'lifted':>8}  title")
+    for curve in CURVES.values():
+        figures = f"{curve.crossings:>9}{curve.turning_number:>9}{curve.immersions:>12}{curve.embeddable:>8}"
+        print(f"{curve.name:<18}{figures}  {curve.title}")
+
+
+def _savenamed_curve(options: argparse.Namespace) -> None:
+    points = named_curve(options.name).curve.points.tolist()
+    writers = {".csv": _as_csv, ".json": _as_json, ".svg": _as_svg}
+    refuse_output(options.output, tuple(writers), options.force)
+    content = writers[Path(options.output).suffix.lower()](points)
+    save_bytes(options.output, content.encode(), options.force)
+    print(f"wrote {options.output}")
+
+
+def _save_gallery(options: argparse.Namespace) -> None:
+    from plyfold.gallery import CURVES
+
+    if options.name is not None or options.output is not None:
+        raise InputError("--all saves every curve", hint="leave out the NAME and -o")
+    Path(options.all).mkdir(parents=True, exist_ok=True)
+    paths = {name: Path(options.all) / f"{name}.csv" for name in CURVES}
+    for path in paths.values():
+        refuse_existing(path, options.force)
+    for name, path in paths.items():
+        save_bytes(path, _as_csv(CURVES[name].curve.points.tolist()).encode(), options.force)
+        print(f"wrote {path}")
+
+
+def _as_csv(points: list[list[float]]) -> str:
+    return "x,y\n" + "".join(f"{x!r},{y!r}\n" for x, y in points)
+
+
+def _as_json(points: list[list[float]]) -> str:
+    return json.dumps({"points": points}) + "\n"
+
+
+def _as_svg(points: list[list[float]]) -> str:
+    """Return an SVG in the curve's own units, y down, with a margin."""
+    xs, ys = [x for x, _ in points], [-y for _, y in points]
+    size = max(max(xs) - min(xs), max(ys) - min(ys))
+    margin = 0.05 * size
+    box = f"{min(xs) - margin} {min(ys) - margin} {max(xs) - min(xs) + 2 * margin} {max(ys) - min(ys) + 2 * margin}"
+    corners = " ".join(f"{x!r},{y!r}" for x, y in zip(xs, ys, strict=True))
+    style = f'fill="none" stroke="#1d2638" stroke-width="{size / 200}" stroke-linejoin="round"'
+    return f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}">\n<polygon {style} points="{corners}"/>\n</svg>\n'
