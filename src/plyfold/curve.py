@@ -159,7 +159,12 @@ class Curve:
         from plyfold.arrangement.drawing import draw_code
         from plyfold.arrangement.gauss import GaussCode
 
-        code = partner if isinstance(partner, GaussCode) else GaussCode(partner, ccw, outer)  # type: ignore[arg-type]
+        if isinstance(partner, GaussCode):
+            code = partner
+        elif ccw is None or outer is None:
+            raise TypeError("give a GaussCode, or all of partner, ccw and outer")
+        else:
+            code = GaussCode(partner, ccw, outer)  # type: ignore[arg-type]
         wanted = Arrangement.from_gauss(code.partner, code.ccw, code.outer)
         drawn = draw_code(wanted)
         return drawn.reversed() if wanted.reversed else drawn

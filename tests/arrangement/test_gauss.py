@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import plyfold as pf
+from plyfold.arrangement import gauss
 from plyfold.arrangement.gauss import GaussCode
 from plyfold.errors import GaussCodeError
 from reference import planar_maps
@@ -125,6 +126,13 @@ def test_another_cell_may_be_unbounded():
         assert other.canonical(any_outer=True) == code.canonical(any_outer=True)
     with pytest.raises(GaussCodeError):
         code.with_outer(12)
+
+
+def test_notebooks_show_a_drawing_or_the_chords_of_many_crossings(monkeypatch):
+    code = GaussCode.parse(TREFOIL)
+    assert code._repr_svg_().count("winding number") == 4
+    monkeypatch.setattr(gauss, "_MOST_CROSSINGS_DRAWN", 2)
+    assert code._repr_svg_().count("<line") == 3
 
 
 # Published numbers of curves with 1, 2, … crossings, from Arnold's tables and the on-line encyclopedia of integer

@@ -22,6 +22,7 @@ import numpy.typing as npt
 
 from plyfold.arrangement.core import Arrangement, CurveLike, arrangement
 from plyfold.arrangement.planar_map import next_darts, reversed_code
+from plyfold.curve import Curve
 from plyfold.errors import GaussCodeError
 
 __all__ = ["GaussCode"]
@@ -35,6 +36,7 @@ _PLUS, _MINUS = "+＋", "−–‐‑﹣－-"
 _SEPARATOR = re.compile(r"[\s,;]*")
 _VISIT = re.compile(rf"([^\W_]+)\s*([{_PLUS}{_MINUS}])")
 _OUTER = re.compile(r"\s*outer\s*[:=]?\s*(\d+)\s*")
+_MOST_CROSSINGS_DRAWN = 200
 _HINT = "a code looks like '1+ 1- / outer 1': the crossings in order with their signs, and a dart of the unbounded cell"
 
 
@@ -61,7 +63,7 @@ class GaussCode:
 
     Notes
     -----
-    All operations are O(k), but for the hidden sort in writing.
+    All operations are O(k).
 
     Examples
     --------
@@ -145,7 +147,7 @@ class GaussCode:
 
     def __str__(self) -> str:
         first = [min(visit, other) for visit, other in enumerate(self.partner)]
-        label = {visit: number for number, visit in enumerate(sorted(set(first)), start=1)}
+        label = {visit: number for number, visit in enumerate(dict.fromkeys(first), start=1)}
         visits = [f"{label[visit]}{'+' if sign else '-'}" for visit, sign in zip(first, self.ccw, strict=True)]
         return " ".join([*visits, f"/ outer {self.outer}"])
 
@@ -248,6 +250,13 @@ class GaussCode:
         if any_outer:
             words = [tuple((gap, sign, False, False) for gap, sign, *_ in word) for word in words]
         return _from_word(min(map(_least_rotation, words)))
+
+    def _repr_svg_(self) -> str:
+        from plyfold.draw.svg import arrangement_svg
+
+        if self.n_crossings > _MOST_CROSSINGS_DRAWN:
+            return arrangement_svg(Arrangement.from_gauss(self.partner, self.ccw, self.outer))
+        return arrangement_svg(arrangement(Curve.from_gauss(self)))
 
     @cached_property
     def _outer_darts(self) -> frozenset[int]:

@@ -17,7 +17,7 @@ __all__ = ["draw_code"]
 
 # Shares of the edges that are rounded off; a half leaves no straight pieces.
 _ROUNDINGS = (1 / 2, 1 / 4, 1 / 16, 1 / 64)
-_POINTS_PER_BEND = 6
+_POINTS_PER_BEND = 8
 _POINTS_OF_A_CIRCLE = 48
 
 
