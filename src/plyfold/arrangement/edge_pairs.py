@@ -122,10 +122,10 @@ def _group_pairs(groups: _Groups) -> Iterator[tuple[Ints, Ints]]:
     for start in range(0, len(boxes), _LOOKUPS):
         first, second = tree.query(boxes[start : start + _LOOKUPS])
         first += start
-        in_order = first <= second
-        first, second = first[in_order], second[in_order]
-        steady = (second - first <= 1) & (groups.heading[first] & groups.heading[second] != 0)
-        yield first[~steady], second[~steady]
+        gap = second - first
+        unsteady = groups.heading[first] & groups.heading[second] == 0
+        wanted = (gap > 1) | ((gap >= 0) & unsteady)
+        yield first[wanted], second[wanted]
 
 
 def _portions(pairs: tuple[Ints, Ints]) -> Iterator[tuple[Ints, Ints]]:
@@ -141,7 +141,8 @@ def _edge_pairs(groups: _Groups, first: Ints, second: Ints, n: int) -> tuple[Int
     first, second = first[pair] * size + member, second[pair]
     member, pair = _meeting(groups.edge_low, second, groups.edge_high, first)
     first, second = first[pair], second[pair] * size + member
-    apart = (second - first > 1) & (second - first < n - 1)
+    gap = second - first
+    apart = (gap > 1) & (gap < n - 1)
     return first[apart], second[apart]
 
 

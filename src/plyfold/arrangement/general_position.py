@@ -82,14 +82,17 @@ def _places(points: Floats, contacts: Contacts, visits: Visits) -> list[tuple[fl
 
 def _separate(curve: Curve, contacts: Contacts, visits: Visits) -> tuple[Curve, Visits]:
     """Try small moves of the touching vertices until the curve is in general position and nothing else has changed."""
-    required = _crossing_pairs(contacts)
-    allowed = required | _touching_pairs(contacts, len(curve.points))
+    n = len(curve.points)
+    required = _pair_numbers(contacts.edges, n)
+    allowed = np.concatenate([required, _pair_numbers(_touching_pairs(contacts, n), n)])
     for moved, step in _candidates(curve.points):
         if _clearance(moved, contacts.touches) < _CLEARANCE * step:
             continue
         new_contacts = find_contacts(moved)
         new_visits = order_visits(moved, new_contacts)
-        if _is_general(new_contacts, new_visits) and required <= _crossing_pairs(new_contacts) <= allowed:
+        found = _pair_numbers(new_contacts.edges, n)
+        nothing_else = bool(np.isin(required, found).all() and np.isin(found, allowed).all())
+        if nothing_else and _is_general(new_contacts, new_visits):
             return Curve(moved, repairs=curve.repairs + _moves(curve.points, moved)), new_visits
     raise GeneralPositionError(
         "strands touch or overlap, and are too crowded to be moved apart",
@@ -98,14 +101,15 @@ def _separate(curve: Curve, contacts: Contacts, visits: Visits) -> tuple[Curve, 
     )
 
 
-def _crossing_pairs(contacts: Contacts) -> set[tuple[int, int]]:
-    return {(e, f) for e, f in contacts.edges.tolist()}
+def _pair_numbers(pairs: Ints, n: int) -> Ints:
+    """Return a number for each pair of edges, shape (m, 2), whatever its order."""
+    return np.asarray(pairs.min(axis=1) * n + pairs.max(axis=1))
 
 
-def _touching_pairs(contacts: Contacts, n: int) -> set[tuple[int, int]]:
+def _touching_pairs(contacts: Contacts, n: int) -> Ints:
     """Return the pairs of edges that may cross after the move: those that touch before."""
-    pairs = {(e, f) for v, f in contacts.touches.tolist() for e in ((v - 1) % n, v)}
-    return {(min(pair), max(pair)) for pair in pairs}
+    vertex, edge = contacts.touches.T
+    return np.stack([np.concatenate([(vertex - 1) % n, vertex]), np.concatenate([edge, edge])], axis=1)
 
 
 def _clearance(points: Floats, touches: Ints) -> float:
@@ -119,11 +123,11 @@ def _clearance(points: Floats, touches: Ints) -> float:
 
 
 def _moves(before: Floats, after: Floats) -> tuple[Repair, ...]:
-    size = np.hypot(*(after - before).T)
+    moved = np.flatnonzero((before != after).any(axis=1))
+    size = np.hypot(*(after - before)[moved].T)
     return tuple(
-        Repair("vertex moved", (float(x), float(y)), float(size[v]))
-        for v, (x, y) in enumerate(before)
-        if (before[v] != after[v]).any()
+        Repair("vertex moved", (x, y), how_far)
+        for (x, y), how_far in zip(before[moved].tolist(), size.tolist(), strict=True)
     )
 
 
