@@ -35,20 +35,21 @@ def timed(action: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def plyfold_steps(points: Points) -> Iterator[Step]:
-    """Arrangement; verdict with all sheets and their gluing; triangulation; and, on a fresh arrangement, the count."""
+    """Arrangement; verdict with all sheets and their gluing; the count, on a fresh arrangement; triangulation."""
     import plyfold as pf
+    from plyfold.flat import triangulate
 
     seconds, drawn = timed(lambda: pf.arrangement(points))
     facts = {"k": drawn.n_crossings, "w": int(drawn.winding.max()), "moved": len(drawn.curve.repairs)}
     yield "arrangement", seconds, facts
     seconds, verdict = timed(lambda: pf.find_immersion(drawn))
     yield "sheets", seconds, {"disk": bool(verdict), "reason": getattr(verdict, "reason", "")}
-    if isinstance(verdict, pf.Immersion) and hasattr(pf, "triangulate"):
-        seconds, faces = timed(lambda: pf.triangulate(drawn, verdict))
-        yield "triangulate", seconds, {"triangles": len(faces)}
     fresh = pf.arrangement(points)
     seconds, count = timed(lambda: pf.count_immersions(fresh))
     yield "count", seconds, {"immersions": str(count)}
+    if isinstance(verdict, pf.Immersion):
+        seconds, faces = timed(lambda: triangulate(drawn, verdict))
+        yield "triangulate", seconds, {"triangles": len(faces)}
 
 
 def lift_steps(points: Points) -> Iterator[Step]:
@@ -78,8 +79,10 @@ def reference_steps(points: Points) -> Iterator[Step]:
     from reference import shor_van_wyk
 
     polygon = [(int(x), int(y)) for x, y in points]
-    seconds, verdict = timed(lambda: shor_van_wyk.is_self_overlapping(polygon))
-    yield "reference", seconds, {"disk": bool(verdict)}
+    if shor_van_wyk.turning_number(polygon) < 0:
+        polygon.reverse()
+    seconds, triangles = timed(lambda: shor_van_wyk.triangulation(polygon))
+    yield "reference", seconds, {"disk": triangles is not None}
 
 
 CONTENDERS: dict[str, Callable[[Points], Iterator[Step]]] = {

@@ -6,7 +6,8 @@ import numpy as np
 
 import plyfold as pf
 from nightly.curves import DISKS, Drawn
-from reference import crossings, gluings
+from plyfold.flat import triangulate
+from reference import crossings, gluings, shor_van_wyk
 from reference.planar_maps import GaussCode, gauss_code, windings
 from test_against_reference import (
     assert_right_layering,
@@ -21,6 +22,9 @@ MOST_CROSSINGS = 20
 HIGHEST_WINDING = 5
 """... and this winding number: it tries all injections of sheets."""
 
+MOST_CORNERS = 60
+"""Triangles are sought by the reference up to this many corners of the polygon."""
+
 
 def judge(drawn: Drawn) -> None:
     """Compare a curve with the references where they can, and with itself in other frames."""
@@ -34,11 +38,33 @@ def judge(drawn: Drawn) -> None:
     count = pf.count_immersions(arranged)
     assert count or drawn.kind not in DISKS, "this bounds a disk by construction"
     judge_immersions(arranged, count)
+    assert_right_triangles(arranged, drawn.points, count)
     if "polygon" in drawn.kind:
         for code in turned_inside_out(gauss_code(arranged.partner, arranged.ccw, arranged.outer)):
             judge_immersions(pf.Arrangement.from_gauss(*code))
     for name, points in frames(np.array(drawn.points, dtype=np.float64)):
         assert_same_answers(arranged, count, pf.arrangement(points, general_position="raise"), name)
+
+
+def assert_right_triangles(arranged: pf.Arrangement, points: list[tuple[int, int]], count: int) -> None:
+    """The dynamic program over triangles finds some if and only if there is a disk; and ours fill it.
+
+    Positive triangles with every side glued to another or on the curve, each side of the curve once, are a disk.
+    """
+    n = len(points)
+    along = [(i, (i + 1) % n) for i in range(n)]
+    if n <= MOST_CORNERS:
+        forward = crossings.reversed_polygon(points) if arranged.reversed else points
+        assert bool(shor_van_wyk.triangulation(forward)) == bool(count)
+    if count:
+        faces = triangulate(points).tolist()
+        assert len(faces) == n - 2
+        assert all(shor_van_wyk.turn(*(points[corner] for corner in face)) > 0 for face in faces)
+        sides = [(face[i - 1], face[i]) for face in faces for i in range(3)]
+        glued = set(sides)
+        assert len(glued) == len(sides)
+        free = {(i, j) for i, j in sides if (j, i) not in glued}
+        assert free == ({(j, i) for i, j in along} if arranged.reversed else set(along))
 
 
 def in_general_position(points: list[tuple[int, int]]) -> bool:
