@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from plyfold.arrangement import Arrangement, arrangement
+from plyfold.immersion import find_immersion, immersions, paper
 from plyfold.immersion.immersion import Immersion
 from plyfold.immersion.layout import glue_layout
 from plyfold.immersion.paper import paper_immersion, run_paper
@@ -22,6 +23,13 @@ from reference.planar_maps import (
 
 FIRST_FAILURE = ([3, 2, 1, 0, 5, 4, 7, 6], [1, 1, 0, 0, 1, 0, 1, 0], 3)
 """The first curve in the census that bounds a disk and that the literal reading gets wrong."""
+
+REPAIRED_FAILURE = (
+    [9, 6, 7, 8, 19, 10, 1, 2, 3, 0, 5, 18, 15, 16, 17, 12, 13, 14, 11, 4],
+    [1, 0, 1, 0, 0, 1, 1, 0, 1, 0, 0, 1, 1, 0, 1, 0, 1, 0, 0, 1],
+    17,
+)
+"""The curve with the fewest crossings, among 6,500 random disks, that the repaired reading gets wrong."""
 
 
 def code_of(arranged):
@@ -132,6 +140,86 @@ class TestFirstFailure:
         assert own[0] == own[6] != own[2] == own[4]
 
 
+class TestOtherReadings:
+    """The pseudo-code read in other ways, on the 86 disks with six crossings: the reading taken is the best of them."""
+
+    @staticmethod
+    def found(monkeypatch, name, replacement):
+        monkeypatch.setattr(paper, name, replacement)
+        codes = [code for code in census(6) if may_bound_disk(code)]
+        return sum(bool(paper_immersion(Arrangement.from_gauss(*code))) for code in codes)
+
+    @pytest.mark.slow
+    def test_note_5_arcs_count_only_when_recurse_has_ended(self, monkeypatch):
+        def recurse(state, m, f):
+            while (following := next_between(state, m, f)) is not None:
+                yield paper._process(state, following)
+            state.arcs[m, f] = None
+            paper._remove(state, m)
+
+        assert self.found(monkeypatch, "_recurse", recurse) == 49
+
+    @pytest.mark.slow
+    def test_note_6_an_arc_waits_until_f_is_next_in_both_lists(self, monkeypatch):
+        def recurse(state, m, f):
+            state.arcs[m, f] = None
+            while {m, f}.isdisjoint(state.removed) and (
+                state.c_list.next(m) != f or (following := state.w_list.next(m)) != f
+            ):
+                following = next_between(state, m, f)
+                yield paper._process(state, state.w_list.next(m) if following is None else following)
+            paper._remove(state, m)
+
+        assert self.found(monkeypatch, "_recurse", recurse) == 24
+
+    @pytest.mark.slow
+    def test_note_7_the_next_in_the_w_list_is_always_processed(self, monkeypatch):
+        def recurse(state, m, f):
+            while m not in state.removed and state.w_list.next(m) != m:
+                if state.c_list.next(m) == f == state.w_list.next(m):
+                    state.arcs[m, f] = None
+                    break
+                yield paper._process(state, state.w_list.next(m))
+            paper._remove(state, m)
+
+        assert self.found(monkeypatch, "_recurse", recurse) == 53
+
+    @pytest.mark.slow
+    def test_with_the_turning_condition_but_without_partitions(self, monkeypatch):
+        def is_valid(state, m, f, valid=paper._is_valid):
+            return valid(state, m, f) and paper._cuts_off_a_disk(state.arranged)(m, f)
+
+        assert self.found(monkeypatch, "_is_valid", is_valid) == 82
+
+    @pytest.mark.slow
+    def test_with_partitions_but_without_the_turning_condition(self, monkeypatch):
+        monkeypatch.setattr(paper, "_literal", paper._repaired)
+        assert self.found(monkeypatch, "_cuts_off_a_disk", lambda arranged: lambda m, f: True) == 49
+
+
+def next_between(state, m, f):
+    """The border that RECURSE(M, F) turns to next in the reading taken; None if there is none left."""
+    candidates = (state.w_list.next(m), state.c_list.next(m))
+    return next((border for border in candidates if paper._is_left_between(state, m, border, f)), None)
+
+
+class TestRepairedFailure:
+    def test_borders_of_one_sheet_are_not_joined(self):
+        arranged = Arrangement.from_gauss(*REPAIRED_FAILURE)
+        obstruction = paper_immersion(arranged, "repaired")
+        assert obstruction.reason == "paper's procedure"
+        assert "does not mean that there is no immersion" in str(obstruction)
+        (immersion,) = immersions(arranged)
+        assert not gluings.problems(code_of(arranged), immersion.own_sheet.tolist(), immersion.gluing.tolist())
+
+    def test_as_a_method_of_find_immersion(self):
+        assert (
+            find_immersion(Arrangement.from_gauss([1, 0], [True, False], 1), method="paper").reason == "turning number"
+        )
+        assert find_immersion(Arrangement.from_gauss(*FIRST_FAILURE), method="paper").reason == "paper's procedure"
+        assert find_immersion(Arrangement.from_gauss([], [], 1), method="paper")
+
+
 class TestRandomDisks:
     @staticmethod
     def verdicts(outline, sizes, reading):
@@ -181,6 +269,15 @@ class TestGluingOfALayout:
         code = code_of(arranged)
         for immersion in gluings.immersions(*code):
             assert key_of(glue_layout(arranged, groups_of(immersion.own_sheet))) == gluings.key_of(*code, *immersion)
+
+    @pytest.mark.parametrize("outline", [random_curves.ribbon_outline, random_curves.glued_disk])
+    def test_random_disks(self, outline):
+        """Long ribbons have many sheets without own borders, and several of one cell next to each other."""
+        rng = np.random.default_rng(7)
+        for size in range(10, 70, 6):
+            immersion = find_immersion(arrangement(outline(rng, size)))
+            found = glue_layout(immersion.arrangement, groups_of(immersion.own_sheet.tolist()))
+            assert key_of(found) == key_of(immersion)
 
     def test_any_other_grouping_is_refused(self):
         """All partitions of the borders of the first failure's middle cell into two sheets; one of them is right."""

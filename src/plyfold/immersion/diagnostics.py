@@ -100,7 +100,7 @@ def diagonal_differences(arrangement: Arrangement, *, unsigned: bool = False) ->
     [[2, 0]]
     """
     bottom, side, top, other_side = _windings(arrangement, unsigned)
-    return np.abs(np.stack([top - bottom, side - other_side], axis=1))
+    return np.asarray(np.abs(np.stack([top - bottom, side - other_side], axis=1)))
 
 
 def diagonal_sums(arrangement: Arrangement, *, unsigned: bool = False) -> Ints:

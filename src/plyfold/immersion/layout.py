@@ -10,7 +10,7 @@ face one gap along one border, has as many places on the left as on the right. I
 * the other crossings, around which three gluings give the fourth;
 * counting: the last sheet on the left is glued to the last one on the right.
 
-Where all that leaves a choice among sheets of which nothing else is known, they are alike, and any choice will do.
+Where all that leaves a choice among sheets to which nothing is glued yet, they are alike, and any choice will do.
 """
 
 from __future__ import annotations
@@ -47,12 +47,13 @@ def glue_layout(arrangement: Arrangement, groups: Sequence[Sequence[int]]) -> Im
     Returns
     -------
     Immersion or None
-        It has been checked against the definition. None if the groups fit no immersion, or, rarely, if many sheets of
-        one cell share a gap and the choice among them was wrong.
+        It has been checked against the definition. None if the groups fit no immersion.
 
     Notes
     -----
-    O(Σ w) for sheets counted once per border, as long as rooms are small.
+    O(Σ w), sheets counted once per border, but for rooms where nothing is decided: each choice looks at all of them.
+    That a layout never leaves a choice among sheets that are not alike is not proved; on every immersion of up to six
+    crossings and some hundred random ones of up to 1,900, none was left.
 
     Examples
     --------
@@ -283,9 +284,16 @@ def _last(seams: _Seams, dart: int, gap: Gap) -> list[tuple[int, int, int]]:
 
 
 def _join_the_rest(seams: _Seams) -> None:
-    """Glue what nothing decides, first where the sheets on one side are all alike because nothing is glued to them."""
+    """Glue what nothing decides: sheets that are all alike, as nothing is glued to them, to sheets known already.
+
+    Taking the room with the most known sheets on the other side, what is known grows outward and stays in one piece.
+    """
+
+    def known(dart: int, gap: Gap) -> int:
+        return len(seams.touched.intersection(_open(seams, dart, gap)))
+
     while open_rooms := [
         (dart, gap) for dart, room in enumerate(seams.rooms) for gap in room if _open(seams, dart, gap)
     ]:
-        dart, gap = min(open_rooms, key=lambda room: len(seams.touched.intersection(_open(seams, *room))))
+        dart, gap = min(open_rooms, key=lambda room: (known(*room), -known(room[0] ^ 1, room[1])))
         _join(seams, dart, _open(seams, dart, gap)[0], _open(seams, dart ^ 1, gap)[0])
