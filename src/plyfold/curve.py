@@ -145,8 +145,8 @@ class Curve:
 
         Notes
         -----
-        See :func:`plyfold.arrangement.drawing.draw_code` for the method. Up to ten crossings take milliseconds, some
-        hundreds about a second.
+        See :func:`plyfold.arrangement.drawing.draw_code` for the method. Ten crossings take about a tenth of a second,
+        some hundreds take seconds.
 
         Examples
         --------
