@@ -21,7 +21,7 @@ import numpy as np
 from plyfold.arrangement import Arrangement
 from plyfold.arrangement.planar_map import Ints
 
-__all__ = ["DualTree", "grow_dual_tree"]
+__all__ = ["DualTree", "around_cells", "grow_dual_tree"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +41,9 @@ class DualTree:
         on the left. Siblings in this order are siblings from left to right, seen outward.
     along : (cells,) int
         Θ: the direction of the curve at the link's border, in quarter turns since the start of the curve.
+    turning : (borders,) int
+        By how many quarter turns each border turns, as if every crossing were a right angle. Of the many solutions one
+        in which borders off the tree are straight.
     bend : (cells,) int
         By how much an outgoing arc turns in the parent, from this link to the parent's own, in quarter turns, counted
         inward; 0 for children of the root.
@@ -51,6 +54,7 @@ class DualTree:
     ascends: np.ndarray[tuple[int], np.dtype[np.bool_]]
     place: Ints
     along: Ints
+    turning: Ints
     bend: Ints
 
 
@@ -68,6 +72,7 @@ def grow_dual_tree(arrangement: Arrangement) -> DualTree:
         ascends=arrangement.winding < arrangement.winding[lakes.parent],
         place=place,
         along=theta[lakes.link],
+        turning=turning,
         bend=bend,
     )
 
@@ -168,7 +173,7 @@ def _from_root(arrangement: Arrangement, pit: Ints, shores: dict[int, list[int]]
 def _dart_inside(arrangement: Arrangement, link: Ints) -> Ints:
     """Return the dart of each cell's link that has the cell on its left."""
     forward = arrangement.left_cell[link] == np.arange(len(link))
-    return 2 * link + ~forward
+    return np.asarray(2 * link + ~forward)
 
 
 def _border_turnings(arrangement: Arrangement, lakes: _Lakes) -> Ints:
@@ -224,7 +229,7 @@ def _bends(
     of it, so between the two it turns by the boundary's turning less 2. Arcs cross a border near its start: before its
     own turning if it is walked forward, after it otherwise.
     """
-    position, since_start = _around_cells(arrangement, turning)
+    position, since_start = around_cells(arrangement, turning)
     size = np.diff(arrangement.cell_start)[lakes.parent]
     exit_dart = link_dart[lakes.parent]
     backward = np.arange(2 * arrangement.n_borders) % 2 == 1
@@ -235,7 +240,7 @@ def _bends(
     return np.where(at_root, position[entry_dart], place % size), np.where(at_root, 0, bend)
 
 
-def _around_cells(arrangement: Arrangement, turning: Ints) -> tuple[Ints, Ints]:
+def around_cells(arrangement: Arrangement, turning: Ints) -> tuple[Ints, Ints]:
     """Return for each dart its position in its cell, and the boundary's turning up to it, corners included."""
     darts, start = arrangement.cell_darts, arrangement.cell_start
     cell = arrangement.cell_of_dart[darts]

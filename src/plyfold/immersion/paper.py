@@ -45,11 +45,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
-from itertools import accumulate
 from typing import Literal, TypeAlias
 
+import numpy as np
+
 from plyfold.arrangement import Arrangement
-from plyfold.immersion.dual_tree import grow_dual_tree
+from plyfold.immersion.dual_tree import around_cells, grow_dual_tree
 from plyfold.immersion.immersion import Immersion
 from plyfold.immersion.layout import glue_layout
 from plyfold.obstruction import Obstruction
@@ -371,32 +372,8 @@ def _cuts_off_a_disk(arranged: Arrangement) -> Callable[[int, int], bool]:
     On its way from M to F the curve must turn as much as the boundary of the cell does from M to F. Both are counted in
     quarter turns, from the start of the curve and of the cell's boundary; each gains a full turn where it starts anew.
     """
-    turning = _border_turnings(arranged)
-    potential, position = [0] * len(turning), [0] * len(turning)
-    for darts in arranged.cells:
-        turned = 0
-        for place, dart in enumerate(darts):
-            if dart % 2 == 0:
-                potential[dart // 2], position[dart // 2] = -turned, place
-            turned += 1 + (-turning[dart // 2] if dart % 2 else turning[dart // 2])
-    for border, along in enumerate(accumulate(turning[:-1], initial=0)):
-        potential[border] += along
-    return lambda m, f: potential[f] - potential[m] == 4 * ((position[f] < position[m]) - (f < m))
-
-
-def _border_turnings(arranged: Arrangement) -> list[int]:
-    """Return by how many quarter turns each border turns, as if every crossing were a right angle.
-
-    Around a bounded cell the borders turn by 4 − corners. Any solution will do: here borders off the dual tree are
-    straight, and a link of the tree turns by the sum over the cells behind it.
-    """
-    tree = grow_dual_tree(arranged)
-    turning = [0] * arranged.n_borders
-    for cell in range(1, arranged.n_cells):
-        corners = len(arranged.cells[cell]) if arranged.n_crossings else 0
-        outward = cell
-        while outward != 0:
-            link = int(tree.link[outward])
-            turning[link] += (4 - corners) if arranged.left_cell[link] == outward else corners - 4
-            outward = int(tree.parent[outward])
-    return turning
+    turning = grow_dual_tree(arranged).turning
+    position, since_start = around_cells(arranged, turning)
+    potential = (np.cumsum(turning) - turning - since_start[0::2]).tolist()
+    place: list[int] = position[0::2].tolist()
+    return lambda m, f: potential[f] - potential[m] == 4 * ((place[f] < place[m]) - (f < m))
