@@ -7,7 +7,9 @@ def test_public_names():
     assert sorted(pf.__all__) == [
         "Arrangement",
         "BlankWord",
+        "Covered",
         "Curve",
+        "GaussCode",
         "Immersion",
         "Layering",
         "Obstruction",
@@ -18,6 +20,8 @@ def test_public_names():
         "bounds_disk",
         "changed_borders",
         "count_immersions",
+        "coverage",
+        "decompose",
         "errors",
         "find_immersion",
         "find_layering",
@@ -26,8 +30,10 @@ def test_public_names():
         "immersions",
         "irreducible_kernels",
         "lift",
+        "loop_turning_numbers",
         "read",
         "sample_immersion",
+        "triangulate",
     ]
     assert all(hasattr(pf, name) for name in pf.__all__)
 

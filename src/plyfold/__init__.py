@@ -8,7 +8,9 @@
 
 from plyfold import errors, gallery
 from plyfold.arrangement import Arrangement, arrangement
+from plyfold.arrangement.gauss import GaussCode, loop_turning_numbers
 from plyfold.curve import Curve
+from plyfold.flat import Covered, coverage, decompose, triangulate
 from plyfold.immersion import (
     BlankWord,
     Immersion,
@@ -33,7 +35,9 @@ __version__ = "0.1.0"
 __all__ = [
     "Arrangement",
     "BlankWord",
+    "Covered",
     "Curve",
+    "GaussCode",
     "Immersion",
     "Layering",
     "Obstruction",
@@ -44,6 +48,8 @@ __all__ = [
     "bounds_disk",
     "changed_borders",
     "count_immersions",
+    "coverage",
+    "decompose",
     "errors",
     "find_immersion",
     "find_layering",
@@ -52,6 +58,8 @@ __all__ = [
     "immersions",
     "irreducible_kernels",
     "lift",
+    "loop_turning_numbers",
     "read",
     "sample_immersion",
+    "triangulate",
 ]
