@@ -8,7 +8,8 @@
 
 from plyfold import errors, gallery
 from plyfold.arrangement import Arrangement, arrangement
-from plyfold.arrangement.gauss import GaussCode, loop_turning_numbers
+from plyfold.arrangement.gauss import GaussCode
+from plyfold.arrangement.loops import loop_turning_numbers
 from plyfold.curve import Curve
 from plyfold.flat import Covered, coverage, decompose, triangulate
 from plyfold.immersion import (
