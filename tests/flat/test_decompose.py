@@ -1,6 +1,7 @@
 """Simple pieces: valid, and together they cover every place as often as the curve winds round it."""
 
 import math
+import sys
 
 import numpy as np
 import pytest
@@ -64,6 +65,32 @@ def test_never_fewer_than_the_depth_nor_as_many_as_triangles():
     for name in ("stacked-spiral", "milnor", "ten-gon", "bennequin"):
         drawn = pf.arrangement(CURVES[name].curve)
         assert drawn.winding.max() <= len(decompose(drawn)) <= drawn.winding.max() + 2
+
+
+def test_overlaps_that_no_crossing_sides_show(monkeypatch):
+    """Sides of triangles that are no edges of the curve cross here: they are looked for, and the pieces are simple."""
+    points = [(0, 0), (0, 1), (5, 0), (-11, 7), (5, -17), (20, 0), (7, -18)]
+    points += [(22, -27), (31, -16), (45, -7), (29, -3), (28, -4), (10, 20)]
+    module = sys.modules["plyfold.flat.decompose"]
+    found = []
+    look = module._overlaps
+    monkeypatch.setattr(module, "_overlaps", lambda *given: found.append(look(*given)) or found[-1])
+    pieces = decompose(points)
+    assert len(found) == 1
+    assert len(pieces) == 2
+    assert all(piece.is_valid for piece in pieces)
+    assert sum(piece.area for piece in pieces) == pytest.approx(signed_area(points))
+
+
+def test_thousands_of_crossings():
+    """A long ribbon, with crossings between far parts of it."""
+    points = np.array(random_curves.ribbon_outline(np.random.default_rng(5), 3000, wildness=0.1), dtype=np.float64)
+    drawn = pf.arrangement(points)
+    assert drawn.n_crossings > 1000
+    pieces = decompose(drawn)
+    assert all(piece.is_valid for piece in pieces)
+    assert sum(piece.area for piece in pieces) == pytest.approx(signed_area(points))
+    assert len(pieces) < drawn.n_crossings / 4
 
 
 def test_bow_ties_are_no_disks():

@@ -167,6 +167,9 @@ def test_immersion_of_another_curve():
         triangulate(CURVES["circle"].curve, immersion)
     with pytest.raises(InputError, match="another curve"):
         triangulate(pf.arrangement(RAMP), immersion)
+    with pytest.raises(InputError, match="another curve"):
+        triangulate(np.roll(RAMP, 1, axis=0), immersion)
+    assert len(triangulate(RAMP[::-1], pf.find_immersion(RAMP[::-1]))) == 8
 
 
 @pytest.mark.parametrize("exponent", range(1, 18))
@@ -209,3 +212,4 @@ def test_moved_into_general_position():
     drawn = pf.arrangement(points)
     assert drawn.curve.repairs
     certify(drawn.curve.points, triangulate(points))
+    assert triangulate(points, pf.find_immersion(drawn)).tolist() == triangulate(points).tolist()

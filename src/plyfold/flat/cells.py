@@ -265,14 +265,15 @@ def _mesh_of(library: Any, outline: _Outline, points: Floats, chain: Ints, chain
 
 def _twins(corners: Ints, neighbours: Any) -> Ints:
     """Return the half-edge beside each half-edge, from the triangle beside it; -1 where there is none."""
-    beside = neighbours.ravel().astype(np.int64)
-    outside = beside >= len(corners)
-    beside[outside] = 0
+    first = 3 * neighbours.ravel().astype(np.int64)
+    outside = np.flatnonzero(first >= corners.size)
+    first[outside] = 0
     # The twin starts where the half-edge ends.
-    end = corners[:, [1, 2, 0]].ravel()
-    starts = corners[beside]
-    side = 1 * (starts[:, 1] == end) + 2 * (starts[:, 2] == end)
-    return np.where(outside, -1, 3 * beside + side)
+    start, end = corners.ravel(), corners[:, [1, 2, 0]].ravel()
+    twin = first + (start[first + 1] == end)
+    twin += 2 * (start[first + 2] == end)
+    twin[outside] = -1
+    return np.asarray(twin)
 
 
 def _covered(outline: _Outline) -> float:

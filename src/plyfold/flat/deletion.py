@@ -7,7 +7,6 @@ its own corners, and the disk stays an immersed disk.
 
 from __future__ import annotations
 
-from fractions import Fraction
 from heapq import heapify, heappop, heappush
 from math import inf
 from typing import NamedTuple, TypeAlias
@@ -92,12 +91,11 @@ class _Disk(NamedTuple):
 
 
 def _fans(faces: Ints, extra: npt.NDArray[np.bool_]) -> dict[int, dict[int, int]]:
-    fans: dict[int, dict[int, int]] = {vertex: {} for vertex in np.flatnonzero(extra).tolist()}
-    for corner in range(3):
-        here = faces[extra[faces[:, corner]]]
-        around = (here[:, (corner + step) % 3].tolist() for step in range(3))
-        for vertex, neighbour, following in zip(*around, strict=True):
-            fans[vertex][neighbour] = following
+    corners = np.concatenate([faces, faces[:, [1, 2, 0]], faces[:, [2, 0, 1]]])
+    vertex, neighbour, following = corners[extra[corners[:, 0]]].T.tolist()
+    fans: dict[int, dict[int, int]] = {extra_vertex: {} for extra_vertex in np.flatnonzero(extra).tolist()}
+    for here, one, other in zip(vertex, neighbour, following, strict=True):
+        fans[here][one] = other
     return fans
 
 
@@ -230,8 +228,14 @@ def _positive(disk: _Disk, vertex: int, triangle: Triangle) -> Triangle:
 
 
 def _exact_turn(disk: _Disk, a: int, b: int, c: int) -> int:
-    """Return the sign of the turn a, b, c."""
-    (ax, ay), (bx, by), (cx, cy) = ((Fraction(disk.x[v]), Fraction(disk.y[v])) for v in (a, b, c))
+    """Return the sign of the turn a, b, c, in integers: doubles are fractions over powers of two.
+
+    Vertices over a crossing lie in line with neighbours, so this is called often, and class Fraction would be slow.
+    """
+    _, x, y = disk
+    fractions = [place[v].as_integer_ratio() for v in (a, b, c) for place in (x, y)]
+    common = max(below for _, below in fractions)
+    ax, ay, bx, by, cx, cy = (above * (common // below) for above, below in fractions)
     turn = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
     return (turn > 0) - (turn < 0)
 

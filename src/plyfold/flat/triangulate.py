@@ -66,7 +66,7 @@ def triangulate(
     The same input and output as programs after Shor and Van Wyk [SW92]_ have, which take O(n³). Here the cells are
     triangulated together with the crossings, copied once per sheet, glued, and then the vertices over crossings and
     those under other sheets are deleted one at a time. That such triangles exist is proved in [SW92]_ and [WZ14]_.
-    O(m log m) for m copied triangles, about two million points a minute.
+    O(m log m) for m copied triangles; 60,000 points with 18,000 crossings take about a second.
 
     Points that repeat the one before them are left out (see :class:`~plyfold.Curve`) and do not count. If vertices had
     to be moved into general position, the triangles are those of the moved curve, ``arrangement(curve).curve``.
@@ -102,10 +102,18 @@ def chosen_immersion(curve: CurveLike, immersion: Immersion | None) -> Immersion
             raise NotImmersibleError(found)
         return found
     drawn = immersion.arrangement
-    same = curve is drawn if isinstance(curve, Arrangement) else len(as_curve(curve)) == len(drawn.curve or ())
-    if not same:
+    if not (curve is drawn if isinstance(curve, Arrangement) else _draws(drawn, as_curve(curve).points)):
         raise InputError("the immersion belongs to another curve", hint="make it from the same arrangement")
     return immersion
+
+
+def _draws(drawn: Arrangement, points: Floats) -> bool:
+    """Tell whether an arrangement is that of the given points, but for those moved into general position."""
+    if drawn.curve is None or len(drawn.curve) != len(points):
+        return False
+    moved = {repair.where for repair in drawn.curve.repairs}
+    differing = (drawn.curve.points[_input_order(drawn, len(points))] != points).any(axis=1)
+    return all((x, y) in moved for x, y in points[differing].tolist())
 
 
 def own_triangles(immersion: Immersion) -> tuple[Floats, Ints]:
