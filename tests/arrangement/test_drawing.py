@@ -6,8 +6,9 @@ import shapely
 
 import plyfold as pf
 from plyfold.arrangement.drawing import smooth
+from plyfold.arrangement.drawing.flips import flipped
 from plyfold.arrangement.drawing.relaxation import energy, relaxed
-from plyfold.arrangement.drawing.skeleton import skeleton
+from plyfold.arrangement.drawing.skeleton import Kind, skeleton
 from plyfold.arrangement.drawing.straight_lines import grid_drawing, tutte_drawing
 from plyfold.arrangement.gauss import GaussCode
 from plyfold.errors import GaussCodeError, PrecisionError
@@ -42,7 +43,7 @@ def smallest_cell(drawn):
 
 
 def test_reference_reads_the_code_of_small_curves():
-    codes = [*planar_maps.census(1), *planar_maps.census(2)]
+    codes = [*planar_maps.census(1), *planar_maps.census(2)[::4]]
     for code in (both_directions(code)[number % 2] for number, code in enumerate(codes)):
         points = pf.Curve.from_gauss(code).points.tolist()
         found = planar_maps.with_smallest_outer_dart(crossings(points).code)
@@ -50,30 +51,30 @@ def test_reference_reads_the_code_of_small_curves():
         assert turning_number(points) == planar_maps.turning_number(found)
 
 
-@pytest.mark.parametrize("k", [3, 4])
-def test_every_curve_is_drawn_well(k):
-    for census_code in planar_maps.census(k):
+@pytest.mark.parametrize(("k", "every"), [(1, 1), (2, 1), (3, 1), (4, 6)])
+def test_curves_are_drawn_well(k, every):
+    for census_code in planar_maps.census(k)[::every]:
         code = GaussCode(*census_code)
         drawn = pf.arrangement(pf.Curve.from_gauss(code), "raise")
         assert GaussCode.of(drawn) == code
-        assert crossing_angles(drawn).min() > 35
-        assert smallest_cell(drawn) > 1 / 100
+        assert crossing_angles(drawn).min() > 50
+        assert smallest_cell(drawn) > 1 / 25
 
 
 def test_some_curves_with_five_crossings_in_both_directions():
-    for census_code in planar_maps.census(5)[::20]:
+    for census_code in planar_maps.census(5)[::40]:
         for code in both_directions(census_code):
             assert read_back(pf.Curve.from_gauss(code)) == code
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("k", [5, 6])
+@pytest.mark.parametrize("k", [4, 5, 6])
 def test_every_larger_curve_is_drawn_well(k):
     for census_code in planar_maps.census(k):
         drawn = pf.arrangement(pf.Curve.from_gauss(GaussCode(*census_code)), "raise")
         assert GaussCode.of(drawn) == GaussCode(*census_code)
-        assert crossing_angles(drawn).min() > 25
-        assert smallest_cell(drawn) > 1 / 250
+        assert crossing_angles(drawn).min() > 40
+        assert smallest_cell(drawn) > 1 / 50
 
 
 RNG = np.random.default_rng(4)
@@ -120,7 +121,7 @@ def test_circles(outer, turns):
 
 
 def test_a_drawing_fills_its_frame():
-    for census_code in planar_maps.census(3):
+    for census_code in planar_maps.census(3)[::4]:
         points = pf.Curve.from_gauss(GaussCode(*census_code)).points
         assert np.ptp(points, axis=0).max() == pytest.approx(2.0)
         assert points.max(axis=0) + points.min(axis=0) == pytest.approx(0.0, abs=1e-12)
@@ -139,15 +140,40 @@ def doubled_areas(places, triangles):
     return ((b - a).conjugate() * (c - a)).imag
 
 
-def test_skeletons_are_triangulated_disks_without_double_edges():
+def check_is_a_disk_without_double_edges(disk):
+    sides = [side for a, b, c in disk.triangles.tolist() for side in ((a, b), (b, c), (c, a))]
+    once = set(sides)
+    assert len(once) == len(sides)
+    edges = {frozenset(side) for side in sides}
+    assert disk.n_vertices - len(edges) + len(disk.triangles) == 1
+    open_sides = {(a, b) for a, b in sides if (b, a) not in once}
+    assert open_sides == set(zip(disk.rim.tolist(), np.roll(disk.rim, -1).tolist(), strict=True))
+    along = zip(disk.path.tolist(), np.roll(disk.path, -1).tolist(), strict=True)
+    assert {frozenset(side) for side in along} <= edges
+
+
+def test_skeletons_are_triangulated_disks_that_carry_the_curve():
     for disk in disks():
-        sides = [side for a, b, c in disk.triangles.tolist() for side in ((a, b), (b, c), (c, a))]
-        once = set(sides)
-        assert len(once) == len(sides)
-        edges = {frozenset(side) for side in sides}
-        assert disk.n_vertices - len(edges) + len(disk.triangles) == 1
-        open_sides = {(a, b) for a, b in sides if (b, a) not in once}
-        assert open_sides == set(zip(disk.rim.tolist(), np.roll(disk.rim, -1).tolist(), strict=True))
+        check_is_a_disk_without_double_edges(disk)
+
+
+def test_borders_get_the_beads_they_ask_for_or_more():
+    drawn = pf.Arrangement.from_gauss([1, 0], [True, False], 1)
+    few, many = skeleton(drawn), skeleton(drawn, [9, 0])
+    assert len(many.path) - len(few.path) == 4
+    assert np.flatnonzero(many.path == 0).tolist() == [5, 15]
+    check_is_a_disk_without_double_edges(many)
+
+
+def test_flips_keep_the_disk_and_turn_no_triangle_over():
+    for disk in disks():
+        places = relaxed(grid_drawing(disk.triangles, disk.rim), disk, 1e-2)
+        better = flipped(places, disk)
+        check_is_a_disk_without_double_edges(better)
+        assert doubled_areas(places, better.triangles).min() > 0
+        changed = (better.triangles != disk.triangles).any(axis=1)
+        assert (disk.kind[changed] == Kind.CELL).all()
+        assert flipped(places, better) is better
 
 
 def test_grid_drawings_are_exact():

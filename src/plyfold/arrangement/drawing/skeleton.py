@@ -28,10 +28,10 @@ _RING_RATIO = 2.0
 
 
 class Kind(IntEnum):
-    """What a triangle of the skeleton is for: a corner of a cell, the fan around a hub, or the ring outside."""
+    """Where a triangle of the skeleton lies: at a crossing, inside a cell, or in the ring around all."""
 
     CORNER = 0
-    FAN = 1
+    CELL = 1
     RING = 2
 
 
@@ -44,8 +44,8 @@ class Skeleton:
     triangles : (m, 3) int
         Counter-clockwise. Vertices are the crossings, then the beads in order along the curve, the hubs, and the rim.
     shapes : (m, 3) complex
-        The corners of each triangle as they would be if all cells were regular, all edges of the curve had length 1,
-        and strands crossed at right angles.
+        The corners of each triangle as they would best be: with regular cells, edges of length 1 along the curve, and
+        strands that cross at right angles.
     kind : (m,) int
         See :class:`Kind`.
     rim : (b,) int
@@ -66,8 +66,18 @@ class Skeleton:
         return int(self.triangles.max()) + 1
 
 
-def skeleton(arrangement: Arrangement) -> Skeleton:
+def skeleton(arrangement: Arrangement, beads: npt.ArrayLike = 0) -> Skeleton:
     """Return the triangulated disk of an arrangement with at least one crossing.
+
+    Parameters
+    ----------
+    arrangement : Arrangement
+    beads : int or (borders,) int
+        How many beads each border is to have; it gets more if these are too few.
+
+    Returns
+    -------
+    Skeleton
 
     Notes
     -----
@@ -79,7 +89,7 @@ def skeleton(arrangement: Arrangement) -> Skeleton:
     >>> limacon.n_vertices, len(limacon.triangles), len(limacon.rim)
     (18, 29, 5)
     """
-    first, last = _beads(arrangement)
+    first, last = _beads(arrangement, beads)
     tail, head, cell = _sides_along_borders(arrangement, first, last)
     corners = _corners(arrangement, first, last)
     length = np.repeat([1.0, np.sqrt(2.0)], [len(tail), len(corners)])
@@ -95,17 +105,17 @@ def skeleton(arrangement: Arrangement) -> Skeleton:
     return Skeleton(
         triangles=np.concatenate([corners, fans, ring]),
         shapes=np.concatenate(shapes),
-        kind=np.repeat([Kind.CORNER, Kind.FAN, Kind.RING], [len(corners), len(fans), len(ring)]),
+        kind=np.repeat([Kind.CORNER, Kind.CELL, Kind.RING], [len(corners), len(fans), len(ring)]),
         rim=rim,
         path=_path(arrangement, first, last),
     )
 
 
-def _beads(arrangement: Arrangement) -> tuple[Ints, Ints]:
+def _beads(arrangement: Arrangement, wanted: npt.ArrayLike) -> tuple[Ints, Ints]:
     """Return the first and last bead of each border. A loop needs at least three, for its ends are joined."""
     border = np.arange(arrangement.n_borders)
     is_loop = arrangement.partner == (border + 1) % len(border)
-    count = np.where(is_loop, _BEADS_ON_A_LOOP, _BEADS)
+    count = np.maximum(wanted, np.where(is_loop, _BEADS_ON_A_LOOP, _BEADS))
     last = arrangement.n_crossings + np.cumsum(count) - 1
     return last - count + 1, last
 
