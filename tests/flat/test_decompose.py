@@ -98,6 +98,11 @@ def test_bow_ties_are_no_disks():
         decompose([(0, 0), (2, 2), (2, 0), (0, 2)])
 
 
+def test_a_triangle_is_one_piece():
+    (only,) = decompose([(0, 0), (1, 0), (0, 1)])
+    assert only.equals(shapely.Polygon([(0, 0), (1, 0), (0, 1)]))
+
+
 def test_clockwise():
     points = CURVES["exit-ramp"].curve.points
     assert all(piece.exterior.is_ccw for piece in decompose(points[::-1]))

@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
 from plyfold.certify import check_immersed_disk
-from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError, PrecisionError
-from plyfold.flat import triangulate
+from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError, PlyfoldError, PrecisionError
+from plyfold.flat import coverage, decompose, triangulate
 from plyfold.gallery import CURVES
 from reference import random_curves, shor_van_wyk
 
@@ -158,6 +159,20 @@ def test_no_disk():
     with pytest.raises(NotImmersibleError) as caught:
         triangulate(CURVES["limacon"].curve)
     assert caught.value.obstruction.reason == "turning number"
+
+
+def test_what_stands_for_a_curve():
+    expected = triangulate(RAMP).tolist()
+    closed = np.concatenate([RAMP, RAMP[:1]])
+    for curve in (RAMP.tolist(), closed, shapely.LinearRing(RAMP), pf.Curve(RAMP), pf.arrangement(RAMP)):
+        assert triangulate(curve).tolist() == expected
+    assert triangulate([(0, 0), (1, 0), (0, 1)]).tolist() in ([[0, 1, 2]], [[1, 2, 0]], [[2, 0, 1]])
+
+
+@pytest.mark.parametrize("make", [triangulate, decompose, coverage, lambda code: triangulate(code, refine=1.0)])
+def test_codes_have_no_triangles(make):
+    with pytest.raises(PlyfoldError, match="Gauss code"):
+        make(pf.Arrangement.from_gauss(*pf.arrangement(RAMP).gauss_code()))
 
 
 def test_immersion_of_another_curve():

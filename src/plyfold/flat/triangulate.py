@@ -10,7 +10,7 @@ from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.core import CurveLike
 from plyfold.arrangement.planar_map import Ints
 from plyfold.curve import as_curve
-from plyfold.errors import InputError, NotImmersibleError, PrecisionError
+from plyfold.errors import InputError, NotImmersibleError, PlyfoldError, PrecisionError
 from plyfold.flat.cells import refuse_max_area, triangulate_cells
 from plyfold.flat.deletion import without_vertices
 from plyfold.flat.sheets import glue_copies
@@ -97,7 +97,10 @@ def triangulate(
 def chosen_immersion(curve: CurveLike, immersion: Immersion | None) -> Immersion:
     """Return the immersion asked for, or the curve's first; raise an error if there is none."""
     if immersion is None:
-        found = find_immersion(arrangement(curve))
+        drawing = arrangement(curve)
+        if drawing.curve is None:
+            raise PlyfoldError("triangles need a drawing, and this arrangement is a Gauss code alone")
+        found = find_immersion(drawing)
         if not isinstance(found, Immersion):
             raise NotImmersibleError(found)
         return found
