@@ -27,6 +27,6 @@ def plot(rows: Sequence[Row], file: Path) -> None:
     for axes, title in ((times, "seconds: cells, verdict and all sheets"), (ratios, "the same, relative to GEOS")):
         axes.set(xscale="log", yscale="log", title=title, xlabel="vertices + crossings")
         axes.grid(alpha=0.3)
-    times.legend(fontsize="x-small")
+    times.legend(fontsize="x-small", loc="upper left")
     figure.savefig(file, dpi=110)
     plt.close(figure)

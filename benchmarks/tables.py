@@ -15,6 +15,7 @@ from typing import Any
 
 VERDICT = ("arrangement", "sheets")
 TRIANGULATED = (*VERDICT, "triangulate")
+LARGE = 10_000
 MEASURED = ("stage", "seconds", "disk", "megabytes")
 WORD: dict[bool | None, str] = {True: "disk", False: "no disk", None: "–"}
 
@@ -63,14 +64,15 @@ class Row:
 def exponent(rows: Sequence[Row], stages: Iterable[str]) -> float | None:
     """Return the power of n + k with which the time grows: least squares in logarithms over the last two decades.
 
-    None if less than one decade was measured, or fewer than three curves.
+    None if fewer than three curves or less than a decade was measured, or nothing large: there the start of every
+    step takes longer than its work.
     """
     stages = tuple(stages)
     measured = [(row.size, row.total(stages)) for row in rows]
     points = [(size, seconds) for size, seconds in measured if size and seconds]
     largest = max((size for size, _ in points), default=0)
     points = [(size, seconds) for size, seconds in points if size >= largest / 100]
-    if len(points) < 3 or largest < 10 * min(size for size, _ in points):
+    if len(points) < 3 or largest < max(LARGE, 10 * min(size for size, _ in points)):
         return None
     return linear_regression([math.log(size) for size, _ in points], [math.log(time) for _, time in points]).slope
 

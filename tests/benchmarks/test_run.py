@@ -46,7 +46,7 @@ class TestCommand:
     def test_budget(self):
         options = ["--families", "chain", "--sizes", "200", "400", "--budget", "0"]
         done = subprocess.run([*COMMAND, *options], capture_output=True, text=True, check=True)
-        assert done.stdout.count("over the budget") == 2
+        assert done.stdout.count("chain, n = 200 and more: over the budget of 0 s per family") == 1
 
 
 class TestExponent:
@@ -59,8 +59,9 @@ class TestExponent:
         spoiled[0].seconds["arrangement"] = 100.0
         assert tables.exponent(spoiled, tables.VERDICT) == pytest.approx(1.3)
 
-    def test_none_without_a_decade(self):
+    def test_none_without_a_decade_or_large_curves(self):
         assert tables.exponent(rows()[:1], tables.VERDICT) is None
+        assert tables.exponent(rows()[:2] + rows()[1:2], tables.VERDICT) is None
         assert tables.exponent(rows(), tables.TRIANGULATED) is None
 
 
