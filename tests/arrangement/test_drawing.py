@@ -94,6 +94,21 @@ def test_large_curves(name):
     assert read_back(pf.Curve.from_gauss(code)) == code
 
 
+@pytest.mark.slow
+def test_a_coil_too_deep_to_be_rounded():
+    code = GaussCode.of([(t * np.cos(t), t * np.sin(t)) for t in np.linspace(6, 400 * np.pi, 4000)])
+    assert read_back(pf.Curve.from_gauss(code)) == code
+
+
+def test_straight_strands_have_the_code_too():
+    for census_code in planar_maps.census(3):
+        code = GaussCode(*census_code)
+        disk = skeleton(pf.Arrangement.from_gauss(code.partner, code.ccw, code.outer))
+        *_, straight = smooth._candidates(tutte_drawing(disk.triangles, disk.rim)[disk.path], disk.path)
+        assert len(straight) == len(disk.path)
+        assert GaussCode.of(np.column_stack([straight.real, straight.imag])) == code
+
+
 def test_arguments_may_be_lists():
     limacon = pf.arrangement(pf.Curve.from_gauss([1, 0], [True, False], 1))
     assert (limacon.gauss_code(), limacon.reversed) == (([1, 0], [True, False], 1), False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 import numpy.typing as npt
@@ -60,9 +61,8 @@ def draw_code(wanted: Arrangement) -> Curve:
     """
     if wanted.n_crossings == 0:
         return _curve(np.exp(2j * np.pi * np.arange(_POINTS_OF_A_CIRCLE) / _POINTS_OF_A_CIRCLE))
-    along = _along(wanted)
-    for share in _ROUNDINGS:
-        curve = _curve(_normalised(_rounded(along, share)))
+    for points in _candidates(*_along(wanted)):
+        curve = _curve(_normalised(points))
         if _has_code(curve, wanted):
             return curve
     raise PrecisionError(
@@ -71,12 +71,23 @@ def draw_code(wanted: Arrangement) -> Curve:
     )
 
 
-def _along(wanted: Arrangement) -> Complexes:
-    """Return the corners of a polyline that runs along the curve, each crossing twice."""
+def _candidates(along: Complexes, path: Ints) -> Iterator[Complexes]:
+    """Yield ever less rounded curves; in the last one only one strand at each crossing is moved off it, a little."""
+    for share in _ROUNDINGS:
+        yield _rounded(along, share)
+    first = np.unique(path, return_index=True)[1]
+    at_crossing = first[: len(path) - len(first)]
+    straight = along.copy()
+    straight[at_crossing] += _ROUNDINGS[-1] * (np.roll(along, 1) - along)[at_crossing]
+    yield straight
+
+
+def _along(wanted: Arrangement) -> tuple[Complexes, Ints]:
+    """Return the corners of a polyline along the curve, each crossing twice, and their numbers."""
     places, disk = _even(skeleton(wanted))
     if wanted.n_crossings <= _MOST_CROSSINGS_DRAWN_TWICE:
         places, disk = _even(skeleton(wanted, _even_beads(places[disk.path], disk.path < wanted.n_crossings)))
-    return relaxed(places, disk)[disk.path]
+    return relaxed(places, disk)[disk.path], disk.path
 
 
 def _even_beads(along: Complexes, is_crossing: npt.NDArray[np.bool_]) -> Ints:
