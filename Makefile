@@ -30,8 +30,8 @@ lint: $(READY)
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
-pictures: $(READY)  ## Rebuild the pictures of the README
-	$(BIN)/python docs/pictures.py
+pictures: $(READY)  ## Rebuild the pictures of the README and of docs
+	@for script in docs/*pictures.py; do $(BIN)/python $$script || exit 1; done
 
 benchmark: $(READY)  ## Times, memory and ratios against GEOS, from one run of at most ten minutes; see --help for OPTIONS
 	$(BIN)/python benchmarks/run.py $(OPTIONS)
