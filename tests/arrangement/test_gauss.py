@@ -9,7 +9,7 @@ from plyfold.arrangement.gauss import GaussCode
 from plyfold.errors import GaussCodeError
 from reference import planar_maps
 from reference.crossings import crossings
-from reference.random_curves import ribbon_outline
+from reference.random_curves import BENNEQUIN_LIKE, ribbon_outline
 
 TREFOIL = "1+ 2- 3+ 1- 2+ 3- / outer 1"
 
@@ -194,3 +194,9 @@ def test_form_of_a_large_curve_does_not_depend_on_the_start():
         assert turned.reversed().canonical(True, False) == code.canonical(True, False)
         assert turned.reflected().canonical(False, True) == code.canonical(False, True)
         assert turned.reflected().canonical(False, False) != code.canonical(False, False)
+
+
+def test_a_code_stands_for_a_curve_where_no_drawing_is_needed():
+    code = GaussCode.of(BENNEQUIN_LIKE)
+    assert pf.count_immersions(code) == 5
+    assert pf.arrangement(code).gauss_code() == pf.arrangement(BENNEQUIN_LIKE).gauss_code()

@@ -25,7 +25,7 @@ from plyfold.curve import Curve, as_curve
 from plyfold.errors import GaussCodeError, PlyfoldError
 from plyfold.predicates import Bools, Floats, cross_sign, orient
 
-# Anything that stands for a closed curve: Curve, array-like (n, 2), shapely geometry or Arrangement.
+# Anything that stands for a closed curve: Curve, array-like (n, 2), shapely geometry, Arrangement or GaussCode.
 CurveLike: TypeAlias = Any
 
 __all__ = ["Arrangement", "CurveLike", "arrangement", "polygon_turning_number", "winding_number"]
@@ -368,8 +368,9 @@ def arrangement(curve: CurveLike, general_position: Literal["perturb", "raise"] 
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
-        A closed curve; the last point is joined to the first. An arrangement is returned as it is.
+    curve : Curve, array_like of shape (n, 2), shapely geometry, Arrangement or GaussCode
+        A closed curve; the last point is joined to the first. An arrangement is returned as it is; that of a code has
+        no drawing.
     general_position : {"perturb", "raise"}
         What to do where a vertex lies on another edge, edges overlap or three edges meet in a point: move vertices
         as little as possible (``result.curve.repairs`` says which and by how much), or raise an error naming the
@@ -401,6 +402,8 @@ def arrangement(curve: CurveLike, general_position: Literal["perturb", "raise"] 
     """
     if isinstance(curve, Arrangement):
         return curve
+    if hasattr(curve, "partner"):  # a GaussCode, which a module further on defines
+        return Arrangement.from_gauss(curve.partner, curve.ccw, curve.outer)
     separated, visits = in_general_position(as_curve(curve), general_position)
     edge, point = visits.edge, visits.point
     code = visits.partner, visits.ccw, _outer_dart(separated.points, edge)
