@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 import plyfold as pf
 from plyfold.errors import NotEmbeddableError, TimeLimitError
 from plyfold.gallery import CURVES
-from plyfold.layering import first_layering
-from plyfold.layering.layering import _minimal_core, _solve
+from plyfold.layering import count_layerings, first_layering
+from plyfold.layering.sat import minimal_core, solve
+from plyfold.obstruction import Unknown
 from reference.random_curves import glued_disk
 
 # The lines of the Fano plane: however seven points get two colours, one of the seven lines has only one.
@@ -51,14 +52,18 @@ def test_places_of_a_reversed_pair_lie_in_its_cells():
             assert list(found.where) == [immersion.arrangement.cell_point(cell) for cell in cells]
 
 
-def test_orders_in_a_circle_are_found_and_made_minimal():
-    extra = [(1, 2, -4), (-3, 5, 6), (2, 3, 4)]
-    triples = [(cycle, (number, 0, 1, 2)) for number, cycle in enumerate(extra + FANO)]
-    assert _solve([list(cycle) for cycle, _ in triples], None) is None
-    core = [cycle for cycle, _ in _minimal_core(triples)]
-    assert _solve([list(cycle) for cycle in core], None) is None
+def both_ways(cycles):
+    """Clauses that forbid the literals of each cycle to be all true or all false."""
+    return [clause for cycle in cycles for clause in (list(cycle), [-x for x in cycle])]
+
+
+def test_demands_that_contradict_each_other_are_made_minimal():
+    cycles = [(1, 2, -4), (-3, 5, 6), (2, 3, 4), *FANO]
+    assert solve(both_ways(cycles)) is None
+    core = [cycles[i] for i in minimal_core([both_ways([cycle]) for cycle in cycles])]
+    assert solve(both_ways(core)) is None
     for left_out in core:
-        assert _solve([list(cycle) for cycle in core if cycle != left_out], None) is not None
+        assert solve(both_ways(cycle for cycle in core if cycle != left_out)) is not None
 
 
 @settings(max_examples=100, deadline=None)
@@ -68,7 +73,7 @@ def test_solver_against_all_assignments(cycles):
         return all(len({colours[abs(x)] == (x > 0) for x in cycle}) == 2 for cycle in cycles)
 
     every = ({v: bool(n >> v & 1) for v in range(5)} for n in range(32))
-    found = _solve([list(cycle) for cycle in cycles], None)
+    found = solve(both_ways(cycles))
     assert (found is not None) == any(map(satisfied, every))
     assert found is None or satisfied({v: v in found for v in range(5)})
 
@@ -102,6 +107,25 @@ def test_the_first_immersion_that_lifts_is_taken():
 
 def test_time_is_limited():
     for immersion in bennequin():
+        unknown = pf.find_layering(immersion, time_limit=0)
+        assert isinstance(unknown, Unknown)
+        assert not unknown
+        assert "whether there is a layering" in str(unknown)
         with pytest.raises(TimeLimitError, match="unknown"):
-            pf.find_layering(immersion, time_limit=0)
+            first_layering([immersion], time_limit=0)
+        with pytest.raises(TimeLimitError, match="unknown"):
+            pf.lift(immersion, time_limit=0)
     assert any(pf.find_layering(immersion, time_limit=60) for immersion in bennequin())
+
+
+def test_what_is_known_when_the_search_is_stopped(monkeypatch):
+    def never(clauses, time_limit):
+        raise TimeoutError
+
+    monkeypatch.setitem(pf.find_layering.__globals__, "solve", never)
+    immersion = next(i for i in bennequin() if count_layerings(i))
+    unknown = pf.find_layering(immersion, time_limit=7)
+    assert isinstance(unknown, Unknown)
+    assert unknown.established["pair classes"] == 1
+    assert unknown.established["triples"] == 0
+    assert "No pair of sheets returns reversed" in str(unknown)

@@ -1,11 +1,12 @@
-"""Why something does not exist: the certificate that stands in for an immersion or a layering."""
+"""Why there is no answer of the kind asked for: it does not exist, or it was not found in time."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
-__all__ = ["Obstruction"]
+__all__ = ["Obstruction", "Unknown"]
 
 
 @dataclass(frozen=True)
@@ -19,7 +20,7 @@ class Obstruction:
     ----------
     reason : str
         One of ``"turning number"``, ``"negative winding"``, ``"no grouping"`` (no immersion), ``"reversed pair"``,
-        ``"cyclic order"`` (no layering).
+        ``"cyclic order"``, ``"fixed orders"``, ``"casing"`` (no layering).
     sentence : str
         The same for a person, in one sentence.
     where : tuple of (x, y)
@@ -38,6 +39,39 @@ class Obstruction:
     sentence: str
     where: tuple[tuple[float, float], ...] = ()
     value: Any = None
+
+    def __bool__(self) -> bool:
+        return False
+
+    def __str__(self) -> str:
+        return self.sentence
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """Neither an answer nor a proof that there is none: the search was stopped before it had decided.
+
+    It is false as a truth value, as an :class:`Obstruction` is; ``isinstance`` tells them apart.
+
+    Parameters
+    ----------
+    reason : str
+        ``"time limit"``, or ``"size"``: it would take too much memory.
+    sentence : str
+        The same for a person, with what was established.
+    established : mapping of str to object
+        What is certain: sizes of the problem, seconds spent, bounds, the best answer so far.
+
+    Examples
+    --------
+    >>> unknown = Unknown("time limit", "Whether there is a layering is unknown after 2 s.", {"seconds": 2.0})
+    >>> bool(unknown), str(unknown)
+    (False, 'Whether there is a layering is unknown after 2 s.')
+    """
+
+    reason: str
+    sentence: str
+    established: Mapping[str, Any] = field(default_factory=dict, hash=False)
 
     def __bool__(self) -> bool:
         return False

@@ -14,7 +14,7 @@ import numpy as np
 from plyfold.arrangement.planar_map import Ints
 from plyfold.immersion import Immersion
 
-__all__ = ["PairGraph", "chain_to_reverse", "pair_graph"]
+__all__ = ["PairGraph", "chain_to_reverse", "pair_graph", "pair_of"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +58,7 @@ def pair_graph(immersion: Immersion) -> PairGraph:
     cell = np.repeat(np.arange(len(winding)), winding**2)
     row, column = np.divmod(np.arange(total) - first_pair[cell], winding[cell])
     edges = _carried(immersion, first_pair)
-    graph = coo_array((np.ones(len(edges), dtype=np.int8), edges.T), shape=(total, total))
+    graph = coo_array((np.ones(len(edges), dtype=bool), edges.T), shape=(total, total))
     return PairGraph(
         lower=immersion.first_sheet[cell] + row,
         upper=immersion.first_sheet[cell] + column,
@@ -79,11 +79,12 @@ def _carried(immersion: Immersion, first_pair: Ints) -> Ints:
     second += start[border[first]]
     differ = first != second
     return np.stack(
-        [_index(immersion, first_pair, side[first], side[second])[differ] for side in (right, left)], axis=1
+        [pair_of(immersion, first_pair, side[first], side[second])[differ] for side in (right, left)], axis=1
     )
 
 
-def _index(immersion: Immersion, first_pair: Ints, lower: Ints, upper: Ints) -> Ints:
+def pair_of(immersion: Immersion, first_pair: Ints, lower: Ints, upper: Ints) -> Ints:
+    """Return the indices of pairs of sheets, each two over one cell."""
     cell = immersion.sheet_cell[lower]
     first = immersion.first_sheet[cell]
     return np.asarray(first_pair[cell] + (lower - first) * immersion.arrangement.winding[cell] + upper - first)
@@ -95,7 +96,7 @@ def chain_to_reverse(graph: PairGraph, pair: int) -> list[int]:
     from scipy.sparse.csgraph import breadth_first_order
 
     total = len(graph.label)
-    matrix = coo_array((np.ones(len(graph.edges), dtype=np.int8), graph.edges.T), shape=(total, total)).tocsr()
+    matrix = coo_array((np.ones(len(graph.edges), dtype=bool), graph.edges.T), shape=(total, total)).tocsr()
     _, before = breadth_first_order(matrix, pair, directed=False)
     chain = [int(graph.reverse[pair])]
     while chain[-1] != pair:

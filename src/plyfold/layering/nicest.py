@@ -1,0 +1,125 @@
+"""The layering in which the curve changes least often between passing over and passing under.
+
+Every crossing is visited twice, once over and once under, so without any further constraint this is the paint shop
+problem of a row of cars, each to come twice, in both colours, with the fewest changes of colour: NP-hard already
+[BEH06]_. MaxSAT solves it with all constraints on top; where that takes too long, a greedy walk along the curve has
+found a layering that is fairly good.
+
+References
+----------
+.. [BEH06] P. Bonsma, T. Epping, W. Hochstättler, "Complexity results on restricted instances of a paint shop problem
+   for words", Discrete Applied Mathematics 154, 2006.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+from plyfold.immersion import Immersion
+from plyfold.layering.clock import Clock
+from plyfold.layering.layering import Layering, meeting_sheets
+from plyfold.layering.orders import OrderProblem, order_problem
+from plyfold.layering.sat import interrupted_after
+from plyfold.layering.search import solve_orders, undecided
+from plyfold.obstruction import Obstruction, Unknown
+
+__all__ = ["nicest_layering"]
+
+_QUESTION = "which layering changes least often between over and under"
+
+
+def nicest_layering(immersion: Immersion, time_limit: float | None = None) -> Layering | Obstruction | Unknown:
+    """Find a layering in which the curve changes least often between passing over and passing under.
+
+    Parameters
+    ----------
+    immersion : Immersion
+    time_limit : float, optional
+        Seconds after which to give up; none by default.
+
+    Returns
+    -------
+    Layering or Obstruction or Unknown
+        A layering with the fewest :attr:`Layering.changes`, or the obstruction of :func:`find_layering`. If the time
+        limit was reached, it is unknown which layering is the nicest; then ``established`` has a good one as
+        ``"layering"``, if one was found, and a bound for all of them as ``"changes at least"``.
+
+    Notes
+    -----
+    Exact, by MaxSAT over the orders of pairs of sheets; NP-hard.
+
+    Examples
+    --------
+    >>> from plyfold.immersion import find_immersion
+    >>> ramp = [(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)]
+    >>> nicest_layering(find_immersion(ramp)).changes
+    2
+    """
+    clock = Clock(time_limit)
+    if clock.over:
+        return undecided("time limit", _QUESTION, clock)
+    problem = order_problem(immersion)
+    if isinstance(problem, Obstruction):
+        return problem
+    found = solve_orders(problem, clock)
+    if not isinstance(found, Layering):
+        return found
+    over = _over(problem)
+    good = problem.layering(_greedy(problem, over))
+    true, least = _fewest_changes(problem, over, clock)
+    if true is not None:
+        return problem.layering(x for x in true if abs(x) <= problem.n_variables)
+    unknown = undecided("time limit", _QUESTION, clock, problem)
+    return replace(unknown, established={**unknown.established, "layering": good, "changes at least": least})
+
+
+def _over(problem: OrderProblem) -> list[int]:
+    """Return for each visit the literal that is true if the strand passes over."""
+    here, there = meeting_sheets(problem.immersion)
+    return [int(literal) for literal in problem.above(there, here)]
+
+
+def _greedy(problem: OrderProblem, over: list[int]) -> list[int]:
+    """Walk along the curve and change between over and under only where it cannot be helped."""
+    from pysat.solvers import Glucose4
+
+    over_now = True
+    with Glucose4(bootstrap_with=problem.clauses) as solver:
+        for literal in over:
+            if not solver.solve(assumptions=[literal if over_now else -literal]):
+                over_now = not over_now
+            solver.add_clause([literal if over_now else -literal])
+        solver.solve()
+        return list(solver.get_model())
+
+
+def _fewest_changes(problem: OrderProblem, over: list[int], clock: Clock) -> tuple[list[int] | None, int]:
+    """Return a solution with the fewest changes, None if the time is over, and a lower bound for its changes."""
+    from pysat.examples.rc2 import RC2
+    from pysat.formula import WCNF
+
+    formula, changes = WCNF(), 0
+    for clause in problem.clauses:
+        formula.append(clause)
+    for change, ((first, second), times) in enumerate(_neighbours(over).items(), problem.n_variables + 1):
+        if first == -second:
+            changes += times
+        else:
+            formula.append([-first, second, change])
+            formula.append([first, -second, change])
+            formula.append([-change], weight=times)
+    with RC2(formula, adapt=True, exhaust=True, minz=True) as solver:
+        with interrupted_after(clock.left, solver):
+            true = solver.compute(expect_interrupt=True)
+        return true, changes + int(solver.cost)
+
+
+def _neighbours(over: list[int]) -> Counter[tuple[int, int]]:
+    """Count the pairs of different literals that follow each other along the curve, in either order, signs exchanged.
+
+    The first literal has the smaller variable and is positive.
+    """
+    pairs = zip(over, over[1:] + over[:1], strict=True)
+    ordered = (sorted(pair, key=abs) for pair in pairs if pair[0] != pair[1])
+    return Counter((abs(first), second if first > 0 else -second) for first, second in ordered)
