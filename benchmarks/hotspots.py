@@ -5,18 +5,23 @@ from __future__ import annotations
 import argparse
 import cProfile
 import pstats
-import time
+from collections.abc import Iterator
 
 import numpy as np
-from contenders import SMALL_RAMP, plyfold_steps
+from contenders import SMALL_RAMP, Points, Step, plyfold_steps, triangle_steps
 from families import FAMILIES
+
+
+def all_steps(points: Points) -> Iterator[Step]:
+    """Yield the stages: arrangement, sheets, count, triangulation."""
+    yield from plyfold_steps(points)
+    yield from triangle_steps(points)
 
 
 def profiled(family: str, vertices: int, seed: int, functions: int) -> None:
     """Run the stages once, each under the profiler, and print the functions that took longest by themselves."""
-    points = FAMILIES[family].draw(vertices, seed)
-    list(plyfold_steps(np.array(SMALL_RAMP, dtype=np.float64)))  # loads the modules
-    steps, begun = plyfold_steps(points), time.perf_counter()
+    list(all_steps(np.array(SMALL_RAMP, dtype=np.float64)))  # loads the modules
+    steps = all_steps(FAMILIES[family].draw(vertices, seed))
     while True:
         profile = cProfile.Profile()
         step = profile.runcall(next, steps, None)
@@ -25,7 +30,6 @@ def profiled(family: str, vertices: int, seed: int, functions: int) -> None:
         stage, seconds, facts = step
         print(f"\n=== {stage}: {seconds:.3f} s (slower than without the profiler); {facts}")
         pstats.Stats(profile).strip_dirs().sort_stats("tottime").print_stats(functions)
-    print(f"{time.perf_counter() - begun:.1f} s in all")
 
 
 def main() -> None:

@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from contenders import CONTENDERS
 from families import FAMILIES
 from peers import Peer
 from tables import Row, number, report
@@ -25,8 +26,8 @@ DOCS = HERE.parent / "docs"
 BEGIN, END = "<!-- made by make benchmark-docs: begin -->", "<!-- made by make benchmark-docs: end -->"
 REFERENCE_UP_TO = 200
 LIFT_UP_TO = 2_000
-SIDE_SHOW_SECONDS = 4.0
-"""What layering and lifting, or the reference, may take for one curve: they must not use up the budget."""
+SHARES = {"triangles": 0.3, "reference": 0.1, "lift": 0.1}
+"""What part of a family's budget some contenders may take for one curve: the verdicts are to reach large curves."""
 
 
 class Clock:
@@ -63,48 +64,50 @@ def lines_of(words: list[str], limit: float) -> Iterator[dict[str, Any]]:
         yield {"failed": f"exit code {process.returncode}"}
 
 
-def contenders(vertices: int, options: argparse.Namespace) -> list[str | Peer]:
-    """Return who gets a curve: the slow ones only small curves."""
-    chosen: list[str | Peer] = ["plyfold", "GEOS"]
-    side_shows = {"reference": options.reference_up_to, "lift": options.lift_up_to}
-    return [*chosen, *options.peer, *(name for name, largest in side_shows.items() if vertices <= largest)]
+def contenders(vertices: int, options: argparse.Namespace, tired: set[str]) -> list[str | Peer]:
+    """Return who gets a curve: the slow ones only small curves, and none that failed on a smaller one."""
+    largest = {"reference": options.reference_up_to, "lift": options.lift_up_to}
+    names = [name for name in CONTENDERS if vertices <= largest.get(name, vertices) and name not in tired]
+    return [*names, *(peer for peer in options.peer if peer.name not in tired)]
 
 
-def measure(row: Row, options: argparse.Namespace, clock: Clock) -> None:
+def measure(row: Row, options: argparse.Namespace, clock: Clock, tired: set[str]) -> None:
     """Draw the curve of a row and give it to all contenders; the row is filled as they finish."""
     with tempfile.TemporaryDirectory() as folder:
         points = Path(folder, "points.npy")
         drawing = [str(HERE / "families.py"), row.family, str(row.vertices), str(options.seed), str(points)]
         if subprocess.run([sys.executable, *drawing], check=False, start_new_session=True).returncode:
-            row.failures.append("could not be drawn")
+            row.failures["drawing"] = "failed"
             return
-        for contender in contenders(row.vertices, options):
+        for contender in contenders(row.vertices, options, tired):
+            if not clock.left():
+                break
             if isinstance(contender, Peer):
                 row.add(contender.name, contender.measure(points.with_suffix(".txt"), clock.left()))
                 continue
-            limit = clock.left() if contender in ("plyfold", "GEOS") else min(clock.left(), SIDE_SHOW_SECONDS)
+            limit = min(clock.left(), SHARES.get(contender, 1.0) * options.budget)
             for line in lines_of([str(HERE / "contenders.py"), contender, str(points)], limit):
                 row.add(contender, line)
+    tired.update(row.failures)
 
 
 def progress(row: Row) -> str:
     """Return a short line about a curve."""
     times = ", ".join(f"{stage} {number(seconds)} s" for stage, seconds in row.seconds.items())
-    return f"{row.family} {row.vertices:,}: k = {row.facts.get('k', '–')}; {times} {'; '.join(row.failures)}"
+    failures = "".join(f"; {name} {failure}" for name, failure in row.failures.items())
+    return f"{row.family} {row.vertices:,}: k = {row.facts.get('k', '–')}; {times}{failures}"
 
 
 def run(options: argparse.Namespace, rows: list[Row], skipped: list[str]) -> None:
     """Measure all families, adding rows as they come; what the budget does not allow is named in `skipped`."""
     for family in options.families or FAMILIES:
-        clock = Clock(options.budget)
+        clock, tired = Clock(options.budget), set[str]()
         for vertices in options.sizes or FAMILIES[family].sizes:
-            if clock.left() < 1:
-                skipped.append(
-                    f"{family}, n = {vertices:,} and more: over the budget of {options.budget:.0f} s per family"
-                )
+            if clock.left() < 1 or "plyfold" in tired:
+                skipped.append(f"{family}, n = {vertices:,} and more: over {options.budget:.0f} s, the family's budget")
                 break
             rows.append(Row(family, vertices))
-            measure(rows[-1], options, clock)
+            measure(rows[-1], options, clock, tired)
             say(progress(rows[-1]))
 
 

@@ -30,20 +30,20 @@ class Row:
     facts: dict[str, Any] = field(default_factory=dict)
     verdicts: dict[str, bool | None] = field(default_factory=dict)
     megabytes: float | None = None
-    failures: list[str] = field(default_factory=list)
+    failures: dict[str, str] = field(default_factory=dict)
 
     def add(self, contender: str, line: dict[str, Any]) -> None:
         """Take over a line of a contender (see `contenders`)."""
         if "failed" in line:
-            self.failures.append(f"{contender}: {line['failed']}")
+            self.failures[contender] = line["failed"]
             return
         stage = line["stage"]
         self.seconds[stage] = line["seconds"]
         self.facts |= {key: value for key, value in line.items() if key not in MEASURED}
         if "disk" in line:
             self.verdicts[contender] = line["disk"]
-        if contender == "plyfold":
-            self.megabytes = line["megabytes"]
+        if contender in ("plyfold", "triangles"):
+            self.megabytes = max(line["megabytes"], self.megabytes or 0.0)
 
     def total(self, stages: Iterable[str]) -> float | None:
         """Return the seconds of several stages together, None if one is missing."""
@@ -205,7 +205,11 @@ def _lines(file: str) -> list[str]:
 
 def notes(rows: Sequence[Row]) -> str:
     """Return what failed or ran out of time, and curves that had to be moved into general position."""
-    lines = [f"{row.family}, n = {row.vertices:,}: {failure}" for row in rows for failure in row.failures]
+    lines = [
+        f"{row.family}, n = {row.vertices:,}: {name} {failure}"
+        for row in rows
+        for name, failure in row.failures.items()
+    ]
     lines += [
         f"{row.family}, n = {row.vertices:,}: {row.facts['moved']} repairs" for row in rows if row.facts.get("moved")
     ]

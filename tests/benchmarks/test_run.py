@@ -46,7 +46,7 @@ class TestCommand:
     def test_budget(self):
         options = ["--families", "chain", "--sizes", "200", "400", "--budget", "0"]
         done = subprocess.run([*COMMAND, *options], capture_output=True, text=True, check=True)
-        assert done.stdout.count("chain, n = 200 and more: over the budget of 0 s per family") == 1
+        assert done.stdout.count("chain, n = 200 and more: over 0 s, the family's budget") == 1
 
 
 class TestExponent:

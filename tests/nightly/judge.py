@@ -6,7 +6,6 @@ import numpy as np
 
 import plyfold as pf
 from nightly.curves import DISKS, Drawn
-from plyfold.flat import triangulate
 from reference import crossings, gluings, shor_van_wyk
 from reference.planar_maps import GaussCode, gauss_code, windings
 from test_against_reference import (
@@ -57,7 +56,7 @@ def assert_right_triangles(arranged: pf.Arrangement, points: list[tuple[int, int
         forward = crossings.reversed_polygon(points) if arranged.reversed else points
         assert bool(shor_van_wyk.triangulation(forward)) == bool(count)
     if count:
-        faces = triangulate(points).tolist()
+        faces = pf.triangulate(points).tolist()
         assert len(faces) == n - 2
         assert all(shor_van_wyk.turn(*(points[corner] for corner in face)) > 0 for face in faces)
         sides = [(face[i - 1], face[i]) for face in faces for i in range(3)]
