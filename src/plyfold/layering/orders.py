@@ -8,7 +8,7 @@ circle, not all are true and not all are false. Finding, counting and listing la
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
 
@@ -20,7 +20,7 @@ from plyfold.layering.layering import Layering
 from plyfold.layering.sheet_pairs import PairGraph, chain_to_reverse, pair_graph, pair_of
 from plyfold.obstruction import Obstruction
 
-__all__ = ["OrderProblem", "order_problem", "places_of_cells"]
+__all__ = ["OrderProblem", "independent_orders", "order_problem", "places_of_cells"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,18 +84,18 @@ class OrderProblem:
         return list(groups.values())
 
     def layering(self, true: Iterable[int]) -> Layering:
-        """Return the checked layering of a solution; literals that it does not name are true.
+        """Return the checked layering of a solution; literals that it does not name are true."""
+        layering = Layering(self.immersion, self.levels(true))
+        layering.check()
+        return layering
 
-        A sheet's level is one more than the number of sheets below it.
-        """
+    def levels(self, true: Iterable[int]) -> Ints:
+        """Return the level of each sheet: one more than the number of sheets below it, in a solution."""
         value = np.ones(self.n_variables + 1, dtype=bool)
         literals = np.fromiter(true, dtype=np.int64)
         value[-literals[literals < 0]] = False
         below = (value[np.abs(self.literal)] == (self.literal > 0)) & (self.literal != 0)
-        level = 1 + np.bincount(self.graph.upper[below], minlength=self.immersion.n_sheets)
-        layering = Layering(self.immersion, level.astype(np.int64))
-        layering.check()
-        return layering
+        return np.asarray(1 + np.bincount(self.graph.upper[below], minlength=self.immersion.n_sheets), dtype=np.int64)
 
 
 def order_problem(immersion: Immersion) -> OrderProblem | Obstruction:
@@ -107,8 +107,13 @@ def order_problem(immersion: Immersion) -> OrderProblem | Obstruction:
     contradictions = graph.contradictions()
     if len(contradictions):
         return _reversed_pair(immersion, graph, int(contradictions[0]))
-    literal = _literals(graph)
-    return OrderProblem(immersion, graph, literal, *_triples(immersion, graph, literal))
+    return _problem(immersion, graph)
+
+
+def independent_orders(immersion: Immersion) -> OrderProblem:
+    """Return the problem without the gluings: every pair of sheets over a cell has a variable of its own."""
+    graph = pair_graph(immersion)
+    return _problem(immersion, replace(graph, label=np.arange(len(graph.label))))
 
 
 def places_of_cells(immersion: Immersion, cells: Iterable[int]) -> tuple[tuple[float, float], ...]:
@@ -116,6 +121,11 @@ def places_of_cells(immersion: Immersion, cells: Iterable[int]) -> tuple[tuple[f
     if immersion.arrangement.curve is None:
         return ()
     return tuple(immersion.arrangement.cell_point(cell) for cell in dict.fromkeys(cells))
+
+
+def _problem(immersion: Immersion, graph: PairGraph) -> OrderProblem:
+    literal = _literals(graph)
+    return OrderProblem(immersion, graph, literal, *_triples(immersion, graph, literal))
 
 
 def _literals(graph: PairGraph) -> Ints:

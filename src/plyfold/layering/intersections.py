@@ -1,0 +1,221 @@
+"""When no layering keeps all orders: the one in which sheets pass through each other least.
+
+Any orders of the sheets over the cells make a surface. Where two sheets glued along a border lie the other way round
+beyond it, they pass through each other there: along the border, they have a self-intersection curve. The shortest total
+length is a weighted MaxSAT problem: a variable for every pair of sheets over a cell, orders that are no circles as
+hard constraints, and for every border and every pair glued along it the wish that the order be the same on both sides.
+
+References
+----------
+.. [IMM19] A. Ignatiev, A. Morgado, J. Marques-Silva, "RC2: an efficient MaxSAT solver", Journal on Satisfiability,
+   Boolean Modeling and Computation 11, 2019.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from plyfold.arrangement import Arrangement
+from plyfold.arrangement.planar_map import Ints
+from plyfold.errors import PlyfoldError
+from plyfold.immersion import Immersion
+from plyfold.layering.clock import Clock
+from plyfold.layering.orders import OrderProblem, independent_orders
+from plyfold.layering.sat import interrupted_after
+from plyfold.predicates import Floats
+
+__all__ = ["IntersectingLayering", "border_lengths", "least_intersecting_layering"]
+
+# Lengths are weighed as integers: the longest border with this many units.
+_UNITS = 1_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class IntersectingLayering:
+    """The levels of the sheets in a surface whose sheets pass through each other along borders.
+
+    Parameters
+    ----------
+    immersion : Immersion
+    level : (sheets,) int
+        Level of each sheet among the sheets over its cell, counted from below, starting at 1.
+    optimal : bool
+        Whether it is proved that no levels have shorter intersections. Otherwise these are good ones.
+    """
+
+    immersion: Immersion
+    level: Ints
+    optimal: bool
+
+    def __post_init__(self) -> None:
+        self.level.flags.writeable = False
+
+    def __repr__(self) -> str:
+        found = f"{len(self.intersections)} intersections along borders"
+        return f"<IntersectingLayering: {found}, {'' if self.optimal else 'maybe not '}the least possible>"
+
+    @cached_property
+    def intersections(self) -> Ints:
+        """Rows (border, lower, upper), shape (m, 3): where and which sheets pass through each other.
+
+        They lie over the cell on the right of the border; on its left, the sheets that are glued to them lie the other
+        way round.
+        """
+        border, lower, upper, left_lower, left_upper = _glued_pairs(self.immersion).T
+        risen = self.level[upper] > self.level[lower]
+        crossed = np.flatnonzero(risen != (self.level[left_upper] > self.level[left_lower]))
+        ordered = np.where(risen, [lower, upper], [upper, lower])
+        return np.column_stack([border, *ordered])[crossed]
+
+    @property
+    def total_length(self) -> float:
+        """Length of the intersections, measured along the borders in units of the drawing.
+
+        For a Gauss code every border counts as 1.
+        """
+        return float(border_lengths(self.immersion.arrangement)[self.intersections[:, 0]].sum())
+
+    def check(self) -> None:
+        """Check that every cell's levels are 1 … w.
+
+        Raises
+        ------
+        PlyfoldError
+            Naming the cell. That would be a mistake in plyfold.
+        """
+        for cell, sheets in enumerate(self.immersion.sheets):
+            if sorted(self.level[list(sheets)].tolist()) != list(range(1, len(sheets) + 1)):
+                raise PlyfoldError(f"internal check failed: the sheets of cell {cell} have levels 1 to {len(sheets)}")
+
+
+def least_intersecting_layering(immersion: Immersion, time_limit: float | None = None) -> IntersectingLayering:
+    """Find the orders of sheets whose self-intersections are shortest in total.
+
+    Parameters
+    ----------
+    immersion : Immersion
+    time_limit : float, optional
+        Seconds after which the best orders so far are returned; none by default.
+
+    Returns
+    -------
+    IntersectingLayering
+        Without intersections if and only if the immersion has a layering, as long as ``optimal`` is true.
+        Intersections run along borders; the shortest total length of borders is found, or for a Gauss code the
+        smallest number of them.
+
+    Notes
+    -----
+    MaxSAT by cores [IMM19]_; NP-hard. Lengths are weighed to a millionth of the longest border. Where the time ends,
+    the answer is that of a greedy search: gluings, longest borders first, are kept as long as all that are kept agree.
+    Cost of setting up: O(Σ w²) over borders and O(Σ w³) over cells.
+
+    References
+    ----------
+    .. [IMM19] A. Ignatiev, A. Morgado, J. Marques-Silva, "RC2: an efficient MaxSAT solver", Journal on
+       Satisfiability, Boolean Modeling and Computation 11, 2019.
+
+    Examples
+    --------
+    >>> from plyfold.gallery import CURVES
+    >>> from plyfold.immersion import immersions
+    >>> [len(least_intersecting_layering(i).intersections) for i in immersions(CURVES["bennequin"].curve)]
+    [1, 0, 0, 1, 0]
+    """
+    clock = Clock(time_limit)
+    wishes = _wishes(independent_orders(immersion))
+    # The greedy search is for the case that the exact one does not end in time.
+    good = [] if time_limit is None else _greedy(wishes, Clock(time_limit / 2))
+    best = None if clock.over else _most_wishes(wishes, clock)
+    orders = [x for x in (good if best is None else best) if abs(x) <= wishes.problem.n_variables]
+    layering = IntersectingLayering(immersion, wishes.problem.levels(orders), optimal=best is not None)
+    layering.check()
+    return layering
+
+
+def border_lengths(arrangement: Arrangement) -> Floats:
+    """Return the length of each border in units of the drawing; 1 for a Gauss code."""
+    if arrangement.curve is None:
+        return np.ones(arrangement.n_borders)
+    steps = (np.diff(arrangement.border_points(border), axis=0) for border in range(arrangement.n_borders))
+    return np.array([np.hypot(*step.T).sum() for step in steps])
+
+
+def _glued_pairs(immersion: Immersion) -> Ints:
+    """Return rows (border, two sheets on its right, the two glued to them on its left); each two sheets once."""
+    border, right, left = immersion.gluing.T
+    count = np.bincount(border, minlength=immersion.arrangement.n_borders)
+    row = np.arange(len(border))
+    beyond = np.cumsum(count)[border] - row - 1  # how many rows of the same border follow
+    first = np.repeat(row, beyond)
+    second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(beyond) - beyond, beyond)
+    return np.column_stack([border[first], right[first], right[second], left[first], left[second]])
+
+
+@dataclass(frozen=True, eq=False)
+class _Wishes:
+    """Orders that ought to be equal: two literals each, how much that is worth, and a variable for its failure."""
+
+    problem: OrderProblem
+    literals: list[list[int]]
+    weight: list[int]
+    failure: list[int]
+
+    @property
+    def clauses(self) -> list[list[int]]:
+        """The constraints on orders, and that unequal literals are a failure."""
+        unequal = (
+            clause
+            for (a, b), failure in zip(self.literals, self.failure, strict=True)
+            for clause in ([-a, b, failure], [a, -b, failure])
+        )
+        return [*self.problem.clauses, *unequal]
+
+
+def _wishes(problem: OrderProblem) -> _Wishes:
+    border, *sheets = _glued_pairs(problem.immersion).T
+    literals = np.stack([problem.above(*sheets[:2]), problem.above(*sheets[2:])], axis=1)
+    length = border_lengths(problem.immersion.arrangement)
+    weight = np.maximum(1, np.rint(length * (_UNITS if np.ptp(length) else 1) / length.max())).astype(np.int64)
+    failure = problem.n_variables + 1 + np.arange(len(border))
+    return _Wishes(problem, literals.tolist(), weight[border].tolist(), failure.tolist())
+
+
+def _most_wishes(wishes: _Wishes, clock: Clock) -> list[int] | None:
+    """Return the literals of a solution whose failures weigh least, or None if the time is over."""
+    from pysat.examples.rc2 import RC2Stratified
+    from pysat.formula import WCNF
+
+    formula = WCNF()
+    formula.extend(wishes.clauses)
+    formula.extend([[-failure] for failure in wishes.failure], weights=wishes.weight)
+    with RC2Stratified(formula, exhaust=True, minz=True) as solver, interrupted_after(clock.left, solver):
+        true = solver.compute(expect_interrupt=True)
+    return None if true is None else list(true)
+
+
+def _greedy(wishes: _Wishes, clock: Clock) -> list[int]:
+    """Return the literals of a solution: fulfil wishes, the weightiest first, as long as there is time."""
+    from pysat.solvers import Glucose4
+
+    weightiest_first = np.argsort(-np.array(wishes.weight), kind="stable")
+    with Glucose4(bootstrap_with=wishes.clauses) as solver:
+        solver.solve()
+        true: list[int] = solver.get_model()
+        with interrupted_after(clock.left, solver):
+            for wish in weightiest_first.tolist():
+                fulfilled = [-wishes.failure[wish]]
+                if _equal(true, *wishes.literals[wish]):
+                    solver.add_clause(fulfilled)
+                elif not clock.over and solver.solve_limited(assumptions=fulfilled, expect_interrupt=True):
+                    solver.add_clause(fulfilled)
+                    true = solver.get_model()
+    return true
+
+
+def _equal(true: list[int], first: int, second: int) -> bool:
+    """Tell whether two literals are both true or both false in a solution."""
+    return (true[abs(first) - 1] == first) == (true[abs(second) - 1] == second)
