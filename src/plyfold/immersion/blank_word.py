@@ -15,7 +15,7 @@ from string import ascii_lowercase
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.core import CurveLike
 from plyfold.immersion.dual_tree import grow_dual_tree
-from plyfold.immersion.grouping import Grouping, find_groupings, list_groupings
+from plyfold.immersion.grouping import Grouping, Groupings, find_groupings, list_groupings
 from plyfold.immersion.obstructions import visible_obstruction
 from plyfold.immersion.word import Word, write_word
 
@@ -103,7 +103,7 @@ class BlankWord:
             curve does not turn once or winds a negative number of times somewhere.
         """
         found = None if visible_obstruction(self.arrangement) else find_groupings(self.word)
-        if found is not None:
+        if isinstance(found, Groupings):
             yield from (self._pairs(grouping) for grouping in list_groupings(found))
 
     def _pairs(self, grouping: Grouping) -> tuple[tuple[int, int], ...]:

@@ -13,7 +13,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,6 +56,26 @@ class DualTree:
     along: Ints
     turning: Ints
     bend: Ints
+
+    def ascending_cells(self) -> list[int]:
+        """Return the cells whose link to the parent ascends."""
+        cells: list[int] = np.flatnonzero(self.ascends).tolist()
+        return cells
+
+    def ways(self, cells: Iterable[int]) -> dict[int, list[int]]:
+        """Return the part of the tree on the ways from some cells to the root: children by parent, right to left."""
+        parent = self.parent.tolist()
+        on_the_way = {0}
+        for start in cells:
+            cell = start
+            while cell not in on_the_way:
+                on_the_way.add(cell)
+                cell = parent[cell]
+        on_the_way.discard(0)
+        children: dict[int, list[int]] = {}
+        for cell in sorted(on_the_way, key=self.place.tolist().__getitem__, reverse=True):
+            children.setdefault(parent[cell], []).append(cell)
+        return children
 
 
 def grow_dual_tree(arrangement: Arrangement) -> DualTree:
@@ -129,44 +149,41 @@ def _drains(drain: Ints, cell: int) -> Iterator[int]:
 
 def _join_lakes(arrangement: Arrangement, pit: Ints) -> list[tuple[int, int, int]]:
     """Return the saddles of a minimal spanning tree of the lakes, from the lake of the unbounded cell outward."""
-    left, right = pit[arrangement.left_cell], pit[arrangement.right_cell]
-    between = np.flatnonzero(left != right)
-    rising = between[np.argsort(arrangement.winding[arrangement.left_cell[between]], kind="stable")]
-    shores: dict[int, list[int]] = {}
-    for border in _spanning(left[rising].tolist(), right[rising].tolist(), rising.tolist(), len(pit)):
-        shores.setdefault(int(left[border]), []).append(border)
-        shores.setdefault(int(right[border]), []).append(border)
-    return list(_from_root(arrangement, pit, shores))
+    left, right = arrangement.left_cell, arrangement.right_cell
+    between = np.flatnonzero(pit[left] != pit[right])
+    rising = between[np.argsort(arrangement.winding[left[between]], kind="stable")]
+    columns = (rising, left[rising], right[rising], pit[left[rising]], pit[right[rising]])
+    shores: dict[int, list[tuple[int, int, int, int]]] = {}
+    for border, cell, other, lake, other_lake in _spanning(list(zip(*(c.tolist() for c in columns), strict=True))):
+        shores.setdefault(lake, []).append((border, cell, other, other_lake))
+        shores.setdefault(other_lake, []).append((border, other, cell, lake))
+    return list(_from_root(shores, int(pit[0])))
 
 
-def _spanning(first: list[int], second: list[int], borders: list[int], n: int) -> Iterator[int]:
-    """Yield the borders that join two lakes not joined before (Kruskal)."""
-    joined = list(range(n))
+def _spanning(borders: list[tuple[int, ...]]) -> Iterator[tuple[int, ...]]:
+    """Yield the borders, last entries two lakes, that join two lakes not joined before (Kruskal)."""
+    joined: dict[int, int] = {}
 
     def representative(lake: int) -> int:
-        while joined[lake] != lake:
-            joined[lake] = lake = joined[joined[lake]]
+        while (further := joined.get(lake, lake)) != lake:
+            joined[lake] = lake = joined.get(further, further)
         return lake
 
-    for a, b, border in zip(first, second, borders, strict=True):
-        here, there = representative(a), representative(b)
+    for border in borders:
+        here, there = representative(border[-2]), representative(border[-1])
         if here != there:
             joined[here] = there
             yield border
 
 
-def _from_root(arrangement: Arrangement, pit: Ints, shores: dict[int, list[int]]) -> Iterator[tuple[int, int, int]]:
+def _from_root(shores: dict[int, list[tuple[int, int, int, int]]], root: int) -> Iterator[tuple[int, int, int]]:
     """Yield a saddle (cell, cell beyond, border) for each lake, once the lake beyond is reached."""
-    reached = {int(pit[0])}
-    waiting = [int(pit[0])]
+    reached, waiting = {root}, [root]
     while waiting:
-        lake = waiting.pop()
-        for border in shores.get(lake, []):
-            sides = int(arrangement.left_cell[border]), int(arrangement.right_cell[border])
-            beyond, cell = sides if pit[sides[0]] == lake else sides[::-1]
-            if pit[cell] not in reached:
-                reached.add(int(pit[cell]))
-                waiting.append(int(pit[cell]))
+        for border, beyond, cell, lake in shores.get(waiting.pop(), ()):
+            if lake not in reached:
+                reached.add(lake)
+                waiting.append(lake)
                 yield cell, beyond, border
 
 

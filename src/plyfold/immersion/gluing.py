@@ -25,7 +25,8 @@ __all__ = ["glue_sheets"]
 
 # What happens over one border: the upper sheet that each lower sheet is glued to, and at the end the one left over.
 # Sheets are counted from the first one of their cell.
-Seam: TypeAlias = list[int]
+# Tuples of numbers, unlike lists, cost the garbage collector nothing.
+Seam: TypeAlias = tuple[int, ...]
 
 
 def glue_sheets(arrangement: Arrangement, tree: DualTree, partner: Mapping[int, int]) -> Immersion:
@@ -67,34 +68,29 @@ def glue_sheets(arrangement: Arrangement, tree: DualTree, partner: Mapping[int, 
 def _seams_on_tree(arrangement: Arrangement, tree: DualTree, partner: Mapping[int, int]) -> list[Seam]:
     """Return the seam of every link; of the other borders an empty one.
 
-    A sheet's name is the border through which it leaves the disk when one walks along the tree to the outside.
+    A sheet's name is the border through which it leaves the disk when one walks along the tree to the outside. Names
+    are needed on the ways to ascending links only: behind a descending one everything stays in order.
     """
-    seams: list[Seam] = [[] for _ in range(arrangement.n_borders)]
-    winding, parent, ascends = arrangement.winding.tolist(), tree.parent.tolist(), tree.ascends.tolist()
-    straight = [list(range(sheets + 1)) for sheets in range(max(winding) + 1)]
-    names: list[list[int]] = [[] for _ in winding]
-    for cell, link in _from_root(tree):
-        above = names[parent[cell]]
-        if ascends[cell]:
-            own = above.index(partner[link])
-            names[cell] = above[:own] + above[own + 1 :]
-            seams[link] = [*range(own), *range(own + 1, len(above)), own]
-        else:
-            names[cell] = [*above, link]
-            seams[link] = straight[len(above)]
+    lower = arrangement.winding[arrangement.right_cell]
+    straight = [tuple(range(sheets + 1)) for sheets in range(int(lower.max()) + 1)]
+    on_tree = np.zeros(len(lower), dtype=bool)
+    on_tree[tree.link[1:]] = True
+    seams = [
+        straight[sheets] if linked else () for sheets, linked in zip(lower.tolist(), on_tree.tolist(), strict=True)
+    ]
+    link, ascends = tree.link.tolist(), tree.ascends.tolist()
+    children = tree.ways(tree.ascending_cells())
+    stack: list[tuple[int, tuple[int, ...]]] = [(0, ())]
+    while stack:
+        cell, above = stack.pop()
+        for child in children.get(cell, ()):
+            if ascends[child]:
+                own = above.index(partner[link[child]])
+                seams[link[child]] = (*range(own), *range(own + 1, len(above)), own)
+                stack.append((child, above[:own] + above[own + 1 :]))
+            else:
+                stack.append((child, (*above, link[child])))
     return seams
-
-
-def _from_root(tree: DualTree) -> list[tuple[int, int]]:
-    """Return all cells but the root with their links, parents first."""
-    parent, link = tree.parent.tolist(), tree.link.tolist()
-    children: list[list[int]] = [[] for _ in parent]
-    for cell in range(1, len(parent)):
-        children[parent[cell]].append(cell)
-    order = [0]
-    for cell in order:
-        order.extend(children[cell])
-    return [(cell, link[cell]) for cell in order[1:]]
 
 
 def _seams_off_tree(arrangement: Arrangement, seams: list[Seam]) -> None:
@@ -110,13 +106,13 @@ def _seams_off_tree(arrangement: Arrangement, seams: list[Seam]) -> None:
     count = unknown[around].sum(axis=1)
     ready: list[int] = np.flatnonzero(count == 1).tolist()
     left: list[int] = count.tolist()
-    rows = around.tolist()
+    borders: list[int] = around.ravel().tolist()
     while ready:
         crossing = ready.pop()
         if left[crossing] == 0:
             continue
         border = missing[crossing]
-        seams[border] = _fourth_seam(seams, border, rows[crossing])
+        seams[border] = _fourth_seam(seams, border, borders[4 * crossing : 4 * crossing + 4])
         for end in (first[border], second[border]):
             left[end] -= 1
             missing[end] -= border
@@ -163,7 +159,7 @@ def _lower_seam(bottom: Seam, top: Seam, other_top: Seam) -> Seam:
     """Return the seam below ``other_top``, given the way round the other side: ``bottom``, then ``top``."""
     lower_of = {upper: lower for lower, upper in enumerate(other_top)}
     # The last entries are the own sheets: that of ``top`` has one on the other side of the crossing as well.
-    return [*(lower_of[top[side]] for side in bottom[:-1]), lower_of[top[-1]]]
+    return (*[lower_of[top[side]] for side in bottom[:-1]], lower_of[top[-1]])
 
 
 def _upper_seam(bottom: Seam, other_top: Seam, other_bottom: Seam) -> Seam:
@@ -173,4 +169,4 @@ def _upper_seam(bottom: Seam, other_top: Seam, other_bottom: Seam) -> Seam:
     for side, low in zip(bottom[:-1], other_bottom[:-1], strict=True):
         upper_of[side] = other_top[low]
     upper_of[-1] = other_top[other_bottom[-1]]
-    return upper_of
+    return tuple(upper_of)

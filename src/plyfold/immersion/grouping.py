@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from math import prod
 from typing import Any, TypeAlias
 
-from plyfold.immersion.propagation import Narrowed, narrow
+from plyfold.immersion.propagation import Conflict, Narrowed, narrow
 from plyfold.immersion.word import Word
 
 __all__ = ["Groupings", "count_groupings", "find_groupings", "list_groupings", "nth_grouping"]
@@ -59,24 +59,24 @@ class Groupings:
     counts: dict[Interval, int] = field(default_factory=dict)
 
 
-def find_groupings(word: Word) -> Groupings | None:
+def find_groupings(word: Word) -> Groupings | Conflict:
     """Decide whether a word has a grouping, and prepare all of them.
 
     Returns
     -------
-    Groupings or None
-        None if there is none. Exact. Cost: propagation, and for each region left open with n letters and c chords
-        O(c n / 64) time and O(n² / 16) bytes; regions are small as a rule.
+    Groupings or Conflict
+        A conflict, which is false, if there is none. Exact. Cost: propagation, and for each region left open with n
+        letters and c chords O(c n / 64) time and O(n² / 16) bytes; regions are small as a rule.
     """
     narrowed = narrow(word)
-    if narrowed is None:
-        return None
+    if isinstance(narrowed, Conflict):
+        return narrowed
     groupings = Groupings(word, narrowed.chosen, [], [], [], [])
     for region in narrowed.regions:
         first = len(groupings.groupable)
         _lay_out(groupings, narrowed, region)
         if not _has_grouping(groupings, (first, first + len(region))):
-            return None
+            return narrowed.conflict(region)
     return groupings
 
 

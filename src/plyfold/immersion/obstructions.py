@@ -7,7 +7,8 @@ import numpy as np
 from plyfold.arrangement import Arrangement
 from plyfold.immersion.dual_tree import DualTree, grow_dual_tree
 from plyfold.immersion.grouping import find_groupings
-from plyfold.immersion.word import ascending_cells, write_word
+from plyfold.immersion.propagation import Conflict
+from plyfold.immersion.word import write_word
 from plyfold.obstruction import Obstruction
 
 __all__ = ["no_grouping", "visible_obstruction"]
@@ -51,16 +52,20 @@ def _places(arranged: Arrangement, cells: list[int]) -> tuple[tuple[float, float
 def _conflict(tree: DualTree) -> list[int]:
     """Return cells whose ascending links cannot all be joined; as few as leaving out some at a time can reach.
 
-    Whole stretches are left out first, each half as long as those before, and single cells at last.
+    Begins with those that led to the contradiction. Whole stretches are left out first, each half as long as those
+    before, and single cells at last.
     """
-    cells = ascending_cells(tree)
-    if len(cells) > _MINIMISE_UP_TO:
-        return cells
-    stretch = len(cells)
+    cells = _contradiction(tree, tree.ascending_cells())
+    stretch = len(cells) if len(cells) <= _MINIMISE_UP_TO else 0
     while stretch > 1:
         stretch = -(-stretch // 2)
         for start in range(0, len(cells), stretch)[::-1]:
-            fewer = cells[:start] + cells[start + stretch :]
-            if find_groupings(write_word(tree, fewer)) is None:
-                cells = fewer
+            cells = _contradiction(tree, cells[:start] + cells[start + stretch :]) or cells
     return cells
+
+
+def _contradiction(tree: DualTree, cells: list[int]) -> list[int]:
+    """Return those of some cells that contradict each other; none if their links can be joined."""
+    word = write_word(tree, cells)
+    found = find_groupings(word)
+    return [word.cells[label] for label in found.labels] if isinstance(found, Conflict) else []

@@ -11,11 +11,12 @@ Either way only the smaller of the two sides is walked through, in the ring of l
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from plyfold.immersion.word import Word
 
-__all__ = ["Narrowed", "narrow"]
+__all__ = ["Conflict", "Narrowed", "narrow"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,21 +32,38 @@ class Narrowed:
         The plus letters that are left for each label.
     regions : list of list of int
         The letters still in play, in order along the curve, region by region: no chord joins two regions.
+    removed_by : dict of int to int
+        For each plus letter out of play, the label that removed it.
     """
 
     word: Word
     chosen: dict[int, int]
     partners: list[list[int]]
     regions: list[list[int]]
+    removed_by: dict[int, int]
+
+    def conflict(self, region: list[int]) -> Conflict:
+        """Return the conflict of a region that turned out to have no grouping."""
+        return Conflict(_reasons(self, {self.word.label[letter] for letter in region}))
 
 
-def narrow(word: Word) -> Narrowed | None:
+@dataclass(frozen=True)
+class Conflict:
+    """Labels that cannot all be joined; false as a truth value."""
+
+    labels: tuple[int, ...]
+
+    def __bool__(self) -> bool:
+        return False
+
+
+def narrow(word: Word) -> Narrowed | Conflict:
     """Remove the partners that fit no grouping, as far as looking at two labels at a time can tell.
 
     Returns
     -------
-    Narrowed or None
-        None if a label has no partner left: the word has no grouping. Otherwise all groupings remain.
+    Narrowed or Conflict
+        A conflict if a label has no partner left: the word has no grouping. Otherwise all groupings remain.
 
     Notes
     -----
@@ -54,16 +72,17 @@ def narrow(word: Word) -> Narrowed | None:
     """
     board = _Board.of(word)
     if not all(board.partners):
-        return None
+        return Conflict((board.partners.index([]),))
     while board.due:
         label = board.due.popleft()
         board.waiting[label] = False
         for letter in _misfits(board, label):
+            board.removed_by[letter] = label
             if not _remove(board, letter):
-                return None
+                return Conflict(_reasons(board, [word.label[letter]]))
         if len(board.partners[label]) == 1 and label not in board.chosen:
             _draw_chord(board, label)
-    return Narrowed(word, board.chosen, board.partners, _regions(board))
+    return Narrowed(word, board.chosen, board.partners, _regions(board), board.removed_by)
 
 
 @dataclass(eq=False)
@@ -77,6 +96,7 @@ class _Board:
     due: deque[int]
     waiting: list[bool]
     chosen: dict[int, int] = field(default_factory=dict)
+    removed_by: dict[int, int] = field(default_factory=dict)
 
     @classmethod
     def of(cls, word: Word) -> _Board:
@@ -192,3 +212,15 @@ def _ring(board: _Board, start: int) -> list[int]:
     while (letter := board.after[ring[-1]]) != start:
         ring.append(letter)
     return ring
+
+
+def _reasons(found: _Board | Narrowed, labels: Iterable[int]) -> tuple[int, ...]:
+    """Return the labels to which some others owe it that they have no more partners, themselves included."""
+    reasons, waiting = set(labels), list(labels)
+    while waiting:
+        for letter in found.word.partners[waiting.pop()]:
+            label = found.removed_by.get(letter)
+            if label is not None and label not in reasons:
+                reasons.add(label)
+                waiting.append(label)
+    return tuple(sorted(reasons))

@@ -218,7 +218,7 @@ def _family(curve: CurveLike) -> _Family | None:
         return None
     tree = grow_dual_tree(arranged)
     groupings = find_groupings(write_word(tree))
-    return None if groupings is None else _Family(arranged, tree, groupings)
+    return _Family(arranged, tree, groupings) if isinstance(groupings, Groupings) else None
 
 
 def _glued(family: _Family, grouping: Grouping) -> Immersion:

@@ -26,7 +26,7 @@ import numpy as np
 
 from plyfold.immersion.dual_tree import DualTree
 
-__all__ = ["Word", "ascending_cells", "write_word"]
+__all__ = ["Word", "write_word"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,12 +69,6 @@ class _Arcs:
     ends: list[tuple[int, list[int]]]
 
 
-def ascending_cells(tree: DualTree) -> list[int]:
-    """Return the cells whose link to the parent ascends."""
-    cells: list[int] = np.flatnonzero(tree.ascends).tolist()
-    return cells
-
-
 def write_word(tree: DualTree, cells: Iterable[int] | None = None) -> Word:
     """Write the word of a dual tree.
 
@@ -89,7 +83,7 @@ def write_word(tree: DualTree, cells: Iterable[int] | None = None) -> Word:
     Word
         Cost: the number of cells on the ways from ascending links to the root, and of letters, times its logarithm.
     """
-    arcs = _draw_arcs(tree, ascending_cells(tree) if cells is None else list(cells))
+    arcs = _draw_arcs(tree, tree.ascending_cells() if cells is None else list(cells))
     n = len(arcs.ends)
     link = tree.link[np.array([cell for cell, _ in arcs.ends], dtype=np.int64)]
     order = np.array([arcs.order[cell] for cell, _ in arcs.ends], dtype=np.int64)
@@ -122,7 +116,7 @@ def _draw_arcs(tree: DualTree, cells: list[int]) -> _Arcs:
     direction of the curve less that of the arc, grows by 2 from e to y if y comes later along the curve, and shrinks
     by 2 if it comes earlier.
     """
-    children = _children(tree, cells)
+    children = tree.ways(cells)
     link, along, bend, ascends = tree.link.tolist(), tree.along.tolist(), tree.bend.tolist(), tree.ascends.tolist()
     wanted = set(cells)
     arcs = _Arcs({}, {}, [])
@@ -147,20 +141,3 @@ def _draw_arcs(tree: DualTree, cells: list[int]) -> _Arcs:
         stack.append((~cell, potential))
         stack.extend((child, direction) for child in children.get(cell, ()))
     return arcs
-
-
-def _children(tree: DualTree, cells: list[int]) -> dict[int, list[int]]:
-    """Return the children of each cell on a way from the given cells to the root, from right to left."""
-    parent = tree.parent.tolist()
-    on_the_way = {0}
-    for start in cells:
-        cell = start
-        while cell not in on_the_way:
-            on_the_way.add(cell)
-            cell = parent[cell]
-    on_the_way.discard(0)
-    children: dict[int, list[int]] = {}
-    place = tree.place
-    for cell in sorted(on_the_way, key=place.tolist().__getitem__, reverse=True):
-        children.setdefault(parent[cell], []).append(cell)
-    return children
