@@ -237,6 +237,17 @@ def _bennequin() -> Points:
     return np.array(right + left, dtype=np.float64)
 
 
+def _smallest_unliftable() -> Points:
+    corners = [
+        (-24, 32), (-68, 30), (-87, 5), (-59, -43), (-14, -66), (42, -47), (85, 4), (91, 41), (45, 67),
+        (-28, 72), (-81, 48), (-100, 2), (-82, -46), (-29, -72), (33, -62), (91, -21), (98, 7), (53, 51),
+        (-7, 66), (-66, 49), (-77, 23), (-52, -11), (-12, -35), (-12, -50), (-23, -50), (-22, -34), (10, -25),
+        (49, -28), (65, 9), (47, 46), (0, 56), (-36, 29), (-50, -25), (-23, -56), (18, -50), (36, -12),
+        (42, 24), (54, 24), (52, 10), (24, 4), (8, 30), (16, 49), (27, 45), (21, 31),
+    ]  # fmt: skip
+    return rounded(corners)
+
+
 # After each figure of the paper (Mukherjee, Gopi, Rossignac 2011): a loop of its kind, not a copy of it.
 CURVES: Mapping[str, NamedCurve] = {
     named.name: named
@@ -256,6 +267,7 @@ CURVES: Mapping[str, NamedCurve] = {
         NamedCurve("stacked-spiral", "a spiral ramp three deep (figure 12, middle)", _stacked_spiral, 4, 1, 1, 1),
         NamedCurve("milnor", "Milnor's doodle: two immersions (figure 3)", _milnor, 6, 1, 2, 2),
         NamedCurve("ten-gon", "a polygon of ten points with two immersions", _ten_gon, 10, 1, 2, 2),
+        NamedCurve("smallest-unliftable", "one of two immersions cannot be lifted", _smallest_unliftable, 8, 1, 2, 1),
         NamedCurve(
             "bennequin", "five immersions, of which two cannot be lifted (figure 12, right)", _bennequin, 12, 1, 5, 3
         ),
