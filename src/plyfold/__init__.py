@@ -27,8 +27,15 @@ from plyfold.immersion import (
     sample_immersion,
 )
 from plyfold.io import read
-from plyfold.layering import Layering, find_layering
-from plyfold.obstruction import Obstruction
+from plyfold.layering import (
+    Layering,
+    count_layerings,
+    embed_cased,
+    find_layering,
+    layerings,
+    nicest_layering,
+)
+from plyfold.obstruction import Obstruction, Unknown
 from plyfold.surface import Surface, lift
 
 __version__ = "0.1.0"
@@ -43,14 +50,17 @@ __all__ = [
     "Layering",
     "Obstruction",
     "Surface",
+    "Unknown",
     "arrangement",
     "best_immersion",
     "blank_word",
     "bounds_disk",
     "changed_borders",
     "count_immersions",
+    "count_layerings",
     "coverage",
     "decompose",
+    "embed_cased",
     "errors",
     "find_immersion",
     "find_layering",
@@ -58,8 +68,10 @@ __all__ = [
     "gallery",
     "immersions",
     "irreducible_kernels",
+    "layerings",
     "lift",
     "loop_turning_numbers",
+    "nicest_layering",
     "read",
     "sample_immersion",
     "triangulate",

@@ -9,7 +9,9 @@ from itertools import combinations, pairwise, permutations
 import numpy as np
 import pytest
 
+import plyfold as pf
 from plyfold.arrangement import Arrangement, arrangement
+from plyfold.errors import InputError
 from plyfold.immersion import find_immersion, immersions
 from plyfold.layering import find_layering
 from plyfold.layering.collapsed import edge_collapsed_graph, has_linear_spanning_subtrees
@@ -206,3 +208,10 @@ def test_random_disks(outline):
             level = dict(enumerate(found.level.tolist()))
             assert layerings.is_layering(code_of(immersion.arrangement), own, rows, level)
     assert verdicts[True] > 9
+
+
+def test_the_method_is_chosen_by_name():
+    immersion = pf.find_immersion(pf.gallery.CURVES["exit-ramp"].curve)
+    assert pf.find_layering(immersion, method="paper").level.tolist() == paper_layering(immersion).level.tolist()
+    with pytest.raises(InputError, match="method"):
+        pf.find_layering(immersion, method="greedy")

@@ -25,7 +25,10 @@ _NOTHING: FixedOrders = {}
 
 
 def find_layering(
-    immersion: Immersion, time_limit: float | None = None, fix: FixedOrders | None = None
+    immersion: Immersion,
+    time_limit: float | None = None,
+    fix: FixedOrders | None = None,
+    method: Literal["exact", "paper"] = "exact",
 ) -> Layering | Obstruction | Unknown:
     """Find an order of the sheets over every cell that all gluings keep, or prove that there is none.
 
@@ -36,6 +39,9 @@ def find_layering(
         Seconds after which to give up; none by default.
     fix : mapping of (cell, sheet_a, sheet_b) to "above" or "below", optional
         Orders that the layering must have: over the cell, sheet a lies above or below sheet b.
+    method : {"exact", "paper"}
+        Decide exactly, or follow the paper's linear spanning subtrees, which may fail where there is a layering and
+        then says so; see :mod:`plyfold.layering.paper`. The latter knows no time limit and no fixed orders.
 
     Returns
     -------
@@ -49,7 +55,7 @@ def find_layering(
     Raises
     ------
     InputError
-        If ``fix`` names a sheet that does not lie over the cell, or a sheet twice.
+        If ``fix`` names a sheet that does not lie over the cell, or a sheet twice, or the method does not exist.
 
     Notes
     -----
@@ -70,6 +76,12 @@ def find_layering(
     >>> find_layering(ramp, fix={(1, lower, upper): "above"}).level.tolist()
     [2, 1, 1, 1, 1]
     """
+    if method == "paper":
+        from plyfold.layering.paper import paper_layering
+
+        return paper_layering(immersion)
+    if method != "exact":
+        raise InputError(f'method must be "exact" or "paper", not {method!r}')
     clock = Clock(time_limit)
     if clock.over:
         return undecided("time limit", _QUESTION, clock)
