@@ -1,0 +1,188 @@
+"""The equations between levels as clauses for a SAT solver, in the order encoding.
+
+Each border e has a variable x(e, i) for every i from 1 to w − 1: its level is at most i. Each crossing has one variable
+more: the first strand lies above the second. All questions to the solver are asked here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import chain
+from typing import Any
+
+import numpy as np
+
+from plyfold.arrangement.planar_map import Ints
+from plyfold.errors import PlyfoldError
+from plyfold.immersion.immersion import count_each
+from plyfold.layering.clock import Clock
+from plyfold.layering.levels import LevelEquations
+from plyfold.layering.sat import interrupted_after
+
+__all__ = ["LevelClauses", "contradicting_crossings", "list_levels", "solve_levels"]
+
+# The variable that is always true stands for x(e, i) with i ≥ w, its opposite for x(e, 0).
+_TRUE = 1
+# Conflicts after which the solver may give up when it is asked whether one crossing less is a contradiction too.
+_EFFORT = 5000
+
+
+@dataclass(frozen=True, eq=False)
+class LevelClauses:
+    """The clauses of the equations between levels.
+
+    Parameters
+    ----------
+    equations : LevelEquations
+    """
+
+    equations: LevelEquations
+
+    @cached_property
+    def _before(self) -> Ints:
+        """The number before each border's first variable."""
+        count = self.equations.highest - 1
+        return _TRUE + np.cumsum(count) - count
+
+    @cached_property
+    def first_over(self) -> list[int]:
+        """The variable of each crossing: its first strand lies above its second one."""
+        start = _TRUE + 1 + int((self.equations.highest - 1).sum())
+        return list(range(start, start + self.equations.n_crossings))
+
+    @cached_property
+    def choices(self) -> list[int]:
+        """Variables that determine a solution: all crossings, and the levels of borders without crossings."""
+        alone = np.ones(len(self.equations.highest), dtype=bool)
+        alone[self.equations.top] = alone[self.equations.bottom] = False
+        border = np.repeat(np.arange(len(alone)), np.where(alone, self.equations.highest - 1, 0))
+        i = count_each(np.bincount(border, minlength=len(alone))) + 1
+        return [*self.first_over, *self._at_most(border, i).tolist()]
+
+    @property
+    def n_variables(self) -> int:
+        """Number of variables."""
+        return _TRUE + int((self.equations.highest - 1).sum()) + self.equations.n_crossings
+
+    @cached_property
+    def of_borders(self) -> list[list[int]]:
+        """What holds on every border: a level that is at most i is at most i + 1."""
+        highest = self.equations.highest
+        border, i = np.repeat(np.arange(len(highest)), highest), count_each(highest)
+        rows = np.stack([-self._at_most(border, i), self._at_most(border, i + 1)], axis=1)
+        # The second clause says nothing; it makes the solver's models name every variable.
+        return [[_TRUE], [self.n_variables, -self.n_variables], *_without_constants(rows)[1]]
+
+    @cached_property
+    def of_crossings(self) -> list[list[list[int]]]:
+        """What each crossing demands. The last two rules follow from the others and speed up the solver."""
+        top, bottom = self.equations.top, self.equations.bottom
+        levels = self.equations.highest[top[:, 0]] + 1
+        crossing, i = np.repeat(np.arange(len(top)), levels), count_each(levels)
+        over = np.array(self.first_over, dtype=np.int64)[crossing]
+        x = self._at_most
+        rows = []
+        for upper, lower, holds in ((0, 1, over), (1, 0, -over)):
+            upper_top, upper_bottom = top[crossing, upper], bottom[crossing, upper]
+            lower_top, lower_bottom = top[crossing, lower], bottom[crossing, lower]
+            rows += [
+                (-holds, -x(upper_top, i), x(upper_bottom, i - 1)),
+                (-holds, x(upper_top, i), -x(upper_bottom, i - 1)),
+                (-holds, -x(lower_top, i), x(lower_bottom, i)),
+                (-holds, x(lower_top, i), -x(lower_bottom, i)),
+                (-holds, -x(upper_top, i), x(lower_top, i - 1)),
+                (-x(upper_top, i), x(upper_bottom, i), x(upper_bottom, i)),
+                (-x(upper_bottom, i - 1), x(upper_top, i), x(upper_top, i)),
+            ]
+        which, clauses = _without_constants(np.concatenate([np.stack(row, axis=1) for row in rows]))
+        demands: list[list[list[int]]] = [[] for _ in top]
+        for number, clause in zip(np.tile(crossing, len(rows))[which].tolist(), clauses, strict=True):
+            demands[number].append(clause)
+        return demands
+
+    def levels(self, model: list[int]) -> Ints:
+        """Return the levels in a solution: one more than the number of levels that are not high enough."""
+        highest = self.equations.highest
+        border = np.repeat(np.arange(len(highest)), highest - 1)
+        too_low = np.array(model[_TRUE : _TRUE + len(border)]) < 0
+        level = 1 + np.bincount(border[too_low], minlength=len(highest))
+        if not self.equations.hold(level):
+            raise PlyfoldError("internal check failed: levels of the borders around every crossing fit together")
+        return np.asarray(level, dtype=np.int64)
+
+    def _at_most(self, border: Ints, i: Ints) -> Ints:
+        variable = np.where(i < self.equations.highest[border], self._before[border] + i, _TRUE)
+        return np.where(i > 0, variable, -_TRUE)
+
+
+def _without_constants(rows: Ints) -> tuple[Ints, list[list[int]]]:
+    """Return which clauses do not hold anyway, and those without literals that are always false."""
+    which = np.flatnonzero(~(rows == _TRUE).any(axis=1))
+    return which, [list({x for x in row if x != -_TRUE}) for row in rows[which].tolist()]
+
+
+def solve_levels(clauses: LevelClauses, clock: Clock) -> Ints | None:
+    """Return the levels of a solution, or None if there is none. Raises TimeoutError when the time is over."""
+    with _solver(clauses) as solver, interrupted_after(clock.left, solver):
+        answer = solver.solve_limited(expect_interrupt=True)
+        if answer is None:
+            raise TimeoutError
+        return clauses.levels(solver.get_model()) if answer else None
+
+
+def list_levels(clauses: LevelClauses) -> Iterator[Ints]:
+    """Yield all solutions, each once.
+
+    The solver is asked for one; then the last choice whose opposite has not been tried, under the choices before it, is
+    turned round, and the solver is asked for the rest. Nothing is remembered but the way back.
+    """
+    with _solver(clauses) as solver:
+        tried: list[tuple[int, bool]] = []
+        possible = solver.solve()
+        while True:
+            if possible:
+                model = solver.get_model()
+                yield clauses.levels(model)
+                tried += [(model[variable - 1], False) for variable in clauses.choices[len(tried) :]]
+            while tried and tried[-1][1]:
+                tried.pop()
+            if not tried:
+                return
+            tried[-1] = (-tried[-1][0], True)
+            possible = solver.solve(assumptions=[literal for literal, _ in tried])
+
+
+def contradicting_crossings(clauses: LevelClauses, clock: Clock) -> list[int]:
+    """Return crossings whose equations have no solution, given that those of all crossings have none.
+
+    As few as leaving out one after the other can reach; where the solver does not know soon, a crossing stays, and when
+    the time is over, so do all the others.
+    """
+    start = clauses.n_variables + 1
+    with _solver(clauses, start) as solver, interrupted_after(clock.left, solver):
+        core = list(range(start, start + clauses.equations.n_crossings))
+        answer = solver.solve_limited(assumptions=core, expect_interrupt=True)
+        core = sorted(solver.get_core()) if answer is False else core
+        for selector in list(core):
+            if clock.over:
+                break
+            rest = [other for other in core if other != selector]
+            solver.conf_budget(_EFFORT)
+            if len(rest) < len(core) and solver.solve_limited(assumptions=rest, expect_interrupt=True) is False:
+                core = sorted(solver.get_core() or [])
+    return [selector - start for selector in core]
+
+
+def _solver(clauses: LevelClauses, first_selector: int | None = None) -> Any:
+    """Return a solver that knows the clauses; with selectors, those of a crossing hold only if its selector is true."""
+    from pysat.solvers import Glucose4
+
+    solver = Glucose4(bootstrap_with=clauses.of_borders)
+    if first_selector is None:
+        solver.append_formula(chain.from_iterable(clauses.of_crossings))
+        return solver
+    for selector, demands in enumerate(clauses.of_crossings, first_selector):
+        solver.append_formula([*clause, -selector] for clause in demands)
+    return solver

@@ -1,0 +1,82 @@
+"""Levels straight from the curve: all that embedded surfaces of all immersions have in common (§5 of the paper).
+
+Number the sheets over each cell 1 … w from below. In a surface without self-intersections every gluing keeps this
+order, so all of it is determined by one whole number for each border: the level of its own sheet, from 1 to the winding
+number on its left. At a crossing, let a and b be the levels of the two strands over the top cell, the one on the left
+of both. They differ. Past the crossing each strand bounds a sheet over a side cell, where the other strand's sheet is
+missing: the strand above has lost a level there, the one below has not. These equations are the only ones, whatever the
+immersion, the number of curves or the genus.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from plyfold.arrangement import Arrangement
+from plyfold.arrangement.planar_map import Ints
+from plyfold.predicates import Bools
+
+__all__ = ["LevelEquations", "level_equations"]
+
+
+@dataclass(frozen=True, eq=False)
+class LevelEquations:
+    """The equations between the levels of the borders.
+
+    Parameters
+    ----------
+    highest : (borders,) int
+        The winding number on the left of each border, at least 1: its level is between 1 and this.
+    top, bottom : (k, 2) int
+        For both strands of each crossing, the border beside the top cell and the one beside the bottom cell.
+    """
+
+    highest: Ints
+    top: Ints
+    bottom: Ints
+
+    def __post_init__(self) -> None:
+        for array in (self.highest, self.top, self.bottom):
+            array.flags.writeable = False
+
+    @property
+    def n_crossings(self) -> int:
+        """Number of crossings, k."""
+        return len(self.top)
+
+    def hold(self, level: Ints) -> bool:
+        """Tell whether levels are a solution. Cost: O(k)."""
+        at_top, at_bottom = level[self.top], level[self.bottom]
+        above = at_top > at_top[:, ::-1]
+        return bool(
+            ((level >= 1) & (level <= self.highest)).all()
+            and (at_top[:, 0] != at_top[:, 1]).all()
+            and (at_bottom == at_top - above).all()
+        )
+
+    def first_is_over(self, level: Ints) -> Bools:
+        """Tell at which crossings the first strand lies above the second one, shape (k,)."""
+        return np.asarray(level[self.top[:, 0]] > level[self.top[:, 1]])
+
+
+def level_equations(arranged: Arrangement) -> LevelEquations:
+    """Return the equations of a closed curve without negative winding numbers; crossings in their usual order.
+
+    Examples
+    --------
+    >>> from plyfold.arrangement import arrangement
+    >>> ramp = arrangement([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)])
+    >>> level_equations(ramp).highest.tolist()
+    [2, 1, 2, 1, 2, 1, 2, 1]
+    """
+    n = arranged.n_borders
+    first = np.flatnonzero(arranged.ccw)
+    first = first[np.argsort(arranged.crossing_of_visit[first])]
+    second = arranged.partner[first]
+    return LevelEquations(
+        highest=arranged.winding[arranged.left_cell],
+        top=np.stack([(first - 1) % n, second], axis=1),
+        bottom=np.stack([first, (second - 1) % n], axis=1),
+    )

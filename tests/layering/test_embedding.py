@@ -1,0 +1,194 @@
+"""Embeddings straight from the curve, against brute force over levels and against the search by immersions."""
+
+from itertools import islice
+
+import numpy as np
+import pytest
+
+from plyfold.arrangement import Arrangement, arrangement
+from plyfold.curve import Curve
+from plyfold.gallery import chain
+from plyfold.immersion import count_immersions, immersions
+from plyfold.layering import count_layerings, find_layering, layerings
+from plyfold.layering.clock import Clock
+from plyfold.layering.embedding import count_embeddings, embeddings, find_embedding
+from plyfold.layering.level_clauses import LevelClauses, list_levels, solve_levels
+from plyfold.layering.level_counting import count_level_solutions
+from plyfold.layering.levels import level_equations
+from plyfold.obstruction import Unknown
+from reference import gluings, random_curves
+from reference.layerings import level_solutions, level_solutions_by_immersion, levels_agree
+from reference.level_subsets import ending_outside, joined, levels_fit
+from reference.planar_maps import census, corners, gauss_code, may_bound_disk
+
+SMALLEST_WITHOUT_LAYERING = [
+    ([9, 4, 3, 2, 1, 10, 7, 6, 11, 0, 5, 8, 13, 12, 15, 14], [1, 1, 1, 0, 0, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0], 5),
+    ([1, 0, 3, 2, 7, 14, 11, 4, 9, 8, 15, 6, 13, 12, 5, 10], [1, 0, 1, 0, 1, 1, 0, 0, 1, 0, 1, 1, 1, 0, 0, 0], 25),
+    ([1, 0, 3, 2, 7, 10, 15, 4, 9, 8, 5, 14, 13, 12, 11, 6], [1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 0, 0], 25),
+    ([1, 0, 5, 14, 11, 2, 9, 8, 7, 6, 15, 4, 13, 12, 3, 10], [1, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 1, 0, 0, 0], 25),
+]
+"""Eight crossings, two immersions, of which one does not lift."""
+
+WITHOUT_EMBEDDING = gauss_code(
+    [1, 0, 9, 12, 5, 4, 15, 20, 27, 2, 17, 16, 3, 22, 21, 6, 11, 10, 19, 18, 7, 14, 13, 26, 25, 24, 23, 8],
+    [1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 0, 0],
+    49,
+)
+"""A curve with eight crossings that has one immersion which does not lift, with three fingers pushed over borders that
+take the other immersion away."""
+
+
+def code_of(arranged):
+    return gauss_code(arranged.partner, arranged.ccw, arranged.outer)
+
+
+def levels_of(layering):
+    return tuple(layering.level[layering.immersion.own_sheet].tolist())
+
+
+def straight_from(arranged):
+    return LevelClauses(level_equations(arranged))
+
+
+def assert_all_found(arranged):
+    """All three functions agree with brute force over levels; both ways of listing and counting do."""
+    code = code_of(arranged)
+    expected = set(level_solutions(code))
+    found = list(embeddings(arranged))
+    assert len(found) == len(expected)
+    assert set(map(levels_of, found)) == expected
+    assert count_embeddings(arranged) == len(expected)
+    first = find_embedding(arranged)
+    assert bool(first) == bool(expected)
+    assert not first or levels_of(first) in expected
+    if may_bound_disk(code):
+        listed = [tuple(level.tolist()) for level in list_levels(straight_from(arranged))]
+        assert len(listed) == len(expected)
+        assert set(listed) == expected
+        assert count_level_solutions(level_equations(arranged)) == len(expected)
+        assert (solve_levels(straight_from(arranged), Clock(None)) is not None) == bool(expected)
+    return found
+
+
+@pytest.mark.parametrize("k", [0, 1, 2, 3, 4, 5, pytest.param(6, marks=pytest.mark.slow)])
+def test_every_curve(k):
+    for code in census(k):
+        assert_all_found(Arrangement.from_gauss(*code))
+
+
+@pytest.mark.parametrize(("polygon", "_", "layering_counts"), random_curves.SEVERAL_IMMERSIONS)
+def test_known_answers(polygon, _, layering_counts):
+    arranged = arrangement(polygon)
+    by_immersion = {}
+    for layering in assert_all_found(arranged):
+        immersion = layering.immersion
+        key = gluings.key_of(*code_of(arranged), immersion.own_sheet, immersion.gluing)
+        by_immersion.setdefault(key, set()).add(levels_of(layering))
+    assert by_immersion == level_solutions_by_immersion(code_of(arranged))
+    assert sorted(map(len, by_immersion.values())) == [count for count in layering_counts if count]
+
+
+@pytest.mark.parametrize("code", SMALLEST_WITHOUT_LAYERING)
+def test_smallest_curves_with_an_immersion_that_does_not_lift(code):
+    arranged = Arrangement.from_gauss(*code)
+    found = assert_all_found(arranged)
+    lifting = [immersion for immersion in immersions(arranged) if find_layering(immersion)]
+    assert (count_immersions(arranged), len(lifting)) == (2, 1)
+    assert {tuple(layering.immersion.own_sheet) for layering in found} == {tuple(lifting[0].own_sheet)}
+
+
+def random_disks():
+    rng = np.random.default_rng(4)
+    yield from (random_curves.ribbon_outline(rng, int(rng.integers(20, 200))) for _ in range(15))
+    yield from (random_curves.glued_disk(rng, int(rng.integers(20, 140))) for _ in range(15))
+
+
+def test_levels_of_random_disks_satisfy_the_rule_at_every_crossing():
+    for polygon in random_disks():
+        arranged = arrangement(polygon)
+        for level in (
+            solve_levels(straight_from(arranged), Clock(None)),
+            find_embedding(arranged).border_level,
+            *islice(list_levels(straight_from(arranged)), 3),
+        ):
+            assert all(levels_agree(corner, dict(enumerate(level.tolist()))) for corner in corners(code_of(arranged)))
+
+
+def test_solutions_of_random_disks_are_as_many_as_layerings():
+    for polygon in random_disks():
+        arranged = arrangement(polygon)
+        expected = sum(count_layerings(immersion) for immersion in immersions(arranged))
+        assert count_embeddings(arranged) == expected
+        if arranged.n_crossings < 150:
+            assert count_level_solutions(level_equations(arranged)) == expected
+
+
+def test_chains_multiply():
+    """Too many immersions to try: 2^100, 5^60 of which 3^60 lift, each of them in 2^60 ways."""
+    for polygon, links, each in ((random_curves.MILNOR_LIKE, 100, 4), (random_curves.BENNEQUIN_LIKE, 60, 6)):
+        arranged = arrangement(chain(polygon, links))
+        assert count_embeddings(arranged) == each**links
+        assert find_embedding(arranged)
+        listed = [levels_of(layering) for layering in islice(embeddings(arranged), 20)]
+        assert len(set(listed)) == 20
+
+
+def test_all_embeddings_of_a_chain_are_listed_once():
+    arranged = arrangement(chain(random_curves.MILNOR_LIKE, 4))
+    assert count_immersions(arranged) == 16
+    listed = [levels_of(layering) for layering in embeddings(arranged)]
+    assert len(listed) == len(set(listed)) == 4**4
+    one_by_one = {levels_of(layering) for immersion in immersions(arranged) for layering in layerings(immersion)}
+    assert set(listed) == one_by_one
+    assert listed[:10] == [levels_of(layering) for layering in islice(embeddings(arranged), 10)]
+
+
+def assert_minimal_core(code, obstruction):
+    assert obstruction.reason == "no embedding"
+    core = obstruction.value
+    assert not levels_fit(code, core)
+    assert all(levels_fit(code, set(core) - {crossing}) for crossing in core)
+
+
+def test_crossings_that_allow_no_levels():
+    arranged = Arrangement.from_gauss(*WITHOUT_EMBEDDING)
+    assert assert_all_found(arranged) == []
+    assert count_immersions(arranged) == 1
+    assert_minimal_core(code_of(arranged), find_embedding(arranged))
+
+
+def test_crossings_that_allow_no_levels_among_many_immersions():
+    milnor = ending_outside(code_of(arrangement(random_curves.MILNOR_LIKE)))
+    code = ending_outside(WITHOUT_EMBEDDING)
+    for _ in range(4):
+        code = joined(code, milnor)
+    arranged = Arrangement.from_gauss(*code)
+    assert count_immersions(arranged) == 2**4
+    obstruction = find_embedding(arranged)
+    assert_minimal_core(code, obstruction)
+    assert max(obstruction.value) < 14, "these are the crossings of the first part"
+    assert "none of the 16 immersions lifts" in str(obstruction)
+    assert count_embeddings(arranged) == 0
+    assert next(embeddings(arranged), None) is None
+
+
+def test_places_are_those_of_the_crossings():
+    arranged = arrangement(Curve.from_gauss(*WITHOUT_EMBEDDING))
+    obstruction = find_embedding(arranged)
+    assert obstruction.where == tuple(map(tuple, arranged.crossings[list(obstruction.value)].tolist()))
+
+
+def test_curves_without_immersion_say_why():
+    eight = [(0, 0), (2, 2), (2, 0), (0, 2)]
+    assert find_embedding(eight).reason == "turning number"
+    assert count_embeddings(eight) == 0
+    assert list(embeddings(eight)) == []
+
+
+def test_time_is_limited():
+    milnor = random_curves.MILNOR_LIKE
+    for curve in (milnor, chain(milnor, 5)):
+        for answer in (find_embedding(curve, time_limit=0), count_embeddings(curve, time_limit=0)):
+            assert isinstance(answer, Unknown)
+            assert "Unknown after" in str(answer)
+        assert find_embedding(curve, time_limit=60)
