@@ -11,9 +11,20 @@ import numpy.typing as npt
 if TYPE_CHECKING:
     from plyfold.arrangement import Arrangement
 
-__all__ = ["arrows", "border_middle", "label_circle", "line_weight", "middle_and_size", "natural_stretch"]
+__all__ = ["Frame", "arrows", "border_middle", "label_circle", "line_weight", "middle_and_size", "natural_stretch"]
 
 Floats = npt.NDArray[np.float64]
+
+
+class Frame:
+    """The drawing moved to the origin and scaled to size 1, so that drawings of any size and place look alike."""
+
+    def __init__(self, points: Floats) -> None:
+        self.middle, self.size = middle_and_size(points)
+
+    def __call__(self, points: npt.ArrayLike) -> Floats:
+        """Return places of the drawing in the picture, shape (n, 2)."""
+        return np.asarray((np.asarray(points, dtype=float).reshape(-1, 2) - self.middle) / self.size)
 
 
 def middle_and_size(points: Floats) -> tuple[Floats, float]:

@@ -14,7 +14,15 @@ import numpy.typing as npt
 from plyfold.draw.colours import ACCENT, INK, OBSTRUCTION, mix, sheet_colour, text_colour, winding_colour
 from plyfold.draw.depth_buffer import View
 from plyfold.draw.hyperbolic import BorderCircle
-from plyfold.draw.places import arrows, border_middle, label_circle, line_weight, middle_and_size, natural_stretch
+from plyfold.draw.places import (
+    Frame,
+    arrows,
+    border_middle,
+    label_circle,
+    line_weight,
+    middle_and_size,
+    natural_stretch,
+)
 from plyfold.draw.render import Image, Mesh, shade
 
 if TYPE_CHECKING:
@@ -70,7 +78,7 @@ def plot_arrangement(
     ['1', '−1']
     """
     axes = _blank(ax)
-    frame = _Frame(_points(arrangement))
+    frame = Frame(_points(arrangement))
     _fill_cells(axes, arrangement, frame)
     weight = line_weight(arrangement.n_crossings)
     _line(axes, _closed(frame(_points(arrangement))), INK, 1.6 * weight)
@@ -155,7 +163,7 @@ def plot_layers(layering: Layering, ax: Axes | None = None) -> Axes:
     """
     axes = _blank(ax)
     points = _points(layering.immersion.arrangement)
-    frame = _Frame(points)
+    frame = Frame(points)
     flat = frame(points) @ _SHEAR
     spacing = 0.08 + 0.74 * float(np.ptp(flat[:, 1]))
     levels = int(layering.level.max(initial=1))
@@ -211,36 +219,26 @@ def plot_surface(
 # ---- the parts of an arrangement -----------------------------------------------------------------------------------
 
 
-class _Frame:
-    """The drawing moved to the origin and scaled to size 1, so that drawings of any size and place look alike."""
-
-    def __init__(self, points: Floats) -> None:
-        self.middle, self.size = middle_and_size(points)
-
-    def __call__(self, points: npt.ArrayLike) -> Floats:
-        return np.asarray((np.asarray(points, dtype=float).reshape(-1, 2) - self.middle) / self.size)
-
-
 def _points(arrangement: Arrangement) -> Floats:
     """Return the points of the curve; raises the arrangement's own error if there is no drawing."""
     return arrangement.border_points(0) if arrangement.curve is None else arrangement.curve.points
 
 
-def _fill_cells(axes: Axes, arrangement: Arrangement, frame: _Frame) -> None:
+def _fill_cells(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
     for cell in range(1, arrangement.n_cells):
         winding = int(arrangement.winding[cell])
         if winding:
             _polygon(axes, frame(arrangement.cell_outline(cell)), winding_colour(winding))
 
 
-def _arrowheads(axes: Axes, arrangement: Arrangement, frame: _Frame) -> None:
+def _arrowheads(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
     for place, (dx, dy) in arrows(arrangement):
         (tip,) = frame(place)
         head = np.array([(0.018, 0), (-0.012, 0.0135), (-0.012, -0.0135)]) @ np.array([(dx, dy), (-dy, dx)])
         _polygon(axes, tip + head, INK, zorder=3)
 
 
-def _winding_numbers(axes: Axes, arrangement: Arrangement, frame: _Frame, marked: Places) -> None:
+def _winding_numbers(axes: Axes, arrangement: Arrangement, frame: Frame, marked: Places) -> None:
     """Write the winding number into every cell that has room for it, unless a marked place takes the room."""
     for cell in range(1, arrangement.n_cells):
         x, y, radius = label_circle(arrangement, cell)
@@ -251,25 +249,30 @@ def _winding_numbers(axes: Axes, arrangement: Arrangement, frame: _Frame, marked
             _text(axes, frame((x, y))[0], f"{winding}".replace("-", "−"), size, color=colour)
 
 
-def _border_numbers(axes: Axes, arrangement: Arrangement, frame: _Frame) -> None:
+def _border_numbers(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
     for border in range(arrangement.n_borders if arrangement.n_borders <= _MOST_NUMBERS else 0):
         place, (dx, dy) = border_middle(arrangement.border_points(border))
         x, y = frame(place)[0] + 0.026 * np.array([dy, -dx])
         _text(axes, (x, y), str(border), 6.5, color=mix(INK, "#ffffff", 0.25))
 
 
-def _mark(axes: Axes, obstruction: Obstruction, frame: _Frame) -> None:
+def _mark(axes: Axes, obstruction: Obstruction, frame: Frame) -> None:
     places = frame(obstruction.where)
     for width, colour in ((5.5, "white"), (2.6, OBSTRUCTION)):
         _dots(axes, places, colour, 130, marker="x", linewidths=width, zorder=6)
+    write_below(axes, str(obstruction))
+
+
+def write_below(axes: Axes, sentence: str) -> None:
+    """Write why something does not exist below the drawing."""
     below = {"transform": axes.transAxes, "color": OBSTRUCTION, "va": "top", "wrap": True}
-    _text(axes, (0.5, -0.02), str(obstruction), 9.5, **below)
+    _text(axes, (0.5, -0.02), sentence, 9.5, **below)
 
 
 # ---- the parts of a layering ---------------------------------------------------------------------------------------
 
 
-def _layer(axes: Axes, layering: Layering, level: int, frame: _Frame, lift: Floats) -> None:
+def _layer(axes: Axes, layering: Layering, level: int, frame: Frame, lift: Floats) -> None:
     immersion = layering.immersion
     arrangement = immersion.arrangement
     for sheet in np.flatnonzero(layering.level == level).tolist():

@@ -1,0 +1,167 @@
+"""Pictures of the reasons why an immersed disk has no layering: which cells, which sheets, in which order."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from plyfold.arrangement import Arrangement
+from plyfold.draw.colours import OBSTRUCTION, PAPER, mix, sheet_colour, text_colour, winding_colour
+from plyfold.draw.places import Floats, Frame, border_middle, label_circle
+from plyfold.draw.plots import plot_arrangement, write_below
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from plyfold.immersion import Immersion
+    from plyfold.obstruction import Obstruction
+
+__all__ = ["plot_obstruction"]
+
+Step: TypeAlias = tuple[int, tuple[int, ...]]
+"""A cell, and sheets over it from below."""
+
+_CHIP = 0.05
+_STEPS_IN_A_ROW = 15
+_MOST_STEPS = 60
+_NUMBER: dict[str, Any] = {"ha": "center", "va": "center", "color": OBSTRUCTION, "weight": "bold", "zorder": 8}
+_BACK = {"above": -1, "below": 1}
+
+
+def plot_obstruction(subject: Immersion | Arrangement, obstruction: Obstruction, ax: Axes | None = None) -> Axes:
+    """Draw why there is no immersion or no layering, on the drawing.
+
+    Parameters
+    ----------
+    subject : Immersion or Arrangement
+        What the obstruction is about; an immersion for obstructions to a layering.
+    obstruction : Obstruction
+        Of a pair of sheets that returns reversed, the cells are numbered in order, arrows cross the borders from one
+        to the next, and below the drawing the two sheets are shown at every step, the upper one above. Of sheets in a
+        circle and of fixed orders, the cells are numbered and the sheets shown likewise. Of cells with a negative
+        winding number, the cells. Other places are marked by crosses.
+    ax : matplotlib Axes, optional
+        Where to draw; by default on a new figure.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Examples
+    --------
+    >>> from plyfold import arrangement, find_immersion
+    >>> eight = [(0, 0), (2, 2), (2, 0), (0, 2)]
+    >>> ax = plot_obstruction(arrangement(eight), find_immersion(eight))
+    >>> ax.texts[-1].get_text()
+    'The curve turns 0 times, and the outline of a disk turns once.'
+    """
+    if isinstance(subject, Arrangement):
+        return _plot_places(subject, obstruction, ax)
+    steps = _steps(obstruction)
+    if not steps:
+        return _plot_places(subject.arrangement, obstruction, ax)
+    axes = plot_arrangement(subject.arrangement, ax)
+    assert subject.arrangement.curve is not None
+    frame = Frame(subject.arrangement.curve.points)
+    _number_cells(axes, subject.arrangement, [cell for cell, _ in steps], frame)
+    if obstruction.reason == "reversed pair":
+        _arrows_between(axes, subject, steps, frame)
+    _chips(axes, steps, float(frame(subject.arrangement.curve.points)[:, 1].min()))
+    write_below(axes, str(obstruction))
+    return axes
+
+
+def _steps(obstruction: Obstruction) -> list[Step]:
+    """Return the cells and sheets that an obstruction to a layering names; none for other obstructions."""
+    if obstruction.reason == "reversed pair":
+        return [(cell, (lower, upper)) for cell, lower, upper in obstruction.value]
+    if obstruction.reason == "cyclic order":
+        return [(cell, tuple(sheets)) for cell, sheets in obstruction.value]
+    if obstruction.reason == "fixed orders":
+        return [(cell, (first, second)[:: _BACK[order]]) for cell, first, second, order in obstruction.value]
+    return []
+
+
+def _plot_places(arrangement: Arrangement, obstruction: Obstruction, ax: Axes | None) -> Axes:
+    axes = plot_arrangement(arrangement, ax, obstruction=obstruction)
+    if obstruction.reason == "negative winding" and arrangement.curve is not None:
+        frame = Frame(arrangement.curve.points)
+        for cell in np.flatnonzero(arrangement.winding < 0).tolist():
+            _highlight(axes, arrangement, cell, frame)
+    return axes
+
+
+def _highlight(axes: Axes, arrangement: Arrangement, cell: int, frame: Frame) -> None:
+    outline = frame(arrangement.cell_outline(cell))
+    colour = mix(winding_colour(int(arrangement.winding[cell])), OBSTRUCTION, 0.25)
+    axes.fill(outline[:, 0], outline[:, 1], facecolor=colour, edgecolor=OBSTRUCTION, linewidth=1.2, zorder=1.5)
+
+
+def _number_cells(axes: Axes, arrangement: Arrangement, cells: Sequence[int], frame: Frame) -> None:
+    """Highlight the cells, and write into each at which steps it is visited."""
+    visits: defaultdict[int, list[str]] = defaultdict(list)
+    for number, cell in enumerate(cells, 1):
+        visits[cell].append(str(number))
+    box = {"boxstyle": "round,pad=0.2", "facecolor": PAPER, "edgecolor": OBSTRUCTION, "linewidth": 0.8}
+    for cell, numbers in visits.items():
+        _highlight(axes, arrangement, cell, frame)
+        rows = [" ".join(numbers[i : i + 4]) for i in range(0, len(numbers), 4)]
+        x, y = frame(label_circle(arrangement, cell)[:2])[0].tolist()
+        axes.text(x, y, "\n".join(rows), fontsize=6.0, bbox=box, **_NUMBER)
+
+
+def _arrows_between(axes: Axes, immersion: Immersion, steps: Sequence[Step], frame: Frame) -> None:
+    """Draw a short arrow across the border from each step to the next; each once, there and back side by side."""
+    from matplotlib.patches import FancyArrowPatch
+
+    crossed = {_border_between(immersion, step, following): None for step, following in pairwise(steps)}
+    for border, leftward in crossed:
+        middle, (dx, dy) = border_middle(frame(immersion.arrangement.border_points(border)))
+        forward = np.array([-dy, dx]) if leftward else np.array([dy, -dx])
+        keep_right = 0.014 * np.array([forward[1], -forward[0]])
+        (x0, y0), (x1, y1) = ((middle + keep_right + length * forward).tolist() for length in (-0.025, 0.025))
+        style: dict[str, Any] = {"arrowstyle": "-|>", "mutation_scale": 8, "shrinkA": 0, "shrinkB": 0}
+        axes.add_patch(FancyArrowPatch((x0, y0), (x1, y1), color=OBSTRUCTION, linewidth=1.2, zorder=7, **style))
+
+
+def _border_between(immersion: Immersion, step: Step, following: Step) -> tuple[int, bool]:
+    """Return the border over which the sheets of one step are glued to those of the next, and whether towards left."""
+    for leftward, (right, left) in ((True, (step, following)), (False, (following, step))):
+        carried = [
+            immersion.gluing[(immersion.gluing[:, 1:] == glued).all(axis=1), 0]
+            for glued in zip(right[1], left[1], strict=True)
+        ]
+        common = np.intersect1d(*carried)
+        if len(common):
+            return int(common[0]), leftward
+    raise AssertionError("the sheets of a chain are glued to one another")
+
+
+def _chips(axes: Axes, steps: Sequence[Step], below: float) -> None:
+    """Draw the sheets of each step as a pile of numbered chips, in rows below the drawing."""
+    pile = max(len(sheets) for _, sheets in steps)
+    floor = below
+    for row in range(0, min(len(steps), _MOST_STEPS), _STEPS_IN_A_ROW):
+        shown = steps[row : row + _STEPS_IN_A_ROW]
+        floor -= (pile + 2.0) * _CHIP
+        left = -1.3 * _CHIP * (len(shown) - 1) / 2
+        for place, (_, sheets) in enumerate(shown):
+            foot = (left + 1.3 * _CHIP * place, floor)
+            axes.annotate(str(row + place + 1), foot, (0, -6), textcoords="offset points", fontsize=6.5, **_NUMBER)
+            _pile(axes, sheets, foot)
+
+
+def _pile(axes: Axes, sheets: Sequence[int], foot: tuple[float, float]) -> None:
+    x, floor = foot
+    half = np.array([(-0.5, 0.06), (0.5, 0.06), (0.5, 0.94), (-0.5, 0.94)])
+    for level, sheet in enumerate(sheets):
+        colour = sheet_colour(sheet)
+        corners: Floats = (half + np.array([0.0, level])) * _CHIP + np.array([x, floor])
+        axes.fill(corners[:, 0], corners[:, 1], facecolor=colour, edgecolor="none", zorder=3)
+        middle = floor + (level + 0.5) * _CHIP
+        style: dict[str, Any] = {"ha": "center", "va": "center_baseline", "color": text_colour(colour), "zorder": 4}
+        axes.text(x, middle, str(sheet), fontsize=6.5, **style)
