@@ -158,8 +158,10 @@ def _each_once(cycles: Ints, sheets: Ints) -> tuple[Ints, Ints]:
     cycles = np.take_along_axis(cycles, np.argsort(np.abs(cycles), axis=1), axis=1)
     cycles = np.where(cycles[:, :1] < 0, -cycles, cycles)
     cycles[:, 1] = np.where(cycles[:, 0] == cycles[:, 1], cycles[:, 2], cycles[:, 1])
-    first = np.sort(np.unique(cycles, axis=0, return_index=True)[1])
-    return cycles[first], sheets[first]
+    order = np.lexsort(cycles.T)
+    repeats = np.zeros(len(order), dtype=bool)
+    repeats[order[1:]] = (cycles[order[1:]] == cycles[order[:-1]]).all(axis=1)
+    return cycles[~repeats], sheets[~repeats]
 
 
 def _reversed_pair(immersion: Immersion, graph: PairGraph, pair: int) -> Obstruction:
