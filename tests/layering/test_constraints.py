@@ -133,6 +133,11 @@ class TestFixedOrders:
             pf.find_layering(pf.find_immersion(RAMP), fix=order)
 
 
+def test_the_papers_way_takes_no_fixed_orders():
+    with pytest.raises(InputError, match="no fixed orders"):
+        pf.find_layering(pf.find_immersion(RAMP), fix={(1, 0, 1): "above"}, method="paper")
+
+
 def test_a_good_layering_and_a_bound_when_the_nicest_is_unknown(monkeypatch):
     immersion = pf.find_immersion(glued_disk(np.random.default_rng(3), 60))
     nicest = nicest_layering(immersion)

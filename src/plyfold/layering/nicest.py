@@ -85,6 +85,7 @@ def _greedy(problem: OrderProblem, over: list[int]) -> list[int]:
     from pysat.solvers import Glucose4
 
     over_now = True
+    # Decisions become clauses: with more assumptions than variables, Glucose writes beyond its arrays.
     with Glucose4(bootstrap_with=problem.clauses) as solver:
         for literal in over:
             if not solver.solve(assumptions=[literal if over_now else -literal]):

@@ -55,7 +55,8 @@ def find_layering(
     Raises
     ------
     InputError
-        If ``fix`` names a sheet that does not lie over the cell, or a sheet twice, or the method does not exist.
+        If ``fix`` names a sheet that does not lie over the cell, or a sheet twice; if there is no such method, or it knows no
+        fixed orders.
 
     Notes
     -----
@@ -77,6 +78,8 @@ def find_layering(
     [2, 1, 1, 1, 1]
     """
     if method == "paper":
+        if fix:
+            raise InputError("the paper's way knows no fixed orders", hint='leave out "fix", or use method="exact"')
         from plyfold.layering.paper import paper_layering
 
         return paper_layering(immersion)
