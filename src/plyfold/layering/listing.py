@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
 
 from plyfold.immersion import Immersion
 from plyfold.layering.layering import Layering
@@ -40,7 +41,7 @@ def layerings(immersion: Immersion) -> Iterator[Layering]:
             yield problem.layering(literals)
 
 
-def solutions(variables: Sequence[int], clauses: Clauses) -> Iterator[set[int]]:
+def solutions(variables: Sequence[int], clauses: Clauses) -> Iterator[list[int]]:
     """Yield the true literals of each solution; the first variable that is not decided is tried true, then false.
 
     Examples
@@ -48,35 +49,46 @@ def solutions(variables: Sequence[int], clauses: Clauses) -> Iterator[set[int]]:
     >>> [sorted(true) for true in solutions([1, 2], [frozenset({1, 2})])]
     [[1, 2], [-2, 1], [-1, 2]]
     """
-    waiting: list[tuple[set[int], Clauses]] = [(set(), clauses)]
+    touching = defaultdict(list)
+    for clause in clauses:
+        for x in clause:
+            touching[x].append(clause)
+    true: dict[int, None] = {}
+    decisions: list[tuple[int, int]] = []
+    consistent, at = all(_extend(true, x, touching) for clause in clauses if len(clause) == 1 for x in clause), 0
+    while True:
+        while consistent and at < len(variables):
+            variable = variables[at]
+            if variable not in true and -variable not in true:
+                decisions.append((len(true), at))
+                consistent = _extend(true, variable, touching)
+            at += 1
+        if consistent:
+            yield list(true)
+        if not decisions:
+            return
+        known, at = decisions.pop()
+        while len(true) > known:
+            true.popitem()
+        consistent = _extend(true, -variables[at], touching)
+
+
+def _extend(true: dict[int, None], literal: int, touching: Mapping[int, Clauses]) -> bool:
+    """Add a literal, and what follows from clauses with one open literal, in order; tell whether that is consistent."""
+    waiting = [literal]
     while waiting:
-        true, rest = waiting.pop()
-        variable = next((x for x in variables if x not in true and -x not in true), None)
-        if variable is None:
-            yield true
-            continue
-        for literal in (-variable, variable):
-            assumed = _assume(rest, literal)
-            if assumed is not None:
-                waiting.append((true | assumed[0], assumed[1]))
-
-
-def _assume(clauses: Clauses, literal: int) -> tuple[set[int], Clauses] | None:
-    """Make a literal true and draw what follows from clauses of one literal.
-
-    Return all literals that are true then, and what remains of the clauses; None if there is a contradiction.
-    """
-    true, fresh, rest = {literal}, {literal}, clauses
-    while fresh:
-        false = {-x for x in fresh}
-        if not false.isdisjoint(true):
-            return None
-        rest = [clause - false for clause in rest if clause.isdisjoint(fresh)]
-        if not all(rest):
-            return None
-        fresh = {x for clause in rest if len(clause) == 1 for x in clause}
-        true |= fresh
-    return true, rest
+        x = waiting.pop()
+        if -x in true:
+            return False
+        if x not in true:
+            true[x] = None
+            for clause in touching.get(-x, ()):
+                if true.keys().isdisjoint(clause):
+                    still_open = [y for y in clause if -y not in true]
+                    if not still_open:
+                        return False
+                    waiting += still_open if len(still_open) == 1 else ()
+    return True
 
 
 def _parts(problem: OrderProblem) -> list[tuple[list[int], Clauses]]:

@@ -55,8 +55,8 @@ def find_layering(
     Raises
     ------
     InputError
-        If ``fix`` names a sheet that does not lie over the cell, or a sheet twice; if there is no such method, or it knows no
-        fixed orders.
+        If ``fix`` names a sheet that does not lie over the cell, or a sheet twice; if there is no such method, or
+        it knows no fixed orders.
 
     Notes
     -----
