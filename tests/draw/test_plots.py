@@ -18,7 +18,8 @@ EIGHT = np.array([(0, 0), (2, 2), (2, 0), (0, 2)], float)
 
 def flat_surface(heights=(0.0, 0.0, 0.0, 0.0)):
     corners = np.column_stack([[(0, 0), (4, 0), (4, 3), (0, 3)], heights])
-    return SimpleNamespace(vertices=corners, faces=np.array([(0, 1, 2), (0, 2, 3)]), boundary=np.arange(4))
+    faces = np.array([(0, 1, 2), (0, 2, 3)])
+    return SimpleNamespace(vertices=corners, faces=faces, boundary=np.arange(4), intersections=())
 
 
 def areas_by_colour(ax):
@@ -128,6 +129,14 @@ def test_hidden_part_of_the_curve_is_faint():
     surface.boundary = np.arange(4, 8)
     (line,) = plot_surface(surface, view=(-90, 90), pixels=100).lines
     assert line.get_alpha() is None
+
+
+def test_intersections_are_red_lines():
+    surface = flat_surface()
+    surface.intersections = (surface.vertices[[0, 2]],)
+    red = [line for line in plot_surface(surface, view=(-90, 90), pixels=100).lines if line.get_color() == OBSTRUCTION]
+    ends = np.concatenate([line.get_xydata() for line in red])
+    assert [ends.min(axis=0), ends.max(axis=0)] == [pytest.approx((-0.5, -0.375)), pytest.approx((0.5, 0.375))]
 
 
 @pytest.mark.parametrize("scale", [1e-8, 1e8])

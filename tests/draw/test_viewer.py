@@ -21,6 +21,7 @@ def small_surface(scale=1.0, shift=0.0):
         sheet=np.array([0, 1]),
         boundary=np.array([0, 1, 2, 3]),
         gap=1.0,
+        intersections=(),
         layering=SimpleNamespace(level=np.array([1, 2])),
     )
 
@@ -92,6 +93,7 @@ def test_page_holds_the_mesh_of_the_surface(written):
 @pytest.mark.parametrize(("scale", "shift"), [(1.0, 0.0), (1e-8, 0.0), (1e8, 0.0), (1.0, 1e6), (1e-3, -1e4)])
 def test_data_decode_to_the_mesh(scale, shift):
     surface = small_surface(scale, shift)
+    surface.intersections = (surface.vertices[[0, 2]], surface.vertices[[1, 2, 3]])
     data = mesh_data(surface)
     vertices = np.array(data["centre"]) + data["scale"] * decoded(data, "vertices", "<f4").reshape(-1, 3).astype(float)
     assert np.abs(vertices - surface.vertices).max() < 1e-6 * 4 * scale
@@ -99,6 +101,9 @@ def test_data_decode_to_the_mesh(scale, shift):
     assert (decoded(data, "boundary", "<u4") == surface.boundary).all()
     assert (decoded(data, "sheet", "<u4") == surface.sheet).all()
     assert (decoded(data, "level", "<u4") == surface.layering.level).all()
+    for stored, polyline in zip(data["intersections"], surface.intersections, strict=True):
+        places = decoded({"polyline": stored}, "polyline", "<f4").reshape(-1, 3).astype(float)
+        assert np.abs(np.array(data["centre"]) + data["scale"] * places - polyline).max() < 1e-6 * 4 * scale
 
 
 def test_there_is_a_colour_for_every_level():
@@ -183,6 +188,18 @@ def test_top_view_equals_the_drawing(shown):
     for x, y, inside in [(-1.9, 0.9, True), (1.9, -1.0, True), (0, 1.6, False), (2.1, 0, False)]:
         red, _, blue = colour_at(shown, round(350 + pixels * x), round(250 - pixels * y))
         assert (blue > red + 40) == inside
+
+
+def test_intersections_are_red_lines(browser, tmp_path):
+    surface = small_surface()
+    surface.intersections = (surface.vertices[[0, 2]],)
+    file = tmp_path / "page.html"
+    file.write_text(page(surface))
+    tab = browser.new_page(viewport={"width": 700, "height": 500})
+    tab.goto(file.as_uri())
+    red, green, blue = colour_at(tab, 350, 250)
+    assert red > max(green, blue) + 100
+    tab.close()
 
 
 def test_see_through_lets_light_through(shown):

@@ -34,7 +34,7 @@ def test_least_energy(name):
     the columns A = R⁻ᵀDᵀ that is ½ |Af|² − 1ᵀf; adding a row of large ones turns it into least squares.
     """
     points, mesh = glued(CURVES[name].curve.points)
-    problem = _contact_problem(points, mesh)
+    problem = _contact_problem(points, mesh, np.ones(len(mesh.stacked)))
     energy, difference = problem.energy.toarray(), problem.difference.toarray()
     z = smooth_heights(points, mesh, 1.0)
     root = np.linalg.cholesky(energy[1:, 1:])
@@ -123,7 +123,7 @@ def test_energy_of_a_plane():
     points, mesh = glued(CURVES["stacked-spiral"].curve.points, triangles=2000)
     x, y = points[mesh.planar_vertex].T
     size = max(np.ptp(x), np.ptp(y))
-    energy = _contact_problem(points, mesh).energy
+    energy = _contact_problem(points, mesh, np.ones(len(mesh.stacked))).energy
     boundary_free = np.setdiff1d(np.arange(len(x)), _two_rings(mesh))
     pull = energy @ ((3 * x - 4 * y) / size)
     assert np.abs(pull[boundary_free]).max() < 1e-2 * np.abs(pull).max()

@@ -16,12 +16,14 @@ from plyfold.certify.layered import check_layered
 __all__ = ["CertificateError", "check_disk_mesh", "check_immersed_disk", "check_layered", "check_surface"]
 
 
-def check_surface(
+def check_surface(  # noqa: PLR0913 - the parts of a mesh, and two options
     curve_points: npt.ArrayLike,
     vertices: npt.ArrayLike,
     faces: npt.ArrayLike,
     boundary: npt.ArrayLike,
     gap: float = 0.0,
+    *,
+    passing: npt.ArrayLike = (),
 ) -> None:
     """Check that a mesh in space is an embedded disk that seen from above is immersed and bounded by the curve.
 
@@ -36,6 +38,8 @@ def check_surface(
         Vertices along the curve, from the curve's first point.
     gap : float, optional
         Least vertical distance.
+    passing : array_like of int, shape (e, 4), optional
+        Edges along which sheets may pass through each other, see :func:`check_layered`.
 
     Raises
     ------
@@ -49,4 +53,4 @@ def check_surface(
     """
     positions = finite(vertices, 3)
     check_immersed_disk(curve_points, positions[:, :2], faces, boundary)
-    check_layered(positions, faces, gap)
+    check_layered(positions, faces, gap, passing)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -23,7 +24,7 @@ __all__ = ["check_layered"]
 _PAIRS_AT_A_TIME = 1 << 20
 
 
-def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.0) -> None:
+def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.0, passing: npt.ArrayLike = ()) -> None:
     """Check that lifted triangles are stacked and do not meet except in common vertices and edges.
 
     Parameters
@@ -34,19 +35,26 @@ def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.
         Vertices of each triangle, counter-clockwise seen from above.
     gap : float, optional
         Least vertical distance; ``lower + gap <= upper`` must hold in floating point.
+    passing : array_like of int, shape (e, 4), optional
+        Rows (a, b, c, d): the edge from a to b and the one from c to d lie over one another, and the sheets may pass
+        through each other along them: the heights of a and c, and of b and d, are not compared.
 
     Raises
     ------
     CertificateError
-        If two vertices over one place are equal in height or nearer than the gap, triangles or edges over one another
-        are not in the same order at all their corners, or the flat triangles below overlap other than as exact
-        copies. It names the place.
+        If a row of ``passing`` does not name edges over one another, two other vertices over one place are equal in
+        height or nearer than the gap, triangles or edges over one another are not in the same order at all their
+        corners, or the flat triangles below overlap other than as exact copies. It names the place.
 
     Notes
     -----
     Why this proves it: seen from above, two triangles either coincide or meet in a common corner or edge or not at
     all. Over a common corner, different vertices have different heights; over a common edge, two different edges have
     the same order at both ends, hence all along; over a common triangle likewise.
+
+    With ``passing``, the order is open at the corners that it names and the same at all others, of which every triangle
+    has one, and every edge that is not named. So two triangles over one another meet at most in a segment that cuts
+    off named corners, and sheets pass through each other only in triangles at the named edges.
 
     The flat triangles are compared in pairs whose boxes meet, found by a sweep: about p^1.5 steps for p different
     flat triangles of similar size, p^2 if they are all long. 1e5 triangles, three deep, take about a second.
@@ -65,22 +73,100 @@ def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.
     triangles = as_faces(faces, len(positions))
     places, place = np.unique(positions[:, :2], axis=0, return_inverse=True)
     height, below = positions[:, 2], place.reshape(-1)
-    _require_gap(positions, below, gap)
     require_positive(positions[:, :2], triangles)
     flat = _from_lowest_corner(below, triangles)
-    _require_one_order("triangles", below[flat], height[flat], places)
     edges = _different_edges(below, triangles)
-    _require_one_order("edges", below[edges], height[edges], places)
+    named = _named_pairs(passing, edges, below)
+    stacks = _Stacks(below, height, places, _keys(edges[named].swapaxes(1, 2).reshape(-1, 2), len(positions)))
+    stacks.require_gap(gap)
+    stacks.require_one_order("triangles", flat)
+    stacks.require_one_order("edges", edges, _keys(named, len(edges)))
     _require_no_overlap(np.unique(below[flat], axis=0), places)
 
 
-def _require_gap(positions: Floats, below: Ints, gap: float) -> None:
-    order = np.lexsort((positions[:, 2], below))
-    stacked = np.flatnonzero(np.diff(below[order]) == 0)
-    lower, upper = positions[order[stacked], 2], positions[order[stacked + 1], 2]
-    if len(bad := np.flatnonzero(~((lower < upper) & (lower + gap <= upper)))):
-        place = positions[order[stacked[bad]], :2]
-        raise CertificateError(f"vertices over one another are less than {max(gap, 0.0):g} apart, or equal", place)
+@dataclass(frozen=True, eq=False)
+class _Stacks:
+    """The place below each vertex, its height, the places, and keys of the pairs of vertices that are not compared."""
+
+    below: Ints
+    height: Floats
+    places: Floats
+    open_pairs: Ints
+
+    def require_gap(self, gap: float) -> None:
+        """Check that vertices over one another are at least so far apart."""
+        vertices = np.arange(len(self.below))[:, None]
+        first, second = self._compared(vertices)
+        lower, upper = self.height[first], self.height[second]
+        bad = np.flatnonzero(~((lower < upper) & (lower + gap <= upper)) & ~self._is_open(first, second))
+        if len(bad):
+            raise CertificateError(
+                f"vertices over one another are less than {max(gap, 0.0):g} apart, or equal",
+                where=self.places[self.below[first[bad]]],
+            )
+
+    def require_one_order(self, name: str, things: Ints, named: Ints | None = None) -> None:
+        """Check that things over the same places have strictly the same order at all corners that are compared.
+
+        There must be such corners, unless the two things are named by the key of their numbers.
+        """
+        first, second = self._compared(things)
+        a, b = things[first], things[second]
+        compared = ~self._is_open(a, b)
+        rises, falls = (
+            compared & sides for sides in (self.height[a] < self.height[b], self.height[a] > self.height[b])
+        )
+        same = (rises == compared).all(axis=1) | (falls == compared).all(axis=1)
+        decided: Bools = np.asarray(compared.any(axis=1))
+        if named is not None:
+            decided |= np.isin(_keys(np.stack([first, second], axis=1), len(things)), named)
+        if len(wrong := np.flatnonzero(~(same & decided))):
+            what = "change their order" if decided[wrong[0]] else "have no order"
+            raise CertificateError(f"two {name} over one another {what}", where=self.places[self.below[a[wrong[0]]]])
+
+    def _is_open(self, a: Ints, b: Ints) -> Bools:
+        if not len(self.open_pairs):
+            return np.zeros(a.shape, dtype=bool)
+        return np.isin(_keys(np.stack([a, b], axis=-1), len(self.below)), self.open_pairs)
+
+    def _compared(self, things: Ints) -> tuple[Ints, Ints]:
+        """Return numbers of things over the same places, the one with the lower first corner first.
+
+        Neighbours are enough; but where an order is open, all pairs.
+        """
+        below = self.below[things]
+        order = np.lexsort((self.height[things[:, 0]], *below.T[::-1]))
+        new = np.concatenate([[True], (below[order[1:]] != below[order[:-1]]).any(axis=1)])
+        stack = np.cumsum(new) - 1
+        size = np.bincount(stack)
+        followers = np.cumsum(size)[stack] - np.arange(len(order)) - 1
+        has_open = np.unique(stack[np.flatnonzero(np.isin(things[order], self._open_vertices())) // things.shape[1]])
+        followers = np.where(np.isin(stack, has_open), followers, np.minimum(followers, 1))
+        first = np.repeat(np.arange(len(order)), followers)
+        second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(followers) - followers, followers)
+        return order[first], order[second]
+
+    def _open_vertices(self) -> Ints:
+        return np.unique(np.divmod(self.open_pairs, len(self.below)))
+
+
+def _keys(pairs: Ints, count: int) -> Ints:
+    """Return one number for each pair of numbers below the count, whichever comes first."""
+    return np.asarray(pairs.min(axis=-1) * count + pairs.max(axis=-1))
+
+
+def _named_pairs(passing: npt.ArrayLike, edges: Ints, below: Ints) -> Ints:
+    """Return the pairs of edges that may pass through each other, as numbers of edges."""
+    rows = np.asarray(passing, dtype=np.int64).reshape(-1, 2, 2)
+    backwards = below[rows[:, 0, 0]] > below[rows[:, 0, 1]]
+    rows = np.where(backwards[:, None, None], rows[:, :, ::-1], rows)
+    # The edges are sorted.
+    key, wanted = (ends[..., 0] * len(below) + ends[..., 1] for ends in (edges, rows))
+    pairs = np.minimum(np.searchsorted(key, wanted), len(key) - 1)
+    over = (below[rows[:, 0]] == below[rows[:, 1]]).all(axis=1) & (rows[:, 0] != rows[:, 1]).all(axis=1)
+    if len(bad := np.flatnonzero(~(over & (key[pairs] == wanted).all(axis=1)))):
+        raise CertificateError(f"passing sheets, row {bad[0]}: these are not two edges over one another")
+    return np.asarray(pairs)
 
 
 def _from_lowest_corner(below: Ints, triangles: Ints) -> Ints:
@@ -95,16 +181,6 @@ def _different_edges(below: Ints, triangles: Ints) -> Ints:
     swapped = below[ends[:, 0]] > below[ends[:, 1]]
     ends[swapped] = ends[swapped, ::-1]
     return np.unique(ends, axis=0)
-
-
-def _require_one_order(name: str, below: Ints, heights: Floats, places: Floats) -> None:
-    """Check that things over the same places have strictly the same order at all their corners."""
-    order = np.lexsort((heights[:, 0], *below.T[::-1]))
-    below, heights = below[order], heights[order]
-    same = (below[1:] == below[:-1]).all(axis=1)
-    wrong = np.flatnonzero(same & ~(heights[:-1] < heights[1:]).all(axis=1))
-    if len(wrong):
-        raise CertificateError(f"two {name} over one another change their order", where=places[below[wrong[0]]])
 
 
 def _require_no_overlap(triangles: Ints, places: Floats) -> None:

@@ -14,6 +14,7 @@ from plyfold.draw.plots import plot_arrangement, plot_disk_layout, plot_layers, 
 from plyfold.immersion import Immersion
 from plyfold.io.saving import refuse_existing, save_bytes
 from plyfold.layering import Layering
+from plyfold.layering.intersections import IntersectingLayering
 from plyfold.surface import Surface
 
 if TYPE_CHECKING:
@@ -92,9 +93,11 @@ def save(figure: Figure, path: str | PathLike[str], force: bool = False) -> None
     save_bytes(path, drawn.getvalue(), force)
 
 
-def _panels(value: Arrangement | Immersion | Layering, obstruction: Obstruction | None) -> Panels:
+def _panels(
+    value: Arrangement | Immersion | Layering | IntersectingLayering, obstruction: Obstruction | None
+) -> Panels:
     """Return the title and the picture of every stage up to this one."""
-    if isinstance(value, Layering):
+    if isinstance(value, Layering | IntersectingLayering):
         return [*_panels(value.immersion, obstruction), ("The layers", partial(plot_layers, value))]
     if isinstance(value, Immersion):
         return [*_panels(value.arrangement, obstruction), ("The disk layout", partial(plot_disk_layout, value))]

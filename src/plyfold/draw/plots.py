@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from plyfold.arrangement import Arrangement
     from plyfold.immersion import Immersion
     from plyfold.layering import Layering
+    from plyfold.layering.intersections import IntersectingLayering
     from plyfold.obstruction import Obstruction
     from plyfold.surface import Surface
 
@@ -138,7 +139,7 @@ def plot_disk_layout(immersion: Immersion, ax: Axes | None = None) -> Axes:
     return axes
 
 
-def plot_layers(layering: Layering, ax: Axes | None = None) -> Axes:
+def plot_layers(layering: Layering | IntersectingLayering, ax: Axes | None = None) -> Axes:
     """Draw the layers one above the other, pulled apart and seen at a slant.
 
     Each layer holds one sheet over every cell it covers, coloured as in :func:`plot_disk_layout`; the strands of the
@@ -146,7 +147,7 @@ def plot_layers(layering: Layering, ax: Axes | None = None) -> Axes:
 
     Parameters
     ----------
-    layering : Layering
+    layering : Layering or IntersectingLayering
     ax : matplotlib Axes, optional
         Where to draw; by default on a new figure.
 
@@ -185,6 +186,8 @@ def plot_surface(
 ) -> Axes:
     """Draw the lifted surface, shaded: blue on top, warm below, the curve as a dark line, faint where it is hidden.
 
+    Where sheets pass through each other, there is a red line.
+
     Parameters
     ----------
     surface : Surface
@@ -209,10 +212,13 @@ def plot_surface(
     1
     """
     axes = _blank(ax)
-    mesh = _unit_mesh(surface, stretch)
+    unit = _Unit(surface, stretch)
+    mesh = Mesh(unit(surface.vertices), surface.faces)
     image = shade(mesh, View.of(*(_DIRECTIONS[view] if isinstance(view, str) else view)), pixels)
     axes.imshow(image.colours, origin="lower", extent=image.extent, interpolation="antialiased", zorder=1)
-    _boundary(axes, mesh.vertices[_closed(surface.boundary)], image)
+    _line_in_space(axes, mesh.vertices[_closed(surface.boundary)], image, INK)
+    for polyline in surface.intersections:
+        _line_in_space(axes, unit(polyline), image, OBSTRUCTION)
     return axes
 
 
@@ -272,7 +278,7 @@ def write_below(axes: Axes, sentence: str) -> None:
 # ---- the parts of a layering ---------------------------------------------------------------------------------------
 
 
-def _layer(axes: Axes, layering: Layering, level: int, frame: Frame, lift: Floats) -> None:
+def _layer(axes: Axes, layering: Layering | IntersectingLayering, level: int, frame: Frame, lift: Floats) -> None:
     immersion = layering.immersion
     arrangement = immersion.arrangement
     for sheet in np.flatnonzero(layering.level == level).tolist():
@@ -287,26 +293,29 @@ def _layer(axes: Axes, layering: Layering, level: int, frame: Frame, lift: Float
 # ---- the parts of a surface ----------------------------------------------------------------------------------------
 
 
-def _unit_mesh(surface: Surface, stretch: float | None) -> Mesh:
-    """Return the surface scaled to size 1 in the plane, with the heights stretched."""
-    middle, _ = middle_and_size(surface.vertices)
-    _, size = middle_and_size(surface.vertices[:, :2])
-    unit = (surface.vertices - middle) / size
-    factor = natural_stretch(surface.vertices) if stretch is None else stretch
-    return Mesh(unit * (1.0, 1.0, factor), surface.faces)
+class _Unit:
+    """A surface scaled to size 1 in the plane, with the heights stretched."""
+
+    def __init__(self, surface: Surface, stretch: float | None) -> None:
+        self.middle, _ = middle_and_size(surface.vertices)
+        _, self.size = middle_and_size(surface.vertices[:, :2])
+        self.stretch = natural_stretch(surface.vertices) if stretch is None else stretch
+
+    def __call__(self, points: Floats) -> Floats:
+        return np.asarray((points - self.middle) / self.size * (1.0, 1.0, self.stretch))
 
 
-def _boundary(axes: Axes, corners: Floats, image: Image) -> None:
-    """Draw the curve in space over the image: dark where it is seen, faint where something lies before it."""
+def _line_in_space(axes: Axes, corners: Floats, image: Image, colour: str) -> None:
+    """Draw a polyline in space over the image: dark where it is seen, faint where something lies before it."""
     points = _resampled(corners, 2 * image.seen.pixels.size)
     hidden = image.hidden(points)
     cuts = np.flatnonzero(hidden[1:] != hidden[:-1]) + 1
     plane = image.view.project(points)[:, :2]
     for start, end in zip([0, *cuts], [*cuts, len(plane)], strict=True):
         if hidden[start]:
-            _line(axes, plane[start : end + 1], INK, 0.8, zorder=2, alpha=0.28)
+            _line(axes, plane[start : end + 1], colour, 0.8, zorder=2, alpha=0.28)
         else:
-            _line(axes, plane[start : end + 1], INK, 1.5, zorder=3)
+            _line(axes, plane[start : end + 1], colour, 1.5, zorder=3)
 
 
 def _resampled(points: Floats, step: float) -> Floats:

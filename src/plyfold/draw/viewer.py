@@ -95,11 +95,13 @@ def mesh_data(surface: Surface) -> dict[str, Any]:
         "sheet": _base64(surface.sheet, "<u4"),
         "level": _base64(level, "<u4"),
         "boundary": _base64(surface.boundary, "<u4"),
+        "intersections": [_base64((polyline - centre) / scale, "<f4") for polyline in surface.intersections],
         "palette": {
             "cloth": [colours.CLOTH_LOW, colours.CLOTH_HIGH],
             "back": colours.BACK,
             "ink": colours.INK,
             "paleInk": _PALE_INK,
+            "intersection": colours.OBSTRUCTION,
             "layers": [colours.layer_colour(i + 1, levels) for i in range(levels)],
             "sheets": [colours.sheet_colour(i) for i in range(3 * len(colours.SHEETS))],
         },

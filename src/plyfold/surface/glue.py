@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from plyfold.arrangement.planar_map import Ints
 from plyfold.flat.cells import CellTriangulation
 from plyfold.flat.sheets import SheetMesh, glue_copies
-
-if TYPE_CHECKING:
-    from plyfold.layering import Layering
+from plyfold.immersion import Immersion
+from plyfold.layering import Layering
+from plyfold.layering.intersections import IntersectingLayering
+from plyfold.surface.passages import passing_edges, stacked_but_passing
 
 __all__ = ["LiftedMesh", "glue_sheets"]
 
@@ -34,7 +34,11 @@ class LiftedMesh:
     level : (v,) int
         How many vertices lie below each vertex, over the same point.
     stacked : (c, 2) int
-        Rows (lower, upper): vertices next to each other over the same point.
+        Rows (lower, upper): vertices next to each other over the same point. Over points where sheets pass through
+        each other, all pairs of vertices but those that do.
+    passing : (e, 4) int
+        Rows (a, b, c, d): one sheet has an edge from a to b and another one an edge from c to d, over the same piece
+        of a border, along which they pass through each other. Their order there is open.
     """
 
     planar_vertex: Ints
@@ -43,14 +47,15 @@ class LiftedMesh:
     boundary: Ints
     level: Ints
     stacked: Ints
+    passing: Ints
 
 
-def glue_sheets(layering: Layering, mesh: CellTriangulation) -> LiftedMesh:
+def glue_sheets(layering: Layering | IntersectingLayering, mesh: CellTriangulation) -> LiftedMesh:
     """Copy the triangles of each cell once per sheet, glue the copies and stack them.
 
     Parameters
     ----------
-    layering : Layering
+    layering : Layering or IntersectingLayering
     mesh : CellTriangulation
         Of the same arrangement.
 
@@ -70,16 +75,23 @@ def glue_sheets(layering: Layering, mesh: CellTriangulation) -> LiftedMesh:
     ((1, 3), [0, 1, 2], [])
     """
     glued = glue_copies(layering.immersion, mesh)
-    return LiftedMesh(glued.planar_vertex, glued.faces, glued.sheet, glued.boundary, *_stacks(layering, mesh, glued))
+    level, stacked = _stacks(layering.immersion, layering.level, mesh, glued)
+    passing = np.empty((0, 4), dtype=np.int64)
+    if isinstance(layering, IntersectingLayering):
+        passing = passing_edges(layering, mesh, glued)
+        stacked = stacked_but_passing(stacked, level, glued.planar_vertex, passing)
+    return LiftedMesh(
+        glued.planar_vertex, glued.faces, glued.sheet, glued.boundary, level=level, stacked=stacked, passing=passing
+    )
 
 
-def _stacks(layering: Layering, mesh: CellTriangulation, glued: SheetMesh) -> tuple[Ints, Ints]:
+def _stacks(immersion: Immersion, sheet_level: Ints, mesh: CellTriangulation, glued: SheetMesh) -> tuple[Ints, Ints]:
     """Return the level of each vertex and the pairs of vertices next to each other over a point.
 
     Around a crossing lie four cells; every sheet of the other three is glued to one of the highest cell, so its
     order is the order of all vertices over the crossing. Along a border, likewise.
     """
-    winding = layering.immersion.arrangement.winding[mesh.cell]
+    winding = immersion.arrangement.winding[mesh.cell]
     corner_of_point = np.zeros(len(mesh.points), dtype=np.int64)
     by_height = np.argsort(winding, kind="stable")
     corner_of_point[mesh.triangles[by_height].ravel()] = (3 * by_height[:, None] + np.arange(3)).ravel()
@@ -93,7 +105,7 @@ def _stacks(layering: Layering, mesh: CellTriangulation, glued: SheetMesh) -> tu
     sheet = glued.first_sheet[repeated // 3] + step
     stacked_vertex = vertex[glued.lifted(repeated, sheet)]
     level = np.empty(len(planar_vertex), dtype=np.int64)
-    level[stacked_vertex] = layering.level[sheet] - 1
+    level[stacked_vertex] = sheet_level[sheet] - 1
     order = np.lexsort((level, planar_vertex))
     above = np.flatnonzero(np.diff(planar_vertex[order]) == 0)
     return level, np.stack([order[above], order[above + 1]], axis=1)

@@ -13,6 +13,9 @@ over the load of the springs after each round, until these have nothing left to 
 the energy is convex and piecewise quadratic, so Newton's method ends after a few steps. (Stiff springs alone would
 leave a rest, above all where sheets touch in a single point, and removing it afterwards would draw a spike there.)
 A last projection, of the size of rounding errors, makes the distance hold at every vertex in floating point too.
+
+Where two sheets pass through each other, their distance may shrink to nothing: near there it is half the way along the
+sheets to that place, if this is less than the gap.
 """
 
 from __future__ import annotations
@@ -28,6 +31,7 @@ from plyfold.arrangement.planar_map import Ints
 from plyfold.layering import Progress
 from plyfold.predicates import Floats
 from plyfold.surface.glue import LiftedMesh
+from plyfold.surface.passages import shares_of_gap
 
 __all__ = ["smooth_heights"]
 
@@ -65,7 +69,7 @@ def smooth_heights(points: Floats, mesh: LiftedMesh, gap: float, progress: Progr
     -------
     (v,) float
         Heights of the mesh's vertices, the lowest 0; all 0 if no two sheets overlap. For each row (lower, upper) of
-        ``mesh.stacked``, ``z[lower] + gap <= z[upper]`` holds exactly.
+        ``mesh.stacked``, ``z[lower] + gap <= z[upper]`` holds exactly, or with a share of the gap near intersections.
 
     Notes
     -----
@@ -74,7 +78,7 @@ def smooth_heights(points: Floats, mesh: LiftedMesh, gap: float, progress: Progr
     """
     if len(mesh.stacked) == 0:
         return np.zeros(len(mesh.planar_vertex))
-    problem = _contact_problem(points, mesh)
+    problem = _contact_problem(points, mesh, shares_of_gap(points, mesh, gap))
     # With the gap as the unit of height, the numbers are of the order of 1.
     z = mesh.level.astype(np.float64)
     force = np.zeros(len(mesh.stacked))
@@ -83,22 +87,23 @@ def smooth_heights(points: Floats, mesh: LiftedMesh, gap: float, progress: Progr
             z = better
             if progress is not None:
                 progress("smoothing heights", (done + step / _NEWTON_STEPS) / len(_STIFFNESS))
-        overlap = 1 - problem.difference @ z
+        overlap = problem.apart - problem.difference @ z
         if overlap.max() < _REST:
             break
         force = np.maximum(0, force + stiffness * overlap)
-    return _kept_apart(z, mesh, gap)
+    return _kept_apart(z, mesh, problem.apart, gap)
 
 
 @dataclass(frozen=True, eq=False)
 class _ContactProblem:
-    """The quadratic energy ½ zᵀ K z, and the differences of stacked vertices, upper minus lower."""
+    """The quadratic energy ½ zᵀ K z, differences of stacked vertices, upper minus lower, and how large they must be."""
 
     energy: Any
     difference: Any
+    apart: Floats
 
 
-def _contact_problem(points: Floats, mesh: LiftedMesh) -> _ContactProblem:
+def _contact_problem(points: Floats, mesh: LiftedMesh, apart: Floats) -> _ContactProblem:
     from scipy.sparse import csr_array, diags_array
 
     corners = points[mesh.planar_vertex]
@@ -113,7 +118,7 @@ def _contact_problem(points: Floats, mesh: LiftedMesh) -> _ContactProblem:
     n, c = len(corners), len(mesh.stacked)
     signs = np.tile([-1.0, 1.0], c)
     difference = csr_array((signs, (np.repeat(np.arange(c), 2), mesh.stacked.ravel())), shape=(c, n))
-    return _ContactProblem((_BENDING_LENGTH * mean_width) ** 2 * bending + membrane, difference)
+    return _ContactProblem((_BENDING_LENGTH * mean_width) ** 2 * bending + membrane, difference, apart)
 
 
 def _cotangent_laplacian(corners: Floats, faces: Ints) -> tuple[Any, Floats]:
@@ -142,7 +147,7 @@ def _newton_steps(problem: _ContactProblem, z: Floats, force: Floats, stiffness:
     for _ in range(_NEWTON_STEPS):
         contact = problem.difference[np.flatnonzero(pressing)]
         matrix = (problem.energy + stiffness * (contact.T @ contact)).tocsc()
-        load = contact.T @ (force[pressing] + stiffness)
+        load = contact.T @ (force + stiffness * problem.apart)[pressing]
         # Heights are known up to a constant: hold one vertex.
         solver = splu(
             matrix[1:, 1:], permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
@@ -156,23 +161,46 @@ def _newton_steps(problem: _ContactProblem, z: Floats, force: Floats, stiffness:
 
 def _pressing(problem: _ContactProblem, z: Floats, force: Floats, stiffness: float) -> npt.NDArray[np.bool_]:
     """Tell which stacked vertices push each other apart."""
-    return np.asarray(force + stiffness * (1 - problem.difference @ z) > 0)
+    return np.asarray(force + stiffness * (problem.apart - problem.difference @ z) > 0)
 
 
-def _kept_apart(z: Floats, mesh: LiftedMesh, gap: float) -> Floats:
-    """Return the nearest heights in which stacked vertices keep their distance, in units of the drawing."""
+def _kept_apart(z: Floats, mesh: LiftedMesh, shares: Floats, gap: float) -> Floats:
+    """Return the nearest heights in which stacked vertices keep their distance, in units of the drawing.
+
+    Over points where sheets pass through each other, the heights are not the nearest, but a little higher.
+    """
     apart = z.copy()
+    least = _least_heights(mesh, shares)
+    in_chain = np.ones(len(z), dtype=bool)
+    in_chain[np.isin(mesh.planar_vertex, mesh.planar_vertex[mesh.passing])] = False
     order = np.lexsort((mesh.level, mesh.planar_vertex))
+    order = order[in_chain[order]]
     first = np.unique(mesh.planar_vertex[order], return_index=True)[1]
     length = np.diff(np.append(first, len(order)))
     for layers in np.unique(length[length > 1]).tolist():
         stack = order[first[length == layers][:, None] + np.arange(layers)]
-        apart[stack] = _nondecreasing(z[stack] - np.arange(layers)) + np.arange(layers)
+        apart[stack] = _nondecreasing(z[stack] - least[stack]) + least[stack]
     apart = np.asarray(gap * (apart - apart.min()))
     # The same distances once more, now as floating point has them.
-    for lower, upper in (mesh.stacked[mesh.level[mesh.stacked[:, 0]] == level].T for level in range(mesh.level.max())):
-        apart[upper] = np.maximum(apart[upper], apart[lower] + gap)
+    for rows in _rows_upward(mesh):
+        lower, upper = mesh.stacked[rows].T
+        np.maximum.at(apart, upper, apart[lower] + gap * shares[rows])
     return apart
+
+
+def _least_heights(mesh: LiftedMesh, shares: Floats) -> Floats:
+    """Return how high above the lowest vertex over its point each vertex must be."""
+    least = np.zeros(len(mesh.level))
+    for rows in _rows_upward(mesh):
+        lower, upper = mesh.stacked[rows].T
+        np.maximum.at(least, upper, least[lower] + shares[rows])
+    return least
+
+
+def _rows_upward(mesh: LiftedMesh) -> Iterator[Ints]:
+    """Yield the rows of stacked vertices, by the level of the lower one."""
+    level = mesh.level[mesh.stacked[:, 0]]
+    return (np.flatnonzero(level == number) for number in range(mesh.level.max()))
 
 
 def _nondecreasing(rows: Floats) -> Floats:

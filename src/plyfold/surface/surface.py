@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
 from itertools import chain
 from pathlib import Path
 from typing import cast
@@ -15,16 +15,20 @@ from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.core import CurveLike
 from plyfold.arrangement.planar_map import Ints
 from plyfold.curve import Curve
-from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError
+from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
 from plyfold.flat.cells import DEFAULT_TRIANGLES, MOST_TRIANGLES, refuse_max_area, triangulate_cells
 from plyfold.immersion import Immersion, find_immersion, immersions
 from plyfold.io.saving import refuse_existing, save_bytes
 from plyfold.layering import Layering, Progress, first_layering
+from plyfold.layering.clock import Clock
+from plyfold.layering.intersections import IntersectingLayering, least_intersecting_layering
 from plyfold.obstruction import Obstruction
 from plyfold.predicates import Floats
+from plyfold.surface.chords import split_chords
 from plyfold.surface.glue import glue_sheets
 from plyfold.surface.heights import smooth_heights
 from plyfold.surface.mesh_files import WRITERS
+from plyfold.surface.passages import intersection_curves
 
 __all__ = ["Surface", "lift"]
 
@@ -35,11 +39,11 @@ _LARGEST_GAP = 1000.0
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """An embedded surface over a layering, as a triangle mesh.
+    """A surface over a layering, as a triangle mesh; embedded, but for reported intersections where they are allowed.
 
     Parameters
     ----------
-    layering : Layering
+    layering : Layering or IntersectingLayering
         The order of the sheets that the surface realises.
     vertices : (n, 3) float
         Where x and y are those of the drawing; the curve's own points have the input's coordinates, bit for bit.
@@ -51,7 +55,13 @@ class Surface:
         Vertices along the curve in order, from its first point: 0, 1, …, b − 1. Crossings and points added on edges
         are among them.
     gap : float
-        Sheets over the same point are at least this far apart, at every vertex.
+        Sheets over the same point are at least this far apart, at every vertex. Near intersections the distance of
+        the sheets concerned is at least half the way along them to the intersection, where that is less.
+    passing : (e, 4) int
+        Rows (a, b, c, d): the edges from a to b and from c to d lie over each other, and two sheets pass through each
+        other along them. None but with ``lift(..., allow_intersections=True)``.
+    intersections : tuple of (m, 3) float
+        Polylines along which sheets pass through each other, rounded; the first point is repeated where they close.
 
     Examples
     --------
@@ -61,15 +71,17 @@ class Surface:
     >>> ramp.check()
     """
 
-    layering: Layering
+    layering: Layering | IntersectingLayering
     vertices: Floats
     faces: Ints
     sheet: Ints
     boundary: Ints
     gap: float
+    passing: Ints = field(default_factory=lambda: np.empty((0, 4), dtype=np.int64))
+    intersections: tuple[Floats, ...] = ()
 
     def __post_init__(self) -> None:
-        for array in (self.vertices, self.faces, self.sheet, self.boundary):
+        for array in (self.vertices, self.faces, self.sheet, self.boundary, self.passing, *self.intersections):
             array.flags.writeable = False
 
     def __repr__(self) -> str:
@@ -86,7 +98,8 @@ class Surface:
         """Prove the surface right with the independent checkers of :mod:`plyfold.certify`.
 
         Every triangle is positive seen from above, the mesh is a disk, its outline is the curve, the angles at its
-        vertices are those of an immersion, and the sheets over every point are in strict order.
+        vertices are those of an immersion, and the sheets over every point are in strict order. Where sheets may pass
+        through each other, they do so only in triangles along the edges that :attr:`passing` names.
 
         Raises
         ------
@@ -99,7 +112,8 @@ class Surface:
         """
         from plyfold.certify import check_surface
 
-        check_surface(self.curve.points, self.vertices, self.faces, self.boundary, self.gap)
+        gap = 0.0 if len(self.passing) else self.gap
+        check_surface(self.curve.points, self.vertices, self.faces, self.boundary, gap, passing=self.passing)
 
     def export(self, path: str | os.PathLike[str], force: bool = False, title: str | None = None) -> None:
         """Write the surface to a file.
@@ -153,8 +167,9 @@ class Surface:
 
 
 def lift(  # noqa: PLR0913 - each option is keyword-only and independent
-    curve: CurveLike | Immersion | Layering,
+    curve: CurveLike | Immersion | Layering | IntersectingLayering,
     *,
+    allow_intersections: bool = False,
     gap: float | None = None,
     triangles: int = DEFAULT_TRIANGLES,
     max_area: float | None = None,
@@ -165,8 +180,11 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry, Arrangement, Immersion or Layering
+    curve : Curve, (n, 2) array_like, shapely geometry, Arrangement, Immersion, Layering or IntersectingLayering
         Of a curve the first immersion that can be layered is lifted.
+    allow_intersections : bool
+        If no immersion can be layered, lift the one that does with the shortest self-intersections, as far as is known
+        (``surface.layering.optimal``), and report them.
     gap : float, optional
         Least distance of sheets over the same point, in units of the drawing; 1/20 of its larger side by default.
     triangles : int, optional
@@ -187,9 +205,10 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     NotImmersibleError
         If the curve bounds no immersed disk; ``error.obstruction`` says why.
     NotEmbeddableError
-        If none of its immersions can be layered; ``error.obstruction`` belongs to the first.
+        If none of its immersions can be layered; ``error.obstruction`` belongs to the first. Not with
+        ``allow_intersections``.
     TimeLimitError
-        If the time limit was reached: the answer is unknown.
+        If the time limit was reached: the answer is unknown. Not with ``allow_intersections``.
     PrecisionError
         If double precision cannot hold the mesh.
     InputError
@@ -207,18 +226,21 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     ([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]], [[0, 1, 2]])
     """
     report = progress or _silent
-    layering = _layering_of(curve, time_limit, report)
+    layering = _layering_of(curve, allow_intersections, time_limit, report)
     drawn = layering.immersion.arrangement
     distance = _distance(drawn, gap)
     _refuse_sizes(drawn, triangles, max_area)
     report("triangulating the cells", 0.0)
     cells = triangulate_cells(drawn, max_area, triangles)
+    if isinstance(layering, IntersectingLayering):
+        cells = split_chords(cells, layering.intersections[:, 0])
     report("gluing the sheets", 0.0)
     mesh = glue_sheets(layering, cells)
     report("smoothing heights", 0.0)
     heights = smooth_heights(cells.points, mesh, distance, report)
     vertices = np.column_stack([cells.points[mesh.planar_vertex], heights])
-    return Surface(layering, vertices, mesh.faces, mesh.sheet, mesh.boundary, distance)
+    curves = intersection_curves(vertices, mesh)
+    return Surface(layering, vertices, mesh.faces, mesh.sheet, mesh.boundary, distance, mesh.passing, curves)
 
 
 def _silent(stage: str, done: float) -> None:
@@ -246,11 +268,17 @@ def _refuse_sizes(drawn: Arrangement, triangles: int, max_area: float | None) ->
         refuse_max_area(drawn.curve.points, max_area)
 
 
-def _layering_of(curve: CurveLike | Immersion | Layering, time_limit: float | None, report: Progress) -> Layering:
-    if isinstance(curve, Layering):
+def _layering_of(
+    curve: CurveLike | Immersion | Layering | IntersectingLayering,
+    allow_intersections: bool,
+    time_limit: float | None,
+    report: Progress,
+) -> Layering | IntersectingLayering:
+    if isinstance(curve, Layering | IntersectingLayering):
         return curve
+    choose = _least_intersecting if allow_intersections else _liftable
     if isinstance(curve, Immersion):
-        return _liftable([curve], time_limit, report)
+        return choose([curve], time_limit, report)
     report("finding the crossings", 0.0)
     drawn = arrangement(curve)
     report("finding an immersion", 0.0)
@@ -258,7 +286,7 @@ def _layering_of(curve: CurveLike | Immersion | Layering, time_limit: float | No
     first = next(candidates, None)
     if first is None:
         raise NotImmersibleError(cast(Obstruction, find_immersion(drawn)))
-    return _liftable(chain([first], candidates), time_limit, report)
+    return choose(chain([first], candidates), time_limit, report)
 
 
 def _liftable(candidates: Iterable[Immersion], time_limit: float | None, report: Progress) -> Layering:
@@ -266,3 +294,26 @@ def _liftable(candidates: Iterable[Immersion], time_limit: float | None, report:
     if isinstance(found, Layering):
         return found
     raise NotEmbeddableError(found, hint=f"{examined} immersion(s) were examined")
+
+
+def _least_intersecting(
+    candidates: Iterable[Immersion], time_limit: float | None, report: Progress
+) -> Layering | IntersectingLayering:
+    """Return a layering of the first immersion that has one, or else the best of those examined in time."""
+    clock = Clock(time_limit)
+    examined: list[Immersion] = []
+    try:
+        return _liftable(_noted(candidates, examined), None if time_limit is None else time_limit / 2, report)
+    except (NotEmbeddableError, TimeLimitError):
+        report("looking for short intersections", 0.0)
+    best = least_intersecting_layering(examined[0], clock.left)
+    for immersion in examined[1:]:
+        if not clock.over:
+            best = min(best, least_intersecting_layering(immersion, clock.left), key=lambda found: found.total_length)
+    return best
+
+
+def _noted(candidates: Iterable[Immersion], examined: list[Immersion]) -> Iterator[Immersion]:
+    for immersion in candidates:
+        examined.append(immersion)
+        yield immersion

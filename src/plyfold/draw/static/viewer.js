@@ -44,6 +44,7 @@ export function decode(data) {
     sheet: new Uint32Array(bytes(data.sheet)),
     level: new Uint32Array(bytes(data.level)),
     boundary: new Uint32Array(bytes(data.boundary)),
+    intersections: data.intersections.map((polyline) => new Float32Array(bytes(polyline))),
   };
 }
 
@@ -136,8 +137,17 @@ function boundaryLine(surface) {
   for (const vertex of [...surface.boundary, surface.boundary[0]]) {
     points.push(...surface.vertices.subarray(3 * vertex, 3 * vertex + 3));
   }
-  const material = new LineMaterial({ color: surface.palette.ink, linewidth: 2.4, alphaToCoverage: false });
-  return new Line2(new LineGeometry().setPositions(points), material);
+  return spaceLine(points, surface.palette.ink);
+}
+
+/** Red lines where sheets pass through each other. */
+function intersectionLines(surface) {
+  return surface.intersections.map((polyline) => spaceLine(polyline, surface.palette.intersection));
+}
+
+function spaceLine(positions, color) {
+  const material = new LineMaterial({ color, linewidth: 2.4, alphaToCoverage: false });
+  return new Line2(new LineGeometry().setPositions(positions), material);
 }
 
 // ---- scene -----------------------------------------------------------------------------------------------------
@@ -212,7 +222,7 @@ class Viewer {
     this.cloth = new Mesh(this.geometry, clothMaterial(this.surface.palette.back));
     this.cloth.castShadow = this.cloth.receiveShadow = true;
     this.line = boundaryLine(this.surface);
-    this.body = new Group().add(this.cloth, this.line);
+    this.body = new Group().add(this.cloth, this.line, ...intersectionLines(this.surface));
     this.scene.add(this.body, ...softLights());
     this.setColouring(this.colouring);
     this.setScale(this.surface.stretch);
