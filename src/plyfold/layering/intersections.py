@@ -98,7 +98,8 @@ def least_intersecting_layering(immersion: Immersion, time_limit: float | None =
     ----------
     immersion : Immersion
     time_limit : float, optional
-        Seconds after which the best orders so far are returned; none by default.
+        Seconds after which the best orders so far are returned; none by default. Setting up the problem is not
+        interrupted: about two seconds for 650 crossings and winding numbers up to 14.
 
     Returns
     -------
