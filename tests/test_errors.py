@@ -5,7 +5,8 @@ import pickle
 import pytest
 
 import plyfold as pf
-from plyfold.errors import CurveError, NotImmersibleError, PlyfoldError
+from plyfold.errors import CurveError, InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError
+from reference.random_curves import BENNEQUIN_LIKE
 
 
 def test_errors_survive_pickling():
@@ -29,3 +30,15 @@ def test_many_places_are_shortened():
     error = PlyfoldError("here", where=[(i, i) for i in range(9)])
     assert len(error.where) == 9
     assert str(error).endswith("(4, 4) and 4 more")
+
+
+def test_an_obstruction_handed_on_says_why():
+    nothing = pf.find_immersion([(0, 0), (2, 2), (2, 0), (0, 2)])
+    for use in (pf.find_layering, pf.count_layerings, pf.lift, lambda found: pf.flip_distance(found, found)):
+        with pytest.raises(NotImmersibleError, match="turns 0 times"):
+            use(nothing)
+    unliftable = (found for found in map(pf.find_layering, pf.immersions(BENNEQUIN_LIKE)) if not found)
+    with pytest.raises(NotEmbeddableError):
+        pf.lift(next(unliftable))
+    with pytest.raises(InputError, match="no immersion"):
+        pf.find_layering("a curve")

@@ -38,7 +38,7 @@ from plyfold.layering import (
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.surface import Surface, lift
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = [
     "Arrangement",

@@ -38,8 +38,8 @@ examples:
 
 FILE is an SVG, CSV, TXT, NPY, JSON, WKT or GeoJSON file, "-" for standard input, or gallery:NAME.
 
-exit codes: 0 a disk (or written), 1 no disk or not to be lifted, 2 bad input, 3 unknown (time limit),
-130 interrupted
+exit codes: 0 a disk (or written), 1 no disk or not to be lifted, 2 bad input,
+3 unknown whether it can be lifted (lift, draw: time limit), 130 interrupted
 """
 
 _JSON_GUIDE = """\
@@ -121,15 +121,18 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"plyfold {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     check = _command(commands, "check", _check, "say whether a curve bounds a disk, with all figures")
+    _time_limit(check)
     check.add_argument("--json", action="store_true", help="print one JSON object and nothing else (see below)")
     check.epilog, check.formatter_class = _JSON_GUIDE, argparse.RawDescriptionHelpFormatter
     lift = _command(commands, "lift", _lift, "lift a curve to a layered surface that does not cut itself")
+    _time_limit(lift)
     _outputs(lift, ".glb .obj .ply .stl .html")
     lift.add_argument(
         "--gap", type=float, help="least distance of sheets, in units of the drawing (default: 1/20 of its larger side)"
     )
     lift.add_argument("--triangles", type=int, default=4000, help="roughly how many triangles (default: %(default)s)")
     draw = _command(commands, "draw", _draw, "draw the arrangement, the disk layout, the layers and the surface")
+    _time_limit(draw)
     _outputs(draw, ".svg .png .pdf")
     draw.add_argument(
         "--what", choices=["all", "arrangement", "layout", "layers", "surface"], default="all", help="one panel only"
@@ -149,7 +152,9 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _command(commands: Any, name: str, run: Callable[..., int], summary: str) -> argparse.ArgumentParser:
-    command: argparse.ArgumentParser = commands.add_parser(name, help=summary, description=summary.capitalize() + ".")
+    command: argparse.ArgumentParser = commands.add_parser(
+        name, help=summary, description=summary[0].upper() + summary[1:] + "."
+    )
     command.set_defaults(run=run)
     command.add_argument("file", metavar="FILE", help='a drawing, "-" for standard input, or gallery:NAME')
     command.add_argument("--id", help="the element of an SVG to read")
@@ -160,8 +165,20 @@ def _command(commands: Any, name: str, run: Callable[..., int], summary: str) ->
         default="perturb",
         help="where strands touch: move vertices a little and say so, or refuse (default: %(default)s)",
     )
-    command.add_argument("--time-limit", type=float, metavar="S", help="seconds for the search for a layering")
     return command
+
+
+def _time_limit(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--time-limit", type=_seconds, metavar="S", help="seconds for the search for a layering; then it is unknown"
+    )
+
+
+def _seconds(text: str) -> float:
+    seconds = float(text)
+    if not seconds >= 0:
+        raise argparse.ArgumentTypeError(f"{text} is not a number of seconds from 0 on")
+    return seconds
 
 
 def _outputs(command: argparse.ArgumentParser, endings: str) -> None:
@@ -373,7 +390,7 @@ def _word(options: argparse.Namespace) -> int:
     watch.stop()
     print(word)
     groupings = word.groupings()
-    shown = [word.bracketed(grouping) for grouping in islice(groupings, options.most)]
+    shown = [word.bracketed(grouping) for grouping in islice(groupings, max(options.most, 0))]
     print(f"\n{len(shown)}{' or more' if next(groupings, None) else ''} grouping(s)", *shown, sep="\n  ")
     return DISK if shown else NO_DISK
 

@@ -122,8 +122,8 @@ class Curve:
 
         Parameters
         ----------
-        partner : array_like of int, shape (2k,), or GaussCode
-            The other visit to the same crossing. A whole code needs no further argument.
+        partner : array_like of int, shape (2k,), or GaussCode, or str
+            The other visit to the same crossing. A whole code, or its text, needs no further argument.
         ccw : array_like of bool, shape (2k,)
             True where the other strand crosses from right to left.
         outer : int
@@ -161,6 +161,8 @@ class Curve:
 
         if isinstance(partner, GaussCode):
             code = partner
+        elif isinstance(partner, str):
+            code = GaussCode.parse(partner)
         elif ccw is None or outer is None:
             raise TypeError("give a GaussCode, or all of partner, ccw and outer")
         else:

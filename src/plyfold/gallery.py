@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.curve import Curve
+from plyfold.curve import Curve, as_curve
 
 __all__ = ["CURVES", "NamedCurve", "chain", "ribbon", "rounded"]
 
@@ -106,12 +106,12 @@ def rounded(corners: npt.ArrayLike, rounds: int = 3) -> Points:
     return points
 
 
-def chain(link: npt.ArrayLike, links: int) -> Points:
+def chain(link: object, links: int) -> Points:
     """Return copies of a curve side by side, each joined to the next by a band.
 
     Parameters
     ----------
-    link : array_like, shape (n, 2)
+    link : Curve, NamedCurve or array_like of shape (n, 2)
         A counter-clockwise curve with one leftmost and one rightmost point, at corners.
     links : int
         Number of copies, m.
@@ -127,7 +127,7 @@ def chain(link: npt.ArrayLike, links: int) -> Points:
     >>> chain([(0, 0), (2, -1), (4, 0), (2, 1)], 2).shape
     (12, 2)
     """
-    points = np.asarray(link, dtype=np.float64)
+    points = as_curve(link).points
     points = np.roll(points, -int(points[:, 0].argmin()), axis=0)
     right = int(points[:, 0].argmax())
     left_end, left_start = _cut_corner(points[-1], points[0], points[1])

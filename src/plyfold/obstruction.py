@@ -6,7 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-__all__ = ["Obstruction", "Unknown"]
+__all__ = ["IMMERSION_REASONS", "Obstruction", "Unknown"]
+
+# What keeps a curve from bounding an immersed disk; other reasons keep an immersed disk from being layered.
+IMMERSION_REASONS = ("turning number", "negative winding", "no grouping")
 
 
 @dataclass(frozen=True)

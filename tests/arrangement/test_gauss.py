@@ -200,3 +200,9 @@ def test_a_code_stands_for_a_curve_where_no_drawing_is_needed():
     code = GaussCode.of(BENNEQUIN_LIKE)
     assert pf.count_immersions(code) == 5
     assert GaussCode.of(pf.arrangement(code)) == code
+
+
+def test_text_is_drawn_and_what_is_no_text_is_refused():
+    assert GaussCode.of(pf.Curve.from_gauss(TREFOIL)) == GaussCode.parse(TREFOIL)
+    with pytest.raises(GaussCodeError, match="no text"):
+        GaussCode.parse(None)

@@ -170,4 +170,5 @@ def test_blank_words_print_and_list_their_groupings():
     )
     assert len({word.bracketed(pairs) for pairs in groupings}) == 5
     assert str(pf.blank_word([(0, 0), (1, 0), (0, 1)])) == "(empty)"
-    assert not list(pf.blank_word(FIGURE_EIGHT).groupings())
+    for name in ("figure-eight", "limacon", "doubled-circle", "kinked-circle"):
+        assert not list(pf.blank_word(pf.gallery.CURVES[name].curve).groupings())

@@ -138,6 +138,8 @@ class GaussCode:
         >>> GaussCode.parse("a+, b−, c+, a−, b+, c− / outer 1").partner
         (3, 4, 5, 0, 1, 2)
         """
+        if not isinstance(text, str):
+            raise GaussCodeError(f"a {type(text).__name__} is no text", hint='write a code as in "1+ 1- / outer 1"')
         visits, slash, tail = text.partition("/")
         match = _OUTER.fullmatch(tail)
         if match is None:

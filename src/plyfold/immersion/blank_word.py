@@ -102,7 +102,7 @@ class BlankWord:
             One grouping for every immersion of the curve, in the order of :func:`plyfold.immersions`; nothing if the
             curve does not turn once or winds a negative number of times somewhere.
         """
-        found = None if visible_obstruction(self.arrangement) else find_groupings(self.word)
+        found = find_groupings(self.word) if visible_obstruction(self.arrangement) is None else None
         if isinstance(found, Groupings):
             yield from (self._pairs(grouping) for grouping in list_groupings(found))
 

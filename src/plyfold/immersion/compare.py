@@ -6,7 +6,7 @@ import numpy as np
 
 from plyfold.arrangement.planar_map import Ints
 from plyfold.errors import InputError
-from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.immersion import Immersion, require_immersion
 
 __all__ = ["changed_borders", "flip_distance"]
 
@@ -87,7 +87,7 @@ def _partition_distance(first: Ints, second: Ints) -> int:
 
 def _meet(first: Immersion, second: Immersion) -> Ints:
     """Return a number for each border that says in which group it is both times."""
-    if first.arrangement.gauss_code() != second.arrangement.gauss_code():
+    if require_immersion(first).arrangement.gauss_code() != require_immersion(second).arrangement.gauss_code():
         raise InputError("the immersions belong to different curves", hint="compare immersions of one curve")
     return np.asarray(first.own_sheet * second.n_sheets + second.own_sheet)
 

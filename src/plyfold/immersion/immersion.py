@@ -10,9 +10,10 @@ import numpy as np
 
 from plyfold.arrangement import Arrangement
 from plyfold.arrangement.planar_map import Ints
-from plyfold.errors import PlyfoldError
+from plyfold.errors import InputError, NotImmersibleError, PlyfoldError
+from plyfold.obstruction import Obstruction
 
-__all__ = ["Group", "Immersion"]
+__all__ = ["Group", "Immersion", "count_each", "require_immersion"]
 
 
 @dataclass(frozen=True)
@@ -179,3 +180,20 @@ class Immersion:
 def count_each(lengths: Ints) -> Ints:
     """Return 0, 1, … for each length, one after the other."""
     return np.arange(int(lengths.sum())) - np.repeat(np.cumsum(lengths) - lengths, lengths)
+
+
+def require_immersion(value: object) -> Immersion:
+    """Return an immersion as it is; raise an error that says why for the obstruction that stands in for one.
+
+    Raises
+    ------
+    NotImmersibleError
+        If the value is the obstruction of a curve that has no immersion.
+    InputError
+        If it is anything else.
+    """
+    if isinstance(value, Immersion):
+        return value
+    if isinstance(value, Obstruction):
+        raise NotImmersibleError(value)
+    raise InputError(f"a {type(value).__name__} is no immersion", hint="find_immersion(curve) makes one")

@@ -150,14 +150,14 @@ def bounds_disk(curve: CurveLike) -> bool:
     return _family(curve) is not None
 
 
-def sample_immersion(curve: CurveLike, rng: np.random.Generator) -> Immersion | Obstruction:
+def sample_immersion(curve: CurveLike, rng: np.random.Generator | int) -> Immersion | Obstruction:
     """Draw one of the immersions of a curve at random, all with the same probability.
 
     Parameters
     ----------
     curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
-    rng : numpy.random.Generator
-        The source of randomness.
+    rng : numpy.random.Generator or int
+        The source of randomness, or a seed for one.
 
     Returns
     -------
@@ -173,7 +173,7 @@ def sample_immersion(curve: CurveLike, rng: np.random.Generator) -> Immersion | 
     family = _family(curve)
     if family is None:
         return find_immersion(curve)
-    index = _random_below(count_groupings(family.groupings), rng)
+    index = _random_below(count_groupings(family.groupings), np.random.default_rng(rng))
     return _glued(family, nth_grouping(family.groupings, index))
 
 

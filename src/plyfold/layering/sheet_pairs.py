@@ -13,6 +13,7 @@ import numpy as np
 
 from plyfold.arrangement.planar_map import Ints
 from plyfold.immersion import Immersion
+from plyfold.immersion.immersion import require_immersion
 
 __all__ = ["PairGraph", "chain_to_reverse", "pair_graph", "pair_of"]
 
@@ -52,7 +53,7 @@ def pair_graph(immersion: Immersion) -> PairGraph:
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
-    winding = immersion.arrangement.winding
+    winding = require_immersion(immersion).arrangement.winding
     first_pair = np.concatenate([[0], np.cumsum(winding**2)])
     total = int(first_pair[-1])
     cell = np.repeat(np.arange(len(winding)), winding**2)

@@ -22,7 +22,7 @@ from plyfold.io.saving import refuse_existing, save_bytes
 from plyfold.layering import Layering, Progress, first_layering
 from plyfold.layering.clock import Clock
 from plyfold.layering.intersections import IntersectingLayering, least_intersecting_layering
-from plyfold.obstruction import Obstruction
+from plyfold.obstruction import IMMERSION_REASONS, Obstruction
 from plyfold.predicates import Floats
 from plyfold.surface.chords import split_chords
 from plyfold.surface.glue import glue_sheets
@@ -277,6 +277,8 @@ def _layering_of(
     if isinstance(curve, Layering | IntersectingLayering):
         return curve
     choose = _least_intersecting if allow_intersections else _liftable
+    if isinstance(curve, Obstruction):
+        raise (NotImmersibleError if curve.reason in IMMERSION_REASONS else NotEmbeddableError)(curve)
     if isinstance(curve, Immersion):
         return choose([curve], time_limit, report)
     report("finding the crossings", 0.0)
