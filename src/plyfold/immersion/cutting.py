@@ -66,14 +66,14 @@ def irreducible_kernels(curve: CurveLike) -> list[Arrangement]:
 def _cut(arrangement: Arrangement) -> list[Arrangement]:
     """Return the curves around the sheets over cells with winding number 1 that several borders belong to."""
     before = _cuts(arrangement)
-    ends = sorted(before)
+    ends, partner_of = sorted(before), arrangement.partner.tolist()
     parts: list[Arrangement] = []
     used: set[int] = set()
     for start in ends:
         if start not in used:
             visits = _visits_of_part(before, ends, start, arrangement.n_borders)
             used.update((visit - 1) % arrangement.n_borders for visit in visits)
-            parts.append(_part(arrangement, visits))
+            parts.append(_part(arrangement, partner_of, visits))
     return parts
 
 
@@ -102,12 +102,12 @@ def _visits_of_part(before: dict[int, int], ends: list[int], start: int, n: int)
             return visits
 
 
-def _part(arrangement: Arrangement, visits: list[int]) -> Arrangement:
+def _part(arrangement: Arrangement, partner_of: list[int], visits: list[int]) -> Arrangement:
     """Return the curve through some of the visits: crossings of which it keeps only one visit are gone.
 
     Its last border runs along a chord, and right of that the part winds zero times.
     """
-    partner_of, here = arrangement.partner.tolist(), set(visits)
+    here = set(visits)
     kept = [visit for visit in visits if partner_of[visit] in here]
     number = {visit: at for at, visit in enumerate(kept)}
     partner = [number[partner_of[visit]] for visit in kept]
