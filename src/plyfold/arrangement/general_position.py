@@ -19,7 +19,7 @@ from plyfold.curve import Curve, Repair
 from plyfold.errors import GeneralPositionError, InputError
 from plyfold.predicates import Bools, Floats, orient
 
-__all__ = ["in_general_position"]
+__all__ = ["in_general_position", "touching_places"]
 
 # Steps as fractions of the drawing's size: large enough for a mesh to survive, smaller where strands crowd.
 _STEPS = [2.0**-exponent for exponent in (20, 24, 28, 32, 36, 40, 44)]
@@ -63,7 +63,7 @@ def in_general_position(curve: Curve, policy: Literal["perturb", "raise"]) -> tu
         raise GeneralPositionError(
             f"the curve is not in general position (vertices on other edges: {len(np.unique(contacts.touches[:, 0]))}, "
             f"meetings of three edges: {len(visits.triple)})",
-            where=_places(curve.points, contacts, visits),
+            where=touching_places(curve.points, contacts, visits),
             hint='move these vertices, or use general_position="perturb"',
         )
     return _separate(curve, contacts, visits)
@@ -73,7 +73,8 @@ def _is_general(contacts: Contacts, visits: Visits) -> bool:
     return len(contacts.touches) == 0 and len(visits.triple) == 0
 
 
-def _places(points: Floats, contacts: Contacts, visits: Visits) -> list[tuple[float, float]]:
+def touching_places(points: Floats, contacts: Contacts, visits: Visits) -> list[tuple[float, float]]:
+    """Return the vertices that lie on other edges, and the crossings on edges on which three edges meet."""
     touching = points[np.unique(contacts.touches[:, 0])]
     meeting = visits.point[np.isin(visits.edge, visits.triple[:, 0])]
     places = np.unique(np.concatenate([touching, meeting]), axis=0)
@@ -96,7 +97,7 @@ def _separate(curve: Curve, contacts: Contacts, visits: Visits) -> tuple[Curve, 
             return Curve(moved, repairs=curve.repairs + _moves(curve.points, moved)), new_visits
     raise GeneralPositionError(
         "strands touch or overlap, and are too crowded to be moved apart",
-        where=_places(curve.points, contacts, visits),
+        where=touching_places(curve.points, contacts, visits),
         hint="move these vertices by hand",
     )
 

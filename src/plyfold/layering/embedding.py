@@ -14,10 +14,17 @@ from itertools import islice
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.core import CurveLike
 from plyfold.arrangement.planar_map import Ints
+from plyfold.arrangement.several import are_several
 from plyfold.immersion import bounds_disk, count_immersions, find_immersion, immersions
 from plyfold.layering.casing import layering_of_levels
 from plyfold.layering.clock import Clock
 from plyfold.layering.counting import count_layerings
+from plyfold.layering.layered_surface import (
+    LayeredSurface,
+    count_layered_surfaces,
+    find_layered_surface,
+    layered_surfaces,
+)
 from plyfold.layering.layering import Layering
 from plyfold.layering.level_clauses import LevelClauses, contradicting_crossings, list_levels, solve_levels
 from plyfold.layering.level_counting import count_level_solutions
@@ -32,12 +39,15 @@ __all__ = ["count_embeddings", "embeddings", "find_embedding"]
 _FEW = 8
 
 
-def find_embedding(curve: CurveLike, time_limit: float | None = None) -> Layering | Obstruction | Unknown:
+def find_embedding(
+    curve: CurveLike, time_limit: float | None = None
+) -> Layering | LayeredSurface | Obstruction | Unknown:
     """Find a layered surface without self-intersections over any immersion of the curve, or prove that there is none.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
+        Several curves bound one surface, with holes or handles: see :func:`~plyfold.find_layered_surface`.
     time_limit : float, optional
         Seconds after which to give up; none by default.
 
@@ -45,10 +55,10 @@ def find_embedding(curve: CurveLike, time_limit: float | None = None) -> Layerin
     -------
     Layering or Obstruction or Unknown
         The result is true if there is an embedding; it has been checked, and its ``immersion`` says over which
-        immersion it lies. An obstruction is that of :func:`~plyfold.find_immersion` if there is no immersion, and
-        otherwise has the reason ``"no embedding"``: ``value`` is a tuple of crossings at which no levels of the strands
-        fit together, whatever the immersion; as few as can be found with little effort. At the time limit the answer is
-        Unknown.
+        immersion it lies. (For a list of curves it is a LayeredSurface.) An obstruction is that of
+        :func:`~plyfold.find_immersion` if there is no immersion, and otherwise has the reason ``"no embedding"``:
+        ``value`` is a tuple of crossings at which no levels of the strands fit together, whatever the immersion; as few
+        as can be found with little effort. At the time limit the answer is Unknown.
 
     Notes
     -----
@@ -67,6 +77,8 @@ def find_embedding(curve: CurveLike, time_limit: float | None = None) -> Layerin
     >>> sorted(find_embedding(ramp).level.tolist())
     [1, 1, 1, 1, 2]
     """
+    if are_several(curve):
+        return find_layered_surface(curve, time_limit)
     clock, arranged = Clock(time_limit), arrangement(curve)
     first = find_immersion(arranged)
     if isinstance(first, Obstruction):
@@ -83,16 +95,16 @@ def find_embedding(curve: CurveLike, time_limit: float | None = None) -> Layerin
     return _no_embedding(arranged, clauses, clock) if level is None else _checked(arranged, level)
 
 
-def embeddings(curve: CurveLike) -> Iterator[Layering]:
+def embeddings(curve: CurveLike) -> Iterator[Layering | LayeredSurface]:
     """List all embeddings of a curve, over all its immersions, each once, in a stable order; nothing if there is none.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
 
     Yields
     ------
-    Layering
+    Layering (or LayeredSurface)
         Checked. There can be exponentially many; they are made one at a time. Few immersions are gone through one by
         one. Otherwise each embedding takes at most k questions to the SAT solver, most of them easy, and none of them
         is in vain for long because an immersion does not lift.
@@ -104,6 +116,9 @@ def embeddings(curve: CurveLike) -> Iterator[Layering]:
     >>> [layering.changes for layering in embeddings(milnor)]
     [6, 6, 6, 6]
     """
+    if are_several(curve):
+        yield from layered_surfaces(curve)
+        return
     arranged = arrangement(curve)
     total = count_immersions(arranged)
     if 0 < total <= _FEW:
@@ -119,7 +134,7 @@ def count_embeddings(curve: CurveLike, time_limit: float | None = None) -> int |
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
     time_limit : float, optional
         Seconds after which to give up; none by default.
 
@@ -144,6 +159,8 @@ def count_embeddings(curve: CurveLike, time_limit: float | None = None) -> int |
     >>> count_embeddings(milnor), count_embeddings(chain(milnor, 100)) == 4**100
     (4, True)
     """
+    if are_several(curve):
+        return count_layered_surfaces(curve, time_limit)
     clock, arranged = Clock(time_limit), arrangement(curve)
     if not bounds_disk(arranged):
         return 0
@@ -184,7 +201,7 @@ def _no_embedding(arranged: Arrangement, clauses: LevelClauses, clock: Clock) ->
 def _unknown(question: str, arranged: Arrangement, clock: Clock) -> Unknown:
     seconds, number = clock.spent, count_immersions(arranged)
     known = {"immersions": number, "crossings": arranged.n_crossings, "seconds": seconds}
-    sentence = f"Unknown after {seconds:.3g} s: {question}. There are {_written(number)} immersions."
+    sentence = f"Unknown after {seconds:.3g} s: {question}. Number of immersions: {_written(number)}."
     return Unknown("time limit", sentence, known)
 
 

@@ -16,9 +16,9 @@ import numpy as np
 
 from plyfold.arrangement import Arrangement
 from plyfold.arrangement.planar_map import Ints
-from plyfold.predicates import Bools
+from plyfold.arrangement.several import Loops
 
-__all__ = ["LevelEquations", "level_equations"]
+__all__ = ["LevelEquations", "level_equations", "level_equations_of_loops"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,10 +56,6 @@ class LevelEquations:
             and (at_bottom == at_top - above).all()
         )
 
-    def first_is_over(self, level: Ints) -> Bools:
-        """Tell at which crossings the first strand lies above the second one, shape (k,)."""
-        return np.asarray(level[self.top[:, 0]] > level[self.top[:, 1]])
-
 
 def level_equations(arranged: Arrangement) -> LevelEquations:
     """Return the equations of a closed curve without negative winding numbers; crossings in their usual order.
@@ -71,12 +67,21 @@ def level_equations(arranged: Arrangement) -> LevelEquations:
     >>> level_equations(ramp).highest.tolist()
     [2, 1, 2, 1, 2, 1, 2, 1]
     """
-    n = arranged.n_borders
     first = np.flatnonzero(arranged.ccw)
     first = first[np.argsort(arranged.crossing_of_visit[first])]
-    second = arranged.partner[first]
+    before = (np.arange(arranged.n_borders) - 1) % arranged.n_borders
+    return _equations(arranged.winding[arranged.left_cell], first, arranged.partner[first], before)
+
+
+def level_equations_of_loops(loops: Loops) -> LevelEquations:
+    """Return the equations of several closed curves without negative winding numbers."""
+    return _equations(loops.winding[loops.left_cell], loops.first, loops.second, loops.border_before)
+
+
+def _equations(highest: Ints, first: Ints, second: Ints, border_before: Ints) -> LevelEquations:
+    """Return the equations, given the visits at which a second strand crosses a first one from right to left."""
     return LevelEquations(
-        highest=arranged.winding[arranged.left_cell],
-        top=np.stack([(first - 1) % n, second], axis=1),
-        bottom=np.stack([first, (second - 1) % n], axis=1),
+        highest=highest,
+        top=np.stack([border_before[first], second], axis=1),
+        bottom=np.stack([first, border_before[second]], axis=1),
     )

@@ -1,0 +1,234 @@
+"""Layered surfaces whose boundary is several closed curves: with holes, handles, and perhaps in several pieces.
+
+The equations between levels (:mod:`plyfold.layering.levels`) hold as for one curve. Each solution glues sheets to a
+surface without self-intersections that has the given curves as its boundary and lies to the left of them. Its Euler
+characteristic is the sum of their turning numbers, for it lies flat without branch points; the same holds for each of
+its pieces, which gives their genus. All this is exact. Nothing demands that the surface be in one piece.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from plyfold.arrangement.core import CurveLike
+from plyfold.arrangement.planar_map import Ints
+from plyfold.arrangement.several import Loops, arrange_loops, components
+from plyfold.immersion.immersion import count_each
+from plyfold.layering.clock import Clock
+from plyfold.layering.level_clauses import LevelClauses, contradicting_crossings, list_levels, solve_levels
+from plyfold.layering.level_counting import count_level_solutions
+from plyfold.layering.levels import level_equations_of_loops
+from plyfold.obstruction import Obstruction, Unknown
+
+__all__ = ["LayeredSurface", "Piece", "count_layered_surfaces", "find_layered_surface", "layered_surfaces"]
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A connected piece of a surface.
+
+    Parameters
+    ----------
+    loops : tuple of int
+        The curves that are its boundary.
+    euler_characteristic : int
+        The sum of their turning numbers.
+    """
+
+    loops: tuple[int, ...]
+    euler_characteristic: int
+
+    @property
+    def genus(self) -> int:
+        """Number of handles."""
+        return (2 - len(self.loops) - self.euler_characteristic) // 2
+
+
+@dataclass(frozen=True, eq=False)
+class LayeredSurface:
+    """A surface without self-intersections over the plane, bounded by several closed curves. It is true as a value.
+
+    Parameters
+    ----------
+    loops : Loops
+        The curves with their crossings, borders and cells.
+    level : (borders,) int
+        The level of each border's own sheet, 1 for the lowest, among the sheets over the cell on the border's left.
+        These numbers determine the surface: any sheet on the right of the border is glued to the sheet on its left that
+        has the same place among all but the border's own.
+
+    Examples
+    --------
+    >>> annulus = find_layered_surface([[(0, 0), (9, 0), (0, 9)], [(1, 1), (1, 3), (3, 1)]])
+    >>> annulus.level.tolist(), annulus.euler_characteristic
+    ([1, 1], 0)
+    >>> annulus.pieces
+    (Piece(loops=(0, 1), euler_characteristic=0),)
+    """
+
+    loops: Loops
+    level: Ints
+
+    def __post_init__(self) -> None:
+        self.level.flags.writeable = False
+
+    @property
+    def euler_characteristic(self) -> int:
+        """The sum of the turning numbers of all curves."""
+        return int(self.loops.turning_number.sum())
+
+    @cached_property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The connected pieces, in the order of their first curves."""
+        own_sheet = self._first_sheet[self.loops.left_cell] + self.level - 1
+        first_border = np.unique(self.loops.loop_of_border, return_index=True)[1]
+        piece_of_loop = self._piece_of_sheet[own_sheet[first_border]]
+        groups = [np.flatnonzero(piece_of_loop == piece) for piece in dict.fromkeys(piece_of_loop.tolist())]
+        return tuple(Piece(tuple(g.tolist()), int(self.loops.turning_number[g].sum())) for g in groups)
+
+    @property
+    def _first_sheet(self) -> Ints:
+        return np.asarray(np.cumsum(self.loops.winding) - self.loops.winding)
+
+    @property
+    def _piece_of_sheet(self) -> Ints:
+        """Glue the sheets along all borders and return the piece that each belongs to. Cost: O(Σ w)."""
+        loops, first_sheet = self.loops, self._first_sheet
+        sheets = loops.winding[loops.right_cell]
+        border, place = np.repeat(np.arange(loops.n_borders), sheets), count_each(sheets)
+        right = first_sheet[loops.right_cell[border]] + place
+        left = first_sheet[loops.left_cell[border]] + place + (place >= self.level[border] - 1)
+        return components(int(loops.winding.sum()), right, left)
+
+
+def find_layered_surface(
+    curves: Iterable[CurveLike], time_limit: float | None = None
+) -> LayeredSurface | Obstruction | Unknown:
+    """Find a layered surface that has the given closed curves as its boundary, or prove that there is none.
+
+    Parameters
+    ----------
+    curves : iterable of Curve, array_like of shape (n, 2) or shapely geometry
+        Each in the direction that has the surface on its left: outer boundaries counter-clockwise, holes clockwise.
+        They may cross themselves and each other. A single curve may bound a surface with handles.
+    time_limit : float, optional
+        Seconds after which to give up; none by default.
+
+    Returns
+    -------
+    LayeredSurface or Obstruction or Unknown
+        An obstruction has the reason ``"negative winding"`` (``value`` is the winding number) or ``"no embedding"``
+        (``value`` is a tuple of crossings at which no levels of the strands fit together).
+
+    Raises
+    ------
+    InputError
+        If there is no curve.
+    GeneralPositionError
+        If curves touch or overlap, or three edges meet in a point.
+
+    Notes
+    -----
+    Exact in both directions; a SAT problem with O(Σ w) variables and clauses, over borders. The Euler characteristic is
+    the sum of the turning numbers. The surface may be in several pieces, even if another one is in one piece:
+    :func:`layered_surfaces` lists all of them.
+
+    Examples
+    --------
+    >>> ring = [(0, 0), (9, 0), (0, 9)]
+    >>> print(find_layered_surface([ring, [(5, 5), (5, 6), (6, 5)]]))
+    The curves wind -1 times around a cell, and cloth cannot cover it a negative number of times.
+    """
+    clock, loops = Clock(time_limit), arrange_loops(curves)
+    obstruction = _negative_winding(loops)
+    if obstruction is not None:
+        return obstruction
+    clauses = LevelClauses(level_equations_of_loops(loops))
+    try:
+        level = solve_levels(clauses, clock)
+    except TimeoutError:
+        return _unknown("whether there is a layered surface", clock)
+    return _no_surface(loops, clauses, clock) if level is None else LayeredSurface(loops, level)
+
+
+def layered_surfaces(curves: Iterable[CurveLike]) -> Iterator[LayeredSurface]:
+    """List all layered surfaces that have the given closed curves as their boundary, each once, in a stable order.
+
+    Parameters
+    ----------
+    curves : iterable of Curve, array_like of shape (n, 2) or shapely geometry
+        As for :func:`find_layered_surface`.
+
+    Yields
+    ------
+    LayeredSurface
+        Each takes at most k questions to the SAT solver, most of them easy.
+
+    Examples
+    --------
+    >>> stacked = [[(0, 0), (9, 0), (0, 9)], [(1, 1), (3, 1), (1, 3)]]
+    >>> [surface.level.tolist() for surface in layered_surfaces(stacked)]
+    [[1, 2], [1, 1]]
+    """
+    loops = arrange_loops(curves)
+    if _negative_winding(loops) is None:
+        for level in list_levels(LevelClauses(level_equations_of_loops(loops))):
+            yield LayeredSurface(loops, level)
+
+
+def count_layered_surfaces(curves: Iterable[CurveLike], time_limit: float | None = None) -> int | Unknown:
+    """Count the layered surfaces that have the given closed curves as their boundary, exactly.
+
+    Parameters
+    ----------
+    curves : iterable of Curve, array_like of shape (n, 2) or shapely geometry
+        As for :func:`find_layered_surface`.
+    time_limit : float, optional
+        Seconds after which to give up; none by default.
+
+    Returns
+    -------
+    int or Unknown
+        Of any Euler characteristic, in one piece or several. For the cost see
+        :func:`plyfold.layering.level_counting.count_level_solutions`.
+
+    Examples
+    --------
+    >>> count_layered_surfaces([[(0, 0), (9, 0), (0, 9)], [(1, 1), (3, 1), (1, 3)]])
+    2
+    """
+    clock, loops = Clock(time_limit), arrange_loops(curves)
+    if _negative_winding(loops) is not None:
+        return 0
+    try:
+        return count_level_solutions(level_equations_of_loops(loops), clock)
+    except TimeoutError:
+        return _unknown("how many layered surfaces there are", clock)
+
+
+def _negative_winding(loops: Loops) -> Obstruction | None:
+    lowest = int(loops.winding.min())
+    if lowest >= 0:
+        return None
+    border = int(np.flatnonzero(loops.winding[loops.right_cell] == lowest)[0])
+    crossed = border < len(loops.crossing_of_visit)
+    curve = loops.curves[loops.loop_of_border[border]]
+    x, y = loops.crossings[loops.crossing_of_visit[border]] if crossed else curve.points[0]
+    sentence = f"The curves wind {lowest} times around a cell, and cloth cannot cover it a negative number of times."
+    return Obstruction("negative winding", sentence, ((float(x), float(y)),), lowest)
+
+
+def _no_surface(loops: Loops, clauses: LevelClauses, clock: Clock) -> Obstruction:
+    crossings = tuple(contradicting_crossings(clauses, clock))
+    sentence = f"No layered surface: no levels of the strands fit together at {len(crossings)} crossings."
+    places = tuple((x, y) for x, y in loops.crossings[list(crossings)].tolist())
+    return Obstruction("no embedding", sentence, places, crossings)
+
+
+def _unknown(question: str, clock: Clock) -> Unknown:
+    seconds = clock.spent
+    return Unknown("time limit", f"Unknown after {seconds:.3g} s: {question}.", {"seconds": seconds})
