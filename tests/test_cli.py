@@ -16,6 +16,7 @@ import trimesh
 import plyfold as pf
 from plyfold.cli import main
 from plyfold.gallery import CURVES
+from plyfold.hard import PALEY, flap_disk
 
 LOOP = "0,0\n9,0\n9,6\n3,6\n3,-3\n4,-3\n4,5\n8,5\n8,1\n0,1\n"
 EIGHT = "0,0\n2,2\n2,0\n0,2\n"
@@ -352,3 +353,15 @@ def test_word_prints_the_groupings(capsys):
     assert main(["word", "gallery:bennequin", "--most", "3"]) == 0
     assert "3 or more grouping(s)" in capsys.readouterr().out
     assert main(["word", "gallery:figure-eight"]) == 1
+
+
+def test_lift_passes_through_itself_only_when_allowed(tmp_path, capsys):
+    path, out = tmp_path / "flaps.csv", tmp_path / "flaps.glb"
+    points = flap_disk(7, PALEY).immersion.arrangement.curve.points
+    path.write_text("".join(f"{x!r},{y!r}\n" for x, y in points.tolist()))
+    assert main(["lift", str(path), "-o", str(out)]) == 1
+    assert not out.exists()
+    assert "always lie above each other in a circle" in capsys.readouterr().err
+    assert main(["lift", str(path), "-o", str(out), "--allow-intersections"]) == 0
+    assert "it passes through itself along 1 curve(s)" in capsys.readouterr().out
+    assert out.exists()

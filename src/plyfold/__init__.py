@@ -28,12 +28,21 @@ from plyfold.immersion import (
 )
 from plyfold.io import read
 from plyfold.layering import (
+    IntersectingLayering,
     Layering,
     count_layerings,
     embed_cased,
     find_layering,
     layerings,
+    least_intersecting_layering,
     nicest_layering,
+)
+from plyfold.layering.embedding import count_embeddings, embeddings, find_embedding
+from plyfold.layering.layered_surface import (
+    LayeredSurface,
+    count_layered_surfaces,
+    find_layered_surface,
+    layered_surfaces,
 )
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.surface import Surface, lift
@@ -47,6 +56,8 @@ __all__ = [
     "Curve",
     "GaussCode",
     "Immersion",
+    "IntersectingLayering",
+    "LayeredSurface",
     "Layering",
     "Obstruction",
     "Surface",
@@ -56,19 +67,26 @@ __all__ = [
     "blank_word",
     "bounds_disk",
     "changed_borders",
+    "count_embeddings",
     "count_immersions",
+    "count_layered_surfaces",
     "count_layerings",
     "coverage",
     "decompose",
     "embed_cased",
+    "embeddings",
     "errors",
+    "find_embedding",
     "find_immersion",
+    "find_layered_surface",
     "find_layering",
     "flip_distance",
     "gallery",
     "immersions",
     "irreducible_kernels",
+    "layered_surfaces",
     "layerings",
+    "least_intersecting_layering",
     "lift",
     "loop_turning_numbers",
     "nicest_layering",

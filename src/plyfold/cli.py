@@ -130,6 +130,11 @@ def _parser() -> argparse.ArgumentParser:
     lift.add_argument(
         "--gap", type=float, help="least distance of sheets, in units of the drawing (default: 1/20 of its larger side)"
     )
+    lift.add_argument(
+        "--allow-intersections",
+        action="store_true",
+        help="where no layered surface exists, lift one with the shortest self-intersections",
+    )
     lift.add_argument("--triangles", type=int, default=4000, help="roughly how many triangles (default: %(default)s)")
     draw = _command(commands, "draw", _draw, "draw the arrangement, the disk layout, the layers and the surface")
     _time_limit(draw)
@@ -259,7 +264,12 @@ def _lift(options: argparse.Namespace) -> int:
     watch = _Stopwatch()
     arranged = _prepared(options, (".glb", ".obj", ".ply", ".stl", ".html"), watch)
     surface = lift(
-        arranged, gap=options.gap, triangles=options.triangles, time_limit=options.time_limit, progress=watch
+        arranged,
+        gap=options.gap,
+        triangles=options.triangles,
+        time_limit=options.time_limit,
+        progress=watch,
+        allow_intersections=options.allow_intersections,
     )
     watch("writing")
     for path in options.output:
@@ -269,6 +279,8 @@ def _lift(options: argparse.Namespace) -> int:
     print(
         f"Lifted: {len(surface.faces):,} triangles in {surface.layering.immersion.n_sheets} sheets, {levels} level(s)"
     )
+    if surface.intersections:
+        print(f"  it passes through itself along {len(surface.intersections)} curve(s)")
     print(_timing(watch))
     for path in options.output:
         print(f"  wrote {path}")

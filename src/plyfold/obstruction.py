@@ -23,8 +23,8 @@ class Obstruction:
     ----------
     reason : str
         One of ``"turning number"``, ``"negative winding"``, ``"no grouping"`` (no immersion), ``"reversed pair"``,
-        ``"cyclic order"``, ``"fixed orders"``, ``"casing"`` (no layering), ``"paper's procedure"`` (it failed, which
-        proves nothing).
+        ``"cyclic order"``, ``"fixed orders"``, ``"casing"``, ``"no embedding"`` (no layering), ``"paper's procedure"``
+        (it failed, which proves nothing).
     sentence : str
         The same for a person, in one sentence.
     where : tuple of (x, y)
