@@ -1,8 +1,11 @@
 """Surfaces with several boundary curves, holes and handles: known shapes, and brute force over levels."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 
+import plyfold as pf
 from plyfold.arrangement import arrangement
 from plyfold.curve import Curve
 from plyfold.errors import GeneralPositionError, InputError
@@ -44,6 +47,14 @@ TORUS_WITH_A_HOLE = [
     (0, 0), (7, 0), (7, 5), (2, 5), (2, 1), (1, 1), (1, 2), (4, 2),
     (4, 1), (3, 1), (3, 4), (6, 4), (6, 1), (5, 1), (5, 3), (0, 3),
 ]  # fmt: skip
+
+
+# Curves that all cross something: over and under determine every level.
+CASED = [
+    [TORUS_WITH_A_HOLE],
+    [rectangle(0, 0, 4, 4), rectangle(2, 1, 6, 3)],
+    [rectangle(0, 0, 4, 4), rectangle(2, 1, 6, 3), rectangle(3, -1, 5, 2)],
+]
 
 
 def test_annulus():
@@ -177,3 +188,30 @@ def test_time_is_limited():
     assert isinstance(count_layered_surfaces(many, time_limit=0), Unknown)
     assert find_layered_surface(many, time_limit=60)
     assert solve_levels(LevelClauses(level_equations(arrangement(OUTER))), Clock(None)).tolist() == [1]
+
+
+@pytest.mark.parametrize("curves", CASED)
+def test_cased_curves_give_exactly_the_surfaces_with_that_casing(curves):
+    """Among all casings, one by one, those that lift are those of the surfaces, and give them back."""
+    surfaces = {tuple(surface.casing[surface.loops.first]): surface for surface in layered_surfaces(curves)}
+    loops = next(iter(surfaces.values())).loops
+    k = len(loops.first)
+    lifted = 0
+    for choice in product([False, True], repeat=k):
+        over = np.empty(2 * k, dtype=bool)
+        over[loops.first], over[loops.second] = choice, np.logical_not(choice)
+        found = pf.embed_cased(curves, over)
+        assert bool(found) == (choice in surfaces)
+        if found:
+            lifted += 1
+            assert found.level.tolist() == surfaces[choice].level.tolist()
+            assert found.casing.tolist() == over.tolist()
+        else:
+            assert found.value
+            assert set(found.value) <= set(range(k))
+    assert lifted == len(surfaces)
+
+
+def test_casings_of_several_curves_are_checked():
+    with pytest.raises(InputError, match="truth values"):
+        pf.embed_cased(CASED[0], [True])

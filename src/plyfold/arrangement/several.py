@@ -69,6 +69,13 @@ class Loops:
     winding: Ints
     turning_number: Ints
 
+    @property
+    def partner(self) -> Ints:
+        """The other visit to the crossing of each visit, shape (2k,)."""
+        partner = np.empty(2 * len(self.first), dtype=np.int64)
+        partner[self.first], partner[self.second] = self.second, self.first
+        return partner
+
     def __post_init__(self) -> None:
         for value in vars(self).values():
             if isinstance(value, np.ndarray):

@@ -8,29 +8,36 @@ walking along the curve gives all levels, from a border of the unbounded cell, w
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.core import CurveLike
 from plyfold.arrangement.planar_map import Ints
+from plyfold.arrangement.several import Loops, are_several
 from plyfold.errors import InputError
 from plyfold.immersion import Immersion
 from plyfold.immersion.immersion import count_each
 from plyfold.immersion.obstructions import visible_obstruction
 from plyfold.layering.layering import Layering
-from plyfold.obstruction import Obstruction
+from plyfold.obstruction import Obstruction, Unknown
 from plyfold.predicates import Bools
+
+if TYPE_CHECKING:
+    from plyfold.layering.layered_surface import LayeredSurface
 
 __all__ = ["embed_cased", "layering_of_levels"]
 
 
-def embed_cased(curve: CurveLike, over: npt.ArrayLike) -> Layering | Obstruction:
+def embed_cased(curve: CurveLike, over: npt.ArrayLike) -> Layering | LayeredSurface | Obstruction | Unknown:
     """Lift a cased curve: over and under are given at every crossing, as in a picture of a knot with gaps.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
+        Several curves bound one surface, with holes or handles: see :func:`~plyfold.find_layered_surface`.
     over : array_like of bool, shape (2k,) or (k,)
         For each visit of ``arrangement(curve)``, whether the strand passes over the other one; or for each crossing,
         whether it does so at the first of its two visits.
@@ -64,8 +71,12 @@ def embed_cased(curve: CurveLike, over: npt.ArrayLike) -> Layering | Obstruction
     >>> print(embed_cased(ramp, [True, True, False, True]))
     The casing lifts to no surface: past crossing 3, the strand would be on level 0, but there is only level 1.
     """
+    if are_several(curve):
+        from plyfold.layering.layered_surface import find_layered_surface
+
+        return find_layered_surface(curve, over=over)
     arranged = arrangement(curve)
-    casing = _casing(arranged, over)
+    casing = casing_of_visits(arranged, over)
     obstruction = visible_obstruction(arranged)
     if obstruction is not None:
         return obstruction
@@ -109,7 +120,7 @@ def layering_of_levels(arranged: Arrangement, level: Ints) -> Layering:
     return Layering(immersion, count_each(winding) + 1)
 
 
-def _casing(arranged: Arrangement, over: npt.ArrayLike) -> Bools:
+def casing_of_visits(arranged: Arrangement | Loops, over: npt.ArrayLike) -> Bools:
     """Return over and under by visits, from either form; refuse anything else."""
     given = np.array(over, ndmin=1)
     visits = len(arranged.partner)
@@ -169,8 +180,8 @@ def _fault(arranged: Arrangement, level: Ints, visit: int, outside: Bools) -> Ob
     return Obstruction("casing", sentence, _place(arranged, crossing), crossing)
 
 
-def _place(arranged: Arrangement, crossing: int) -> tuple[tuple[float, float], ...]:
-    if arranged.curve is None:
+def _place(arranged: Arrangement | Loops, crossing: int) -> tuple[tuple[float, float], ...]:
+    if not len(arranged.crossings):
         return ()
     x, y = arranged.crossings[crossing].tolist()
     return ((x, y),)

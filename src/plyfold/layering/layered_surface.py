@@ -13,16 +13,19 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import numpy.typing as npt
 
 from plyfold.arrangement.core import CurveLike
 from plyfold.arrangement.planar_map import Ints
 from plyfold.arrangement.several import Loops, arrange_loops, components
 from plyfold.immersion.immersion import count_each
+from plyfold.layering.casing import casing_of_visits
 from plyfold.layering.clock import Clock
 from plyfold.layering.level_clauses import LevelClauses, contradicting_crossings, list_levels, solve_levels
 from plyfold.layering.level_counting import count_level_solutions
 from plyfold.layering.levels import level_equations_of_loops
 from plyfold.obstruction import Obstruction, Unknown
+from plyfold.predicates import Bools
 
 __all__ = ["LayeredSurface", "Piece", "count_layered_surfaces", "find_layered_surface", "layered_surfaces"]
 
@@ -91,6 +94,15 @@ class LayeredSurface:
         return tuple(Piece(tuple(g.tolist()), int(self.loops.turning_number[g].sum())) for g in groups)
 
     @property
+    def casing(self) -> Bools:
+        """Over and under, shape (2k,): whether at each visit the strand passes over the other one."""
+        loops = self.loops
+        casing = np.empty(len(loops.border_before), dtype=bool)
+        casing[loops.first] = self.level[loops.border_before[loops.first]] > self.level[loops.second]
+        casing[loops.second] = ~casing[loops.first]
+        return casing
+
+    @property
     def _first_sheet(self) -> Ints:
         return np.asarray(np.cumsum(self.loops.winding) - self.loops.winding)
 
@@ -106,7 +118,7 @@ class LayeredSurface:
 
 
 def find_layered_surface(
-    curves: Iterable[CurveLike], time_limit: float | None = None
+    curves: Iterable[CurveLike], time_limit: float | None = None, over: npt.ArrayLike | None = None
 ) -> LayeredSurface | Obstruction | Unknown:
     """Find a layered surface that has the given closed curves as its boundary, or prove that there is none.
 
@@ -117,6 +129,9 @@ def find_layered_surface(
         They may cross themselves and each other. A single curve may bound a surface with handles.
     time_limit : float, optional
         Seconds after which to give up; none by default.
+    over : array_like of bool, shape (2k,) or (k,), optional
+        Which strand is to pass over: for each visit, visits numbered along one curve after the other, whether the
+        strand passes over the other one; or for each crossing, whether it does so at the first of its two visits.
 
     Returns
     -------
@@ -127,7 +142,7 @@ def find_layered_surface(
     Raises
     ------
     InputError
-        If there is no curve.
+        If there is no curve, or ``over`` has the wrong length or says of both strands the same.
     GeneralPositionError
         If curves touch or overlap, or three edges meet in a point.
 
@@ -147,7 +162,8 @@ def find_layered_surface(
     obstruction = _negative_winding(loops)
     if obstruction is not None:
         return obstruction
-    clauses = LevelClauses(level_equations_of_loops(loops))
+    first_is_over = None if over is None else casing_of_visits(loops, over)[loops.first]
+    clauses = LevelClauses(level_equations_of_loops(loops), first_is_over)
     try:
         level = solve_levels(clauses, clock)
     except TimeoutError:

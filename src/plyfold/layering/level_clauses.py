@@ -20,6 +20,7 @@ from plyfold.immersion.immersion import count_each
 from plyfold.layering.clock import Clock
 from plyfold.layering.levels import LevelEquations
 from plyfold.layering.sat import interrupted_after
+from plyfold.predicates import Bools
 
 __all__ = ["LevelClauses", "contradicting_crossings", "list_levels", "solve_levels"]
 
@@ -36,9 +37,12 @@ class LevelClauses:
     Parameters
     ----------
     equations : LevelEquations
+    first_is_over : (k,) bool, optional
+        Whether the first strand of each crossing has to lie above the second; free by default.
     """
 
     equations: LevelEquations
+    first_is_over: Bools | None = None
 
     @cached_property
     def _before(self) -> Ints:
@@ -100,6 +104,9 @@ class LevelClauses:
         demands: list[list[list[int]]] = [[] for _ in top]
         for number, clause in zip(np.tile(crossing, len(rows))[which].tolist(), clauses, strict=True):
             demands[number].append(clause)
+        if self.first_is_over is not None:
+            for number, (variable, holds) in enumerate(zip(self.first_over, self.first_is_over, strict=True)):
+                demands[number].append([variable if holds else -variable])
         return demands
 
     def levels(self, model: list[int]) -> Ints:
