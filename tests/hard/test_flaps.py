@@ -59,6 +59,13 @@ def test_paley_has_no_pair_that_returns_reversed():
     assert pf.find_layering(flap_disk(7, PALEY).immersion).reason == "cyclic order"
 
 
+def test_paley_has_one_immersion_and_no_embedding():
+    """Two other ways to the same answer: the count of groupings, and levels straight from the curve."""
+    curve = flap_disk(7, PALEY).curve
+    assert pf.count_immersions(curve) == 1
+    assert not pf.find_embedding(curve)
+
+
 def test_three_flaps_in_a_circle_may_not_all_be_on_one_side():
     disk = flap_disk(3, [(0, 1), (1, 2), (2, 0)])
     sides = {disk.sides(layering) for layering in pf.layering.layerings(disk.immersion)}
