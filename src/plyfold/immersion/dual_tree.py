@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -61,6 +62,11 @@ class DualTree:
         """Return the cells whose link to the parent ascends."""
         cells: list[int] = np.flatnonzero(self.ascends).tolist()
         return cells
+
+    @cached_property
+    def all_ways(self) -> dict[int, list[int]]:
+        """The ways from all ascending links to the root; see :meth:`ways`."""
+        return self.ways(self.ascending_cells())
 
     def ways(self, cells: Iterable[int]) -> dict[int, list[int]]:
         """Return the part of the tree on the ways from some cells to the root: children by parent, right to left."""

@@ -79,7 +79,7 @@ def _seams_on_tree(arrangement: Arrangement, tree: DualTree, partner: Mapping[in
         straight[sheets] if linked else () for sheets, linked in zip(lower.tolist(), on_tree.tolist(), strict=True)
     ]
     link, ascends = tree.link.tolist(), tree.ascends.tolist()
-    children = tree.ways(tree.ascending_cells())
+    children = tree.all_ways
     stack: list[tuple[int, tuple[int, ...]]] = [(0, ())]
     while stack:
         cell, above = stack.pop()

@@ -83,7 +83,8 @@ def write_word(tree: DualTree, cells: Iterable[int] | None = None) -> Word:
     Word
         Cost: the number of cells on the ways from ascending links to the root, and of letters, times its logarithm.
     """
-    arcs = _draw_arcs(tree, tree.ascending_cells() if cells is None else list(cells))
+    wanted = set(tree.ascending_cells() if cells is None else cells)
+    arcs = _draw_arcs(tree, wanted, tree.all_ways if cells is None else tree.ways(wanted))
     n = len(arcs.ends)
     link = tree.link[np.array([cell for cell, _ in arcs.ends], dtype=np.int64)]
     order = np.array([arcs.order[cell] for cell, _ in arcs.ends], dtype=np.int64)
@@ -109,16 +110,14 @@ def write_word(tree: DualTree, cells: Iterable[int] | None = None) -> Word:
     )
 
 
-def _draw_arcs(tree: DualTree, cells: list[int]) -> _Arcs:
+def _draw_arcs(tree: DualTree, wanted: set[int], children: dict[int, list[int]]) -> _Arcs:
     """Walk the tree from the root, in planar order, over the cells that have an arc to draw behind them.
 
     An arc may end on a descending border y further out where the piece that the chord cuts off turns once: Φ, the
     direction of the curve less that of the arc, grows by 2 from e to y if y comes later along the curve, and shrinks
     by 2 if it comes earlier.
     """
-    children = tree.ways(cells)
     link, along, bend, ascends = tree.link.tolist(), tree.along.tolist(), tree.bend.tolist(), tree.ascends.tolist()
-    wanted = set(cells)
     arcs = _Arcs({}, {}, [])
     open_borders: dict[int, list[int]] = {}
     stack = [(child, 0) for child in children.get(0, [])]
