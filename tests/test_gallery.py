@@ -7,7 +7,11 @@ from plyfold.gallery import CURVES
 from reference import crossings, gluings, layerings
 
 
-@pytest.mark.parametrize("named", CURVES.values(), ids=CURVES.keys())
+# Enumerating all gluings takes too long for more crossings; tests/hard has other proofs for those curves.
+ENUMERABLE = {name: named for name, named in CURVES.items() if named.crossings <= 30}
+
+
+@pytest.mark.parametrize("named", ENUMERABLE.values(), ids=ENUMERABLE.keys())
 def test_reference_gives_the_known_answers(named):
     code = crossings.crossings(named.curve.points.tolist())[0]
     assert len(code.partner) // 2 == named.crossings

@@ -248,6 +248,13 @@ def _smallest_unliftable() -> Points:
     return rounded(corners)
 
 
+def _seven_flaps() -> Points:
+    from plyfold.hard import PALEY, flap_disk
+
+    curve = flap_disk(7, PALEY).immersion.arrangement.curve
+    return curve.points if curve is not None else np.empty((0, 2))
+
+
 # After each figure of the paper (Mukherjee, Gopi, Rossignac 2011): a loop of its kind, not a copy of it.
 CURVES: Mapping[str, NamedCurve] = {
     named.name: named
@@ -271,5 +278,6 @@ CURVES: Mapping[str, NamedCurve] = {
         NamedCurve(
             "bennequin", "five immersions, of which two cannot be lifted (figure 12, right)", _bennequin, 12, 1, 5, 3
         ),
+        NamedCurve("seven-flaps", "one immersion, and no order of its sheets fits", _seven_flaps, 158, 1, 1, 0),
     )
 }
