@@ -6,7 +6,6 @@ import plyfold as pf
 from plyfold.gallery import CURVES
 from reference import crossings, gluings, layerings
 
-
 # Enumerating all gluings takes too long for more crossings; tests/hard has other proofs for those curves.
 ENUMERABLE = {name: named for name, named in CURVES.items() if named.crossings <= 30}
 
