@@ -37,7 +37,7 @@ def gallery() -> None:
         if named.embeddable:
             plot_surface(pf.lift(named.curve), ax=lifted)
         else:
-            reason = fill(f"No disk. {pf.find_immersion(named.curve)}", 26)
+            reason = fill(f"No disk. {pf.find_embedding(named.curve)}".replace("No disk. No ", "No "), 26)
             lifted.text(0.5, 0.5, reason, ha="center", va="center", color=OBSTRUCTION, transform=lifted.transAxes)
     save(figure, HERE / "images" / "gallery.png", force=True)
 
