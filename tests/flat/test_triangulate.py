@@ -228,3 +228,28 @@ def test_moved_into_general_position():
     assert drawn.curve.repairs
     certify(drawn.curve.points, triangulate(points))
     assert triangulate(points, pf.find_immersion(drawn)).tolist() == triangulate(points).tolist()
+
+
+@pytest.mark.parametrize("name", ["exit-ramp", "pretzel", "ten-gon", "bennequin"])
+def test_refined_triangles_are_round_as_a_rule(name):
+    """Half of them have all angles above 35 degrees."""
+    curve = CURVES[name].curve
+    x, y = curve.points.T
+    points, faces = triangulate(curve, refine=abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 4000)
+    corners = points[faces]
+    sides = np.roll(corners, -1, axis=1) - corners
+    back = -np.roll(sides, 1, axis=1)
+    cross = sides[..., 0] * back[..., 1] - sides[..., 1] * back[..., 0]
+    smallest = np.degrees(np.arctan2(cross, (sides * back).sum(axis=2))).min(axis=1)
+    assert smallest.min() > 0
+    assert np.median(smallest) > 35
+    assert (smallest < 10).mean() < 0.15
+
+
+def test_an_obstruction_in_place_of_an_immersion_says_why():
+    eight = [(0, 0), (2, 2), (2, 0), (0, 2)]
+    with pytest.raises(NotImmersibleError, match="turns 0 times"):
+        triangulate(eight, pf.find_immersion(eight))
+    for area in ("a", float("nan"), -1.0, True):
+        with pytest.raises(InputError):
+            triangulate([(0, 0), (1, 0), (0, 1)], refine=area)

@@ -18,7 +18,7 @@ from plyfold.arrangement.planar_map import Ints
 from plyfold.errors import PrecisionError
 from plyfold.predicates import Floats
 
-__all__ = ["without_vertices"]
+__all__ = ["turns_left", "without_vertices"]
 
 Triangle: TypeAlias = tuple[int, int, int]
 # A vertex seen from another one: x, y, squared distance, and its number.
@@ -154,7 +154,7 @@ def _four_cut(disk: _Disk, vertex: int, ring: list[int]) -> list[Triangle]:
         return [(a, b, c), (a, c, d)]
     if sure_bd:
         return [(a, b, d), (b, c, d)]
-    if _exact_turn(disk, a, b, c) > 0 and _exact_turn(disk, a, c, d) > 0:
+    if _exact_turn(disk.x, disk.y, a, b, c) > 0 and _exact_turn(disk.x, disk.y, a, c, d) > 0:
         return [(a, b, c), (a, c, d)]
     return [_positive(disk, vertex, (a, b, d)), _positive(disk, vertex, (b, c, d))]
 
@@ -206,11 +206,11 @@ def _depth(disk: _Disk, vertex: int, a: _Seen, b: _Seen, c: _Seen) -> float:
     (ax, ay, aa, i), (bx, by, bb, j), (cx, cy, cc, k) = a, b, c
     ac = ax * cy - ay * cx
     error = _ERROR * (aa + bb + cc) + _UNDERFLOW
-    if not ac > error and (ac < -error or _exact_turn(disk, vertex, i, k) < 0):
+    if not ac > error and (ac < -error or _exact_turn(disk.x, disk.y, vertex, i, k) < 0):
         return inf
     ab, bc = ax * by - ay * bx, bx * cy - by * cx
     turn = ab + bc - ac
-    if not turn > error and (turn < -error or _exact_turn(disk, i, j, k) <= 0):
+    if not turn > error and (turn < -error or _exact_turn(disk.x, disk.y, i, j, k) <= 0):
         return inf
     depth = (aa * bc - bb * ac + cc * ab) / turn if turn else 0.0
     # Beyond the range of doubles any order will do.
@@ -220,19 +220,22 @@ def _depth(disk: _Disk, vertex: int, a: _Seen, b: _Seen, c: _Seen) -> float:
 def _positive(disk: _Disk, vertex: int, triangle: Triangle) -> Triangle:
     """Return the last triangle of a gap, checked."""
     _, x, y = disk
-    a, b, c = triangle
-    left, right = (x[b] - x[a]) * (y[c] - y[a]), (y[b] - y[a]) * (x[c] - x[a])
-    if left - right > _ERROR * (abs(left) + abs(right)) + _UNDERFLOW or _exact_turn(disk, a, b, c) > 0:
+    if turns_left(x, y, *triangle):
         return triangle
     raise _in_the_way(disk, vertex)
 
 
-def _exact_turn(disk: _Disk, a: int, b: int, c: int) -> int:
+def turns_left(x: list[float], y: list[float], a: int, b: int, c: int) -> bool:
+    """Tell whether three of the points with given coordinates turn counter-clockwise, exactly."""
+    left, right = (x[b] - x[a]) * (y[c] - y[a]), (y[b] - y[a]) * (x[c] - x[a])
+    return left - right > _ERROR * (abs(left) + abs(right)) + _UNDERFLOW or _exact_turn(x, y, a, b, c) > 0
+
+
+def _exact_turn(x: list[float], y: list[float], a: int, b: int, c: int) -> int:
     """Return the sign of the turn a, b, c, in integers: doubles are fractions over powers of two.
 
     Vertices over a crossing lie in line with neighbours, so this is called often, and class Fraction would be slow.
     """
-    _, x, y = disk
     fractions = [place[v].as_integer_ratio() for v in (a, b, c) for place in (x, y)]
     common = max(below for _, below in fractions)
     ax, ay, bx, by, cx, cy = (above * (common // below) for above, below in fractions)

@@ -11,10 +11,12 @@ from plyfold.arrangement.core import CurveLike
 from plyfold.arrangement.planar_map import Ints
 from plyfold.curve import as_curve
 from plyfold.errors import InputError, NotImmersibleError, PlyfoldError, PrecisionError
-from plyfold.flat.cells import refuse_max_area, triangulate_cells
+from plyfold.flat.cells import MOST_TRIANGLES, refuse_max_area, triangulate_cells
 from plyfold.flat.deletion import without_vertices
+from plyfold.flat.flips import flip_edges
 from plyfold.flat.sheets import glue_copies
 from plyfold.immersion import Immersion, find_immersion
+from plyfold.immersion.immersion import require_immersion
 from plyfold.predicates import Floats, orient
 
 __all__ = ["chosen_immersion", "own_triangles", "triangulate"]
@@ -59,14 +61,15 @@ def triangulate(
     PrecisionError
         If crossings, rounded to doubles, are in the way of each other or of the curve's points; it names the place.
     InputError
-        If ``refine`` is not positive or makes too many triangles, or the immersion is one of another curve.
+        If ``refine`` is no positive number or makes too many triangles, or the immersion is one of another curve.
 
     Notes
     -----
     The same input and output as programs after Shor and Van Wyk [SW92]_ have, which take O(n³). Here the cells are
     triangulated together with the crossings, copied once per sheet, glued, and then the vertices over crossings and
     those under other sheets are deleted one at a time. That such triangles exist is proved in [SW92]_ and [WZ14]_.
-    O(m log m) for m copied triangles; 60,000 points with 18,000 crossings take about a second.
+    O(m log m) for m copied triangles, of which there are as many as winding numbers of all points together; more than
+    10,000,000 are refused. 60,000 points with 18,000 crossings take about a second.
 
     Points that repeat the one before them are left out (see :class:`~plyfold.Curve`) and do not count. If vertices had
     to be moved into general position, the triangles are those of the moved curve, ``arrangement(curve).curve``.
@@ -89,7 +92,7 @@ def triangulate(
     """
     chosen = chosen_immersion(curve, immersion)
     if refine is not None:
-        return _refined(chosen, float(refine))
+        return _refined(chosen, refine)
     points, faces = own_triangles(chosen)
     return _input_order(chosen.arrangement, len(points))[faces]
 
@@ -104,7 +107,7 @@ def chosen_immersion(curve: CurveLike, immersion: Immersion | None) -> Immersion
         if not isinstance(found, Immersion):
             raise NotImmersibleError(found)
         return found
-    drawn = immersion.arrangement
+    drawn = require_immersion(immersion).arrangement
     if not (curve is drawn if isinstance(curve, Arrangement) else _draws(drawn, as_curve(curve).points)):
         raise InputError("the immersion belongs to another curve", hint="make it from the same arrangement")
     return immersion
@@ -126,6 +129,7 @@ def own_triangles(immersion: Immersion) -> tuple[Floats, Ints]:
     the curve turns once, so the angles of n − 2 triangles add up to those of the curve, with no full turn to spare.
     """
     mesh = triangulate_cells(immersion.arrangement, triangles=0)
+    _refuse_too_many(int(immersion.arrangement.winding[mesh.cell].sum()))
     glued = glue_copies(immersion, mesh)
     n = len(mesh.points) - immersion.arrangement.n_crossings
     extra = np.ones(len(glued.planar_vertex), dtype=bool)
@@ -134,6 +138,14 @@ def own_triangles(immersion: Immersion) -> tuple[Floats, Ints]:
     if len(faces) != n - 2:
         raise PrecisionError("rounding the crossings to double precision spoils the triangles", where=mesh.points[n:])
     return mesh.points[:n], faces
+
+
+def _refuse_too_many(triangles: int) -> None:
+    if triangles > MOST_TRIANGLES:
+        raise PlyfoldError(
+            f"the sheets have {triangles:,} triangles in all, more than the {MOST_TRIANGLES:,} that are made",
+            hint="the curve covers itself too often; find_immersion tells its sheets all the same",
+        )
 
 
 def _input_order(drawn: Arrangement, n: int) -> Ints:
@@ -145,6 +157,8 @@ def _refined(immersion: Immersion, max_area: float) -> tuple[Floats, Ints]:
     """Triangulate with added points, and take those on the boundary out again."""
     drawn = immersion.arrangement
     assert drawn.curve is not None
+    if isinstance(max_area, bool) or not isinstance(max_area, int | float | np.number):
+        raise InputError(f"the largest area of a triangle must be a number, not {max_area!r}")
     n = len(drawn.curve.points)
     refuse_max_area(drawn.curve.points, max_area)
     mesh = triangulate_cells(drawn, max_area)
@@ -162,8 +176,12 @@ def _refined(immersion: Immersion, max_area: float) -> tuple[Floats, Ints]:
 
 
 def _split_large(points: Floats, faces: Ints, max_area: float) -> tuple[Floats, Ints]:
-    """Split triangles at their centres until none is larger than allowed, or none of those can be split exactly."""
+    """Split triangles at their centres until none is larger than allowed, or none of those can be split exactly.
+
+    Edges are flipped after each round, so that triangles stay as round as their points allow.
+    """
     while True:
+        faces = flip_edges(points, faces)
         a, b, c = points[faces].swapaxes(0, 1)
         (ux, uy), (vx, vy) = (b - a).T, (c - a).T
         large = np.flatnonzero(ux * vy - uy * vx > 2 * max_area)
