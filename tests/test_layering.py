@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
-from plyfold.errors import NotEmbeddableError, TimeLimitError
+from plyfold.errors import InputError, NotEmbeddableError, TimeLimitError
 from plyfold.gallery import CURVES
 from plyfold.layering import count_layerings, first_layering
 from plyfold.layering.sat import minimal_core, solve
@@ -129,3 +129,11 @@ def test_what_is_known_when_the_search_is_stopped(monkeypatch):
     assert unknown.established["pair classes"] == 1
     assert unknown.established["triples"] == 0
     assert "No pair of sheets returns reversed" in str(unknown)
+
+
+def test_time_limits_are_numbers_of_seconds():
+    immersion = next(filter(pf.find_layering, bennequin()))
+    assert pf.find_layering(immersion, time_limit=float("inf"))
+    for limit in (-1, float("nan"), "a"):
+        with pytest.raises(InputError, match="time limit"):
+            pf.find_layering(immersion, time_limit=limit)

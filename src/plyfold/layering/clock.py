@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
+from threading import TIMEOUT_MAX
+
+from plyfold.errors import InputError
 
 __all__ = ["Clock"]
 
@@ -21,6 +24,10 @@ class Clock:
     limit: float | None
     started: float = field(default_factory=time.monotonic)
 
+    def __post_init__(self) -> None:
+        if self.limit is not None and not (isinstance(self.limit, int | float) and self.limit >= 0):
+            raise InputError(f"a time limit is a number of seconds from 0 on, not {self.limit!r}")
+
     @property
     def spent(self) -> float:
         """Seconds since the start."""
@@ -29,7 +36,7 @@ class Clock:
     @property
     def left(self) -> float | None:
         """Seconds until the end, at least 0; None without a limit."""
-        return None if self.limit is None else max(self.limit - self.spent, 0.0)
+        return None if self.limit is None or self.limit > TIMEOUT_MAX else max(self.limit - self.spent, 0.0)
 
     @property
     def over(self) -> bool:
