@@ -1,6 +1,10 @@
 """Embeddings straight from the curve, against brute force over levels and against the search by immersions."""
 
+import os
+import signal
+import threading
 from itertools import islice
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,6 +19,7 @@ from plyfold.layering.embedding import count_embeddings, embeddings, find_embedd
 from plyfold.layering.level_clauses import LevelClauses, list_levels, solve_levels
 from plyfold.layering.level_counting import count_level_solutions
 from plyfold.layering.levels import level_equations
+from plyfold.layering.sat import in_time
 from plyfold.obstruction import Unknown
 from reference import gluings, random_curves
 from reference.layerings import level_solutions, level_solutions_by_immersion, levels_agree
@@ -192,3 +197,23 @@ def test_time_is_limited():
             assert isinstance(answer, Unknown)
             assert "Unknown after" in str(answer)
         assert find_embedding(curve, time_limit=60)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals")
+def test_the_solver_is_interrupted_by_ctrl_c():
+    """Interrupting a long question ends it with KeyboardInterrupt."""
+    released, stopped = threading.Event(), threading.Event()
+    solver = SimpleNamespace(interrupt=stopped.set)
+
+    def question():
+        released.set()
+        return stopped.wait(30)
+
+    def press():
+        released.wait()
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Thread(target=press, daemon=True).start()
+    with pytest.raises(KeyboardInterrupt):
+        in_time(None, solver, question)
+    assert stopped.is_set()

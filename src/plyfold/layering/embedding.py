@@ -36,7 +36,7 @@ from plyfold.obstruction import Obstruction, Unknown
 __all__ = ["count_embeddings", "embeddings", "find_embedding"]
 
 # Up to so many immersions are gone through one by one.
-_FEW = 8
+_FEW = 100
 
 
 def find_embedding(

@@ -14,7 +14,8 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
+from typing import Any
 
 import numpy as np
 
@@ -24,7 +25,7 @@ from plyfold.errors import PlyfoldError
 from plyfold.immersion import Immersion
 from plyfold.layering.clock import Clock
 from plyfold.layering.orders import OrderProblem, independent_orders
-from plyfold.layering.sat import interrupted_after
+from plyfold.layering.sat import in_time
 from plyfold.predicates import Floats
 
 __all__ = ["IntersectingLayering", "border_lengths", "least_intersecting_layering"]
@@ -193,8 +194,8 @@ def _most_wishes(wishes: _Wishes, clock: Clock) -> list[int] | None:
     formula = WCNF()
     formula.extend(wishes.clauses)
     formula.extend([[-failure] for failure in wishes.failure], weights=wishes.weight)
-    with RC2Stratified(formula, exhaust=True, minz=True) as solver, interrupted_after(clock.left, solver):
-        true = solver.compute(expect_interrupt=True)
+    with RC2Stratified(formula, exhaust=True, minz=True) as solver:
+        true = in_time(clock.left, solver, partial(solver.compute, expect_interrupt=True))
     return None if true is None else list(true)
 
 
@@ -202,18 +203,20 @@ def _greedy(wishes: _Wishes, clock: Clock) -> list[int]:
     """Return the literals of a solution: fulfil wishes, the weightiest first, as long as there is time."""
     from pysat.solvers import Glucose4
 
-    weightiest_first = np.argsort(-np.array(wishes.weight), kind="stable")
     with Glucose4(bootstrap_with=wishes.clauses) as solver:
         solver.solve()
-        true: list[int] = solver.get_model()
-        with interrupted_after(clock.left, solver):
-            for wish in weightiest_first.tolist():
-                fulfilled = [-wishes.failure[wish]]
-                if _equal(true, *wishes.literals[wish]):
-                    solver.add_clause(fulfilled)
-                elif not clock.over and solver.solve_limited(assumptions=fulfilled, expect_interrupt=True):
-                    solver.add_clause(fulfilled)
-                    true = solver.get_model()
+        return in_time(clock.left, solver, partial(_one_by_one, wishes, clock, solver))
+
+
+def _one_by_one(wishes: _Wishes, clock: Clock, solver: Any) -> list[int]:
+    true: list[int] = solver.get_model()
+    for wish in np.argsort(-np.array(wishes.weight), kind="stable").tolist():
+        fulfilled = [-wishes.failure[wish]]
+        if _equal(true, *wishes.literals[wish]):
+            solver.add_clause(fulfilled)
+        elif not clock.over and solver.solve_limited(assumptions=fulfilled, expect_interrupt=True):
+            solver.add_clause(fulfilled)
+            true = solver.get_model()
     return true
 
 

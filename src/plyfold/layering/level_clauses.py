@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import chain
 from typing import Any
 
@@ -19,7 +19,7 @@ from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import count_each
 from plyfold.layering.clock import Clock
 from plyfold.layering.levels import LevelEquations
-from plyfold.layering.sat import interrupted_after
+from plyfold.layering.sat import in_time
 from plyfold.predicates import Bools
 
 __all__ = ["LevelClauses", "contradicting_crossings", "list_levels", "solve_levels"]
@@ -132,8 +132,8 @@ def _without_constants(rows: Ints) -> tuple[Ints, list[list[int]]]:
 
 def solve_levels(clauses: LevelClauses, clock: Clock) -> Ints | None:
     """Return the levels of a solution, or None if there is none. Raises TimeoutError when the time is over."""
-    with _solver(clauses) as solver, interrupted_after(clock.left, solver):
-        answer = solver.solve_limited(expect_interrupt=True)
+    with _solver(clauses) as solver:
+        answer = in_time(clock.left, solver, partial(solver.solve_limited, expect_interrupt=True))
         if answer is None:
             raise TimeoutError
         return clauses.levels(solver.get_model()) if answer else None
@@ -168,18 +168,23 @@ def contradicting_crossings(clauses: LevelClauses, clock: Clock) -> list[int]:
     the time is over, so do all the others.
     """
     start = clauses.n_variables + 1
-    with _solver(clauses, start) as solver, interrupted_after(clock.left, solver):
-        core = list(range(start, start + clauses.equations.n_crossings))
-        answer = solver.solve_limited(assumptions=core, expect_interrupt=True)
-        core = sorted(solver.get_core()) if answer is False else core
-        for selector in list(core):
-            if clock.over:
-                break
-            rest = [other for other in core if other != selector]
-            solver.conf_budget(_EFFORT)
-            if len(rest) < len(core) and solver.solve_limited(assumptions=rest, expect_interrupt=True) is False:
-                core = sorted(solver.get_core() or [])
+    selectors = list(range(start, start + clauses.equations.n_crossings))
+    with _solver(clauses, start) as solver:
+        core = in_time(clock.left, solver, partial(_small_core, solver, selectors, clock))
     return [selector - start for selector in core]
+
+
+def _small_core(solver: Any, selectors: list[int], clock: Clock) -> list[int]:
+    answer = solver.solve_limited(assumptions=selectors, expect_interrupt=True)
+    core = sorted(solver.get_core()) if answer is False else selectors
+    for selector in list(core):
+        if clock.over:
+            break
+        rest = [other for other in core if other != selector]
+        solver.conf_budget(_EFFORT)
+        if len(rest) < len(core) and solver.solve_limited(assumptions=rest, expect_interrupt=True) is False:
+            core = sorted(solver.get_core() or [])
+    return core
 
 
 def _solver(clauses: LevelClauses, first_selector: int | None = None) -> Any:

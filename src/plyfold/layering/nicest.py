@@ -15,12 +15,13 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import replace
+from functools import partial
 
 from plyfold.immersion import Immersion
 from plyfold.layering.clock import Clock
 from plyfold.layering.layering import Layering, meeting_sheets
 from plyfold.layering.orders import OrderProblem, order_problem
-from plyfold.layering.sat import interrupted_after
+from plyfold.layering.sat import in_time
 from plyfold.layering.search import solve_orders, undecided
 from plyfold.obstruction import Obstruction, Unknown
 
@@ -111,8 +112,7 @@ def _fewest_changes(problem: OrderProblem, over: list[int], clock: Clock) -> tup
             formula.append([first, -second, change])
             formula.append([-change], weight=times)
     with RC2(formula, adapt=True, exhaust=True, minz=True) as solver:
-        with interrupted_after(clock.left, solver):
-            true = solver.compute(expect_interrupt=True)
+        true = in_time(clock.left, solver, partial(solver.compute, expect_interrupt=True))
         return true, changes + int(solver.cost)
 
 

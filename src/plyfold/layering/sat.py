@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from threading import Timer
-from typing import Any, TypeAlias
+from collections.abc import Callable, Sequence
+from functools import partial
+from threading import Thread
+from typing import Any, TypeAlias, TypeVar
 
-__all__ = ["Clauses", "interrupted_after", "minimal_core", "solve"]
+__all__ = ["Clauses", "in_time", "minimal_core", "solve"]
 
 Clauses: TypeAlias = Sequence[Sequence[int]]
+Answer = TypeVar("Answer")
 
 
 def solve(clauses: Clauses, time_limit: float | None = None) -> list[int] | None:
@@ -17,27 +18,37 @@ def solve(clauses: Clauses, time_limit: float | None = None) -> list[int] | None
     from pysat.solvers import Glucose4
 
     with Glucose4(bootstrap_with=clauses) as solver:
-        with interrupted_after(time_limit, solver):
-            answer = solver.solve_limited(expect_interrupt=True)
+        answer = in_time(time_limit, solver, partial(solver.solve_limited, expect_interrupt=True))
         if answer is None:
             raise TimeoutError
         return list(solver.get_model()) if answer else None
 
 
-@contextmanager
-def interrupted_after(time_limit: float | None, solver: Any) -> Iterator[None]:
-    """Interrupt a solver when the time is over."""
-    if time_limit is None:
-        yield
-        return
-    timer = Timer(time_limit, solver.interrupt)
-    timer.daemon = True
-    timer.start()
+def in_time(time_limit: float | None, solver: Any, question: Callable[[], Answer]) -> Answer:
+    """Ask a question of a solver, and interrupt the solver when the time is over or Ctrl-C is pressed.
+
+    The question is asked in another thread, since signals have to wait for as long as this one is in foreign code.
+    """
+    answers: list[Answer] = []
+    errors: list[BaseException] = []
+
+    def ask() -> None:
+        try:
+            answers.append(question())
+        except BaseException as error:  # it is raised again below
+            errors.append(error)
+
+    worker = Thread(target=ask, daemon=True)
+    worker.start()
     try:
-        yield
+        worker.join(time_limit)
     finally:
-        timer.cancel()
-        timer.join()
+        if worker.is_alive():
+            solver.interrupt()
+            worker.join()
+    if errors:
+        raise errors[0]
+    return answers[0]
 
 
 def minimal_core(demands: Sequence[Clauses], given: Clauses = ()) -> list[int]:
