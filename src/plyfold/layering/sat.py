@@ -39,8 +39,8 @@ def in_time(time_limit: float | None, solver: Any, question: Callable[[], Answer
             errors.append(error)
 
     worker = Thread(target=ask, daemon=True)
-    worker.start()
     try:
+        worker.start()
         worker.join(time_limit)
     finally:
         if worker.is_alive():
