@@ -200,6 +200,8 @@ def test_time_is_limited():
 
 PROGRAM = """
 import threading
+from types import SimpleNamespace
+from plyfold.layering.sat import in_time
 
 stopped = threading.Event()
 
