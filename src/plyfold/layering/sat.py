@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from threading import Thread
+from threading import Event, Thread
 from typing import Any, TypeAlias, TypeVar
 
 __all__ = ["Clauses", "in_time", "minimal_core", "solve"]
@@ -31,21 +31,24 @@ def in_time(time_limit: float | None, solver: Any, question: Callable[[], Answer
     """
     answers: list[Answer] = []
     errors: list[BaseException] = []
+    # Not Thread.join: interrupted by a signal, it takes the thread for finished.
+    done = Event()
 
     def ask() -> None:
         try:
             answers.append(question())
         except BaseException as error:  # it is raised again below
             errors.append(error)
+        finally:
+            done.set()
 
-    worker = Thread(target=ask, daemon=True)
     try:
-        worker.start()
-        worker.join(time_limit)
+        Thread(target=ask, daemon=True).start()
+        done.wait(time_limit)
     finally:
-        if worker.is_alive():
+        if not done.is_set():
             solver.interrupt()
-            worker.join()
+            done.wait()
     if errors:
         raise errors[0]
     return answers[0]
