@@ -8,10 +8,11 @@ rounding, in pairs of doubles or with :class:`fractions.Fraction`. Nothing here 
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+
+from plyfold.arrays import Bools, Floats, Signs
 
 __all__ = [
     "compare_along_edge",
@@ -22,9 +23,6 @@ __all__ = [
     "parameter_along_edge",
 ]
 
-Floats: TypeAlias = npt.NDArray[np.float64]
-Signs: TypeAlias = npt.NDArray[np.int8]
-Bools: TypeAlias = npt.NDArray[np.bool_]
 
 # Shewchuk's bound for orient2d is (3 + 16 u) u with u = 2^-53; doubled here, which costs a few exact calls more.
 _ORIENT_ERROR = 6.7e-16

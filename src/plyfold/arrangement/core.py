@@ -13,7 +13,6 @@ import numpy.typing as npt
 
 from plyfold.arrangement.general_position import in_general_position
 from plyfold.arrangement.planar_map import (
-    Ints,
     cell_boundaries,
     checked_code,
     left_windings,
@@ -21,9 +20,10 @@ from plyfold.arrangement.planar_map import (
     reversed_code,
     whitney_turning_number,
 )
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.curve import Curve, as_curve
 from plyfold.errors import GaussCodeError, PlyfoldError
-from plyfold.predicates import Bools, Floats, cross_sign, orient
+from plyfold.predicates import cross_sign, orient
 
 # Anything that stands for a closed curve: Curve, array-like (n, 2), shapely geometry, Arrangement or GaussCode.
 CurveLike: TypeAlias = Any

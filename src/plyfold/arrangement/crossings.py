@@ -9,8 +9,8 @@ from itertools import pairwise
 import numpy as np
 
 from plyfold.arrangement.edge_pairs import near_pairs
-from plyfold.arrangement.planar_map import Ints
-from plyfold.predicates import Bools, Floats, Signs, counted_cross_sign, exact_parameter, parameter_along_edge
+from plyfold.arrays import Bools, Floats, Ints, Signs
+from plyfold.predicates import counted_cross_sign, exact_parameter, parameter_along_edge
 
 __all__ = ["Contacts", "Visits", "edge_ends", "find_contacts", "order_visits"]
 

@@ -9,8 +9,7 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.planar_map import Ints
-from plyfold.predicates import Floats
+from plyfold.arrays import Floats, Ints
 
 __all__ = ["near_pairs"]
 

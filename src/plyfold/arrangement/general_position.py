@@ -14,10 +14,10 @@ from typing import Literal
 import numpy as np
 
 from plyfold.arrangement.crossings import Contacts, Visits, find_contacts, order_visits
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.curve import Curve, Repair
 from plyfold.errors import GeneralPositionError, InputError
-from plyfold.predicates import Bools, Floats, orient
+from plyfold.predicates import orient
 
 __all__ = ["in_general_position", "touching_places"]
 

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from plyfold.arrangement.core import CurveLike, arrangement
+from plyfold.arrays import Ints
 
 __all__ = ["loop_turning_numbers"]
-
-Ints = npt.NDArray[np.int64]
 
 
 def loop_turning_numbers(curve: CurveLike) -> Ints:

@@ -6,17 +6,15 @@ CONVENTIONS.md. The cells are the orbits of *turn left at every crossing*.
 
 from __future__ import annotations
 
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from plyfold.arrays import Bools, Ints
 from plyfold.errors import GaussCodeError
-from plyfold.predicates import Bools
 
 __all__ = ["cell_boundaries", "checked_code", "left_windings", "next_darts", "reversed_code", "whitney_turning_number"]
-
-Ints: TypeAlias = npt.NDArray[np.int64]
 
 
 def checked_code(partner: npt.ArrayLike, ccw: npt.ArrayLike, outer: int) -> tuple[Ints, Bools, int]:

@@ -17,10 +17,10 @@ import numpy as np
 from plyfold.arrangement.core import CurveLike, polygon_turning_number
 from plyfold.arrangement.crossings import Contacts, Visits, edge_ends, find_contacts, order_visits
 from plyfold.arrangement.general_position import touching_places
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.curve import Curve, as_curve
 from plyfold.errors import GeneralPositionError, InputError
-from plyfold.predicates import Bools, Floats, cross_sign, exact_parameter
+from plyfold.predicates import cross_sign, exact_parameter
 
 __all__ = ["Loops", "are_several", "arrange_loops", "components"]
 

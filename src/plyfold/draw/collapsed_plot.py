@@ -6,8 +6,8 @@ from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 
+from plyfold.arrays import Floats
 from plyfold.draw.colours import INK, OBSTRUCTION, PAPER, mix, sheet_colour, text_colour
 from plyfold.draw.hyperbolic import BorderCircle
 from plyfold.draw.places import middle_and_size
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from plyfold.layering import Layering
 
 __all__ = ["plot_collapsed_graph", "plot_marked_cell"]
-
-Floats = npt.NDArray[np.float64]
 
 
 def plot_collapsed_graph(

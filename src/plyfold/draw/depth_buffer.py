@@ -10,12 +10,11 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
+
+from plyfold.arrays import Floats, Ints
 
 __all__ = ["Pixels", "Seen", "View", "look"]
 
-Floats = npt.NDArray[np.float64]
-Ints = npt.NDArray[np.int64]
 
 _BATCH = 1_000_000
 

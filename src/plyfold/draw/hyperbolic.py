@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
+
+from plyfold.arrays import Floats
 
 __all__ = ["BorderCircle", "geodesic"]
-
-Floats = npt.NDArray[np.float64]
 
 
 def geodesic(start: float, end: float, points: int = 48) -> Floats:

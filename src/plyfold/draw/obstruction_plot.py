@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from plyfold.arrangement import Arrangement
+from plyfold.arrays import Floats
 from plyfold.draw.colours import OBSTRUCTION, PAPER, mix, sheet_colour, text_colour, winding_colour
-from plyfold.draw.places import Floats, Frame, border_middle, label_circle
+from plyfold.draw.places import Frame, border_middle, label_circle
 from plyfold.draw.plots import plot_arrangement, write_below
 
 if TYPE_CHECKING:

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from plyfold.arrays import Floats
+
 if TYPE_CHECKING:
     from plyfold.arrangement import Arrangement
 
 __all__ = ["Frame", "arrows", "border_middle", "label_circle", "line_weight", "middle_and_size", "natural_stretch"]
-
-Floats = npt.NDArray[np.float64]
 
 
 class Frame:

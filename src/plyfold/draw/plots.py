@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 import numpy as np
 import numpy.typing as npt
 
+from plyfold.arrays import Floats
 from plyfold.draw.colours import ACCENT, INK, OBSTRUCTION, mix, sheet_colour, text_colour, winding_colour
 from plyfold.draw.depth_buffer import View
 from plyfold.draw.hyperbolic import BorderCircle
@@ -37,7 +38,6 @@ if TYPE_CHECKING:
 
 __all__ = ["plot_arrangement", "plot_disk_layout", "plot_layers", "plot_surface"]
 
-Floats = npt.NDArray[np.float64]
 Places = tuple[tuple[float, float], ...]
 T = TypeVar("T", bound=np.generic)
 Direction = Literal["above", "side"] | tuple[float, float]

@@ -6,14 +6,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.draw.colours import BACK, CLOTH_HIGH, CLOTH_LOW, rgb
-from plyfold.draw.depth_buffer import Floats, Ints, Pixels, Seen, View, look
+from plyfold.draw.depth_buffer import Pixels, Seen, View, look
 
 __all__ = ["Image", "Mesh", "shade"]
 
-Bools = npt.NDArray[np.bool_]
 
 _LIGHTS = 16
 _LAMP_WIDTH = 0.12

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.errors import InputError, PlyfoldError, PrecisionError
-from plyfold.predicates import Floats, orient
+from plyfold.predicates import orient
 
 if TYPE_CHECKING:
     from plyfold.arrangement import Arrangement

@@ -10,11 +10,11 @@ import numpy.typing as npt
 
 from plyfold.arrangement import Arrangement
 from plyfold.arrangement.core import CurveLike
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import PrecisionError
 from plyfold.flat.triangulate import chosen_immersion, own_triangles
 from plyfold.immersion import Immersion
-from plyfold.predicates import Bools, Floats, orient
+from plyfold.predicates import orient
 
 if TYPE_CHECKING:
     from shapely import Polygon

@@ -14,9 +14,8 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.errors import PrecisionError
-from plyfold.predicates import Floats
 
 __all__ = ["turns_left", "without_vertices"]
 

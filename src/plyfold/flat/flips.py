@@ -9,9 +9,8 @@ from math import hypot
 
 import numpy as np
 
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.flat.deletion import turns_left
-from plyfold.predicates import Floats
 
 __all__ = ["flip_edges"]
 

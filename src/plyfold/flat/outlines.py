@@ -11,10 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrangement import Arrangement
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.errors import PlyfoldError, PrecisionError
 from plyfold.flat.cells import chain_of
-from plyfold.predicates import Floats
 
 if TYPE_CHECKING:
     from shapely import Polygon

@@ -8,7 +8,7 @@ import numpy as np
 
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.core import CurveLike
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.curve import as_curve
 from plyfold.errors import InputError, NotImmersibleError, PlyfoldError, PrecisionError
 from plyfold.flat.cells import MOST_TRIANGLES, refuse_max_area, triangulate_cells
@@ -17,7 +17,7 @@ from plyfold.flat.flips import flip_edges
 from plyfold.flat.sheets import glue_copies
 from plyfold.immersion import Immersion, find_immersion
 from plyfold.immersion.immersion import require_immersion
-from plyfold.predicates import Floats, orient
+from plyfold.predicates import orient
 
 __all__ = ["chosen_immersion", "own_triangles", "triangulate"]
 

@@ -23,13 +23,12 @@ from itertools import groupby
 import numpy as np
 
 from plyfold.arrangement import Arrangement, arrangement
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.curve import Curve
 from plyfold.errors import InputError
 from plyfold.hard.pieces import immersion_of_pieces
 from plyfold.immersion import Immersion
 from plyfold.layering import Layering
-from plyfold.predicates import Bools, Floats
 
 __all__ = ["PALEY", "FlapDisk", "flap_disk"]
 

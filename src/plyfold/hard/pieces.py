@@ -9,9 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from plyfold.arrangement import Arrangement
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Bools, Ints
 from plyfold.immersion import Immersion
-from plyfold.predicates import Bools
 
 __all__ = ["immersion_of_pieces"]
 

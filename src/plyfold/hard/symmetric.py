@@ -14,12 +14,12 @@ from typing import NamedTuple
 import numpy as np
 
 from plyfold.arrangement import arrangement
+from plyfold.arrays import Floats
 from plyfold.curve import Curve
 from plyfold.errors import InputError
 from plyfold.immersion import Immersion, immersions
 from plyfold.layering import find_layering
 from plyfold.obstruction import Obstruction
-from plyfold.predicates import Floats
 
 __all__ = ["Unliftable", "search_symmetric"]
 

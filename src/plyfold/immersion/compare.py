@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Ints
 from plyfold.errors import InputError
 from plyfold.immersion.immersion import Immersion, require_immersion
 

@@ -26,7 +26,7 @@ from __future__ import annotations
 import numpy as np
 
 from plyfold.arrangement import Arrangement
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Ints
 
 __all__ = ["border_differences", "cells_around_crossings", "diagonal_differences", "diagonal_sums"]
 

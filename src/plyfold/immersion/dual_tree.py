@@ -20,7 +20,7 @@ from functools import cached_property
 import numpy as np
 
 from plyfold.arrangement import Arrangement
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Ints
 
 __all__ = ["DualTree", "around_cells", "grow_dual_tree"]
 

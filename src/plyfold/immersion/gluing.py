@@ -17,7 +17,7 @@ from typing import TypeAlias
 import numpy as np
 
 from plyfold.arrangement import Arrangement
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Ints
 from plyfold.immersion.dual_tree import DualTree
 from plyfold.immersion.immersion import Immersion, count_each
 

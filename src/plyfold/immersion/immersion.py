@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from plyfold.arrangement import Arrangement
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Ints
 from plyfold.errors import InputError, NotImmersibleError, PlyfoldError
 from plyfold.obstruction import Obstruction
 

@@ -23,7 +23,7 @@ from typing import TypeAlias
 import numpy as np
 
 from plyfold.arrangement import Arrangement
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Ints
 from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import Immersion
 

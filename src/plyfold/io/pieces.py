@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from plyfold.arrays import Floats, Ints
+
 if TYPE_CHECKING:
     from shapely import Polygon
 
-    from plyfold.arrangement.planar_map import Ints
-    from plyfold.predicates import Floats
 
 __all__ = ["POLYGON_WRITERS", "TRIANGLE_WRITERS"]
 

@@ -15,15 +15,14 @@ import numpy.typing as npt
 
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.core import CurveLike
-from plyfold.arrangement.planar_map import Ints
 from plyfold.arrangement.several import Loops, are_several
+from plyfold.arrays import Bools, Ints
 from plyfold.errors import InputError
 from plyfold.immersion import Immersion
 from plyfold.immersion.immersion import count_each
 from plyfold.immersion.obstructions import visible_obstruction
 from plyfold.layering.layering import Layering
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.predicates import Bools
 
 if TYPE_CHECKING:
     from plyfold.layering.layered_surface import LayeredSurface

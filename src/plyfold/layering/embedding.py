@@ -13,8 +13,8 @@ from itertools import islice
 
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.core import CurveLike
-from plyfold.arrangement.planar_map import Ints
 from plyfold.arrangement.several import are_several
+from plyfold.arrays import Ints
 from plyfold.immersion import bounds_disk, count_immersions, find_immersion, immersions
 from plyfold.layering.casing import layering_of_levels
 from plyfold.layering.clock import Clock

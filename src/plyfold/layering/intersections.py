@@ -20,13 +20,12 @@ from typing import Any
 import numpy as np
 
 from plyfold.arrangement import Arrangement
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.errors import PlyfoldError
 from plyfold.immersion import Immersion
 from plyfold.layering.clock import Clock
 from plyfold.layering.orders import OrderProblem, independent_orders
 from plyfold.layering.sat import in_time
-from plyfold.predicates import Floats
 
 __all__ = ["IntersectingLayering", "border_lengths", "least_intersecting_layering"]
 

@@ -16,8 +16,8 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrangement.core import CurveLike
-from plyfold.arrangement.planar_map import Ints
 from plyfold.arrangement.several import Loops, arrange_loops, components
+from plyfold.arrays import Bools, Ints
 from plyfold.immersion.immersion import count_each
 from plyfold.layering.casing import casing_of_visits
 from plyfold.layering.clock import Clock
@@ -25,7 +25,6 @@ from plyfold.layering.level_clauses import LevelClauses, contradicting_crossings
 from plyfold.layering.level_counting import count_level_solutions
 from plyfold.layering.levels import level_equations_of_loops
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.predicates import Bools
 
 __all__ = ["LayeredSurface", "Piece", "count_layered_surfaces", "find_layered_surface", "layered_surfaces"]
 

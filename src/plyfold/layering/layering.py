@@ -7,11 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Bools, Ints
 from plyfold.errors import PlyfoldError
 from plyfold.immersion import Immersion
 from plyfold.immersion.immersion import count_each
-from plyfold.predicates import Bools
 
 __all__ = ["Layering", "meeting_sheets"]
 

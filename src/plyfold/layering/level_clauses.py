@@ -14,13 +14,12 @@ from typing import Any
 
 import numpy as np
 
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Bools, Ints
 from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import count_each
 from plyfold.layering.clock import Clock
 from plyfold.layering.levels import LevelEquations
 from plyfold.layering.sat import in_time
-from plyfold.predicates import Bools
 
 __all__ = ["LevelClauses", "contradicting_crossings", "list_levels", "solve_levels"]
 

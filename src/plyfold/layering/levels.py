@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from plyfold.arrangement import Arrangement
-from plyfold.arrangement.planar_map import Ints
 from plyfold.arrangement.several import Loops
+from plyfold.arrays import Ints
 
 __all__ = ["LevelEquations", "level_equations", "level_equations_of_loops"]
 

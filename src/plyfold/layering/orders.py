@@ -14,7 +14,7 @@ from itertools import combinations
 
 import numpy as np
 
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Ints
 from plyfold.immersion import Immersion
 from plyfold.layering.layering import Layering
 from plyfold.layering.sheet_pairs import PairGraph, chain_to_reverse, pair_graph, pair_of

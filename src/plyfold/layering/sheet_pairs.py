@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Ints
 from plyfold.immersion import Immersion
 from plyfold.immersion.immersion import require_immersion
 

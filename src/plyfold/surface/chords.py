@@ -10,11 +10,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.errors import PrecisionError
 from plyfold.flat.cells import CellTriangulation
 from plyfold.flat.sheets import following
-from plyfold.predicates import Floats, orient
+from plyfold.predicates import orient
 
 __all__ = ["split_chords"]
 

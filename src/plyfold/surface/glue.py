@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Ints
 from plyfold.flat.cells import CellTriangulation
 from plyfold.flat.sheets import SheetMesh, glue_copies
 from plyfold.immersion import Immersion

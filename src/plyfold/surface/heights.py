@@ -27,9 +27,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.layering import Progress
-from plyfold.predicates import Floats
 from plyfold.surface.glue import LiftedMesh
 from plyfold.surface.passages import shares_of_gap
 

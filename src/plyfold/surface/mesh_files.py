@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.predicates import Floats
+from plyfold.arrays import Floats
 
 if TYPE_CHECKING:
     from plyfold.surface.surface import Surface

@@ -11,11 +11,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.flat.cells import CellTriangulation
 from plyfold.flat.sheets import SheetMesh, following
 from plyfold.layering.intersections import IntersectingLayering
-from plyfold.predicates import Floats
 
 if TYPE_CHECKING:
     from plyfold.surface.glue import LiftedMesh

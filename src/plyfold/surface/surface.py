@@ -13,7 +13,7 @@ import numpy as np
 
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.core import CurveLike
-from plyfold.arrangement.planar_map import Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.curve import Curve
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
 from plyfold.flat.cells import DEFAULT_TRIANGLES, MOST_TRIANGLES, refuse_max_area, triangulate_cells
@@ -23,7 +23,6 @@ from plyfold.layering import Layering, Progress, first_layering
 from plyfold.layering.clock import Clock
 from plyfold.layering.intersections import IntersectingLayering, least_intersecting_layering
 from plyfold.obstruction import IMMERSION_REASONS, Obstruction
-from plyfold.predicates import Floats
 from plyfold.surface.chords import split_chords
 from plyfold.surface.glue import glue_sheets
 from plyfold.surface.heights import smooth_heights

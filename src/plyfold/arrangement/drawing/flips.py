@@ -12,7 +12,8 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.drawing.skeleton import Complexes, Ints, Kind, Skeleton
+from plyfold.arrangement.drawing.skeleton import Kind, Skeleton
+from plyfold.arrays import Complexes, Ints
 
 __all__ = ["flipped"]
 

@@ -16,13 +16,12 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
-from plyfold.arrangement.drawing.skeleton import Complexes, Ints, Kind, Skeleton
+from plyfold.arrangement.drawing.skeleton import Kind, Skeleton
+from plyfold.arrays import Complexes, Floats, Ints
 
 __all__ = ["energy", "relaxed"]
 
-Floats = npt.NDArray[np.float64]
 
 # How much each wish counts: the shape and the size of triangles, and a curve that bends and speeds up evenly.
 _SHAPE = {Kind.CORNER: 25.0, Kind.CELL: 0.7, Kind.RING: 0.1}

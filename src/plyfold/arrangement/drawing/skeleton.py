@@ -15,12 +15,10 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrangement.core import Arrangement
+from plyfold.arrays import Complexes, Floats, Ints
 
-__all__ = ["Complexes", "Ints", "Kind", "Skeleton", "skeleton"]
+__all__ = ["Kind", "Skeleton", "skeleton"]
 
-Ints = npt.NDArray[np.int64]
-Floats = npt.NDArray[np.float64]
-Complexes = npt.NDArray[np.complex128]
 
 _BEADS = 3
 _BEADS_ON_A_LOOP = 5

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from plyfold.arrangement.drawing.skeleton import Complexes, Ints
+from plyfold.arrays import Complexes, Ints
 
 __all__ = ["grid_drawing", "tutte_drawing"]
 
