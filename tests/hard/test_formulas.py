@@ -73,7 +73,7 @@ def test_a_literal_and_its_negation_make_a_clause_true():
     assert pf.find_layering(formula_disk([(1, -1, 2)]).disk.immersion)
 
 
-@pytest.mark.parametrize("clauses", [[], [(1,)], [(1, 1, 1)], [(1, 2, 3, 4)], [(0, 1, 2)]])
+@pytest.mark.parametrize("clauses", [[], [(1,)], [(1, 1, 1)], [(1, 2, 3, 4)], [(0, 1, 2)], [(1, 1.5)]])
 def test_refuses(clauses):
     with pytest.raises(InputError):
         formula_disk(clauses)

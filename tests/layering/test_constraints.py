@@ -126,6 +126,9 @@ class TestFixedOrders:
             ({(0, 0, 1): "above"}, "no sheet lies over it"),
             ({(17, 0, 1): "above"}, "no cell 17"),
             ({(1, 0, 1): "over"}, "not 'over'"),
+            ({(1, 0): "above"}, r"not for \(1, 0\)"),
+            ({1: "above"}, "not for 1"),
+            ({(1, 0.5, 1): "above"}, r"not for \(1, 0.5, 1\)"),
         ],
     )
     def test_what_is_no_order_is_refused(self, order, words):
@@ -133,9 +136,10 @@ class TestFixedOrders:
             pf.find_layering(pf.find_immersion(RAMP), fix=order)
 
 
-def test_the_papers_way_takes_no_fixed_orders():
-    with pytest.raises(InputError, match="no fixed orders"):
-        pf.find_layering(pf.find_immersion(RAMP), fix={(1, 0, 1): "above"}, method="paper")
+@pytest.mark.parametrize("options", [{"fix": {(1, 0, 1): "above"}}, {"time_limit": 1.0}])
+def test_the_papers_way_takes_no_fixed_orders_and_no_time_limit(options):
+    with pytest.raises(InputError, match="no fixed orders and no time limit"):
+        pf.find_layering(pf.find_immersion(RAMP), method="paper", **options)
 
 
 def test_a_good_layering_and_a_bound_when_the_nicest_is_unknown(monkeypatch):

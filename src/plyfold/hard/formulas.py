@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from numbers import Integral
 
 import numpy as np
 
@@ -74,7 +75,7 @@ def formula_disk(clauses: Iterable[Sequence[int]]) -> FormulaDisk:
     Raises
     ------
     InputError
-        If there is no clause, or one has other than two or three different literals, or a literal 0.
+        If there is no clause, or one has other than two or three different literals, or one that is 0 or no integer.
 
     Notes
     -----
@@ -111,12 +112,12 @@ def formula_disk(clauses: Iterable[Sequence[int]]) -> FormulaDisk:
 
 def _checked(clause: Sequence[int]) -> Clause:
     literals = tuple(sorted(set(clause)))
-    if len(literals) not in (2, 3) or 0 in literals:
+    if len(literals) not in (2, 3) or 0 in literals or not all(isinstance(literal, Integral) for literal in literals):
         raise InputError(
             f"{tuple(clause)} is no clause with two or three different literals",
             hint="write variables as 1, 2, … and their negations as -1, -2, …; a longer clause can be split",
         )
-    return literals
+    return tuple(int(literal) for literal in literals)
 
 
 @dataclass

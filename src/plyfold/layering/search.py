@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Iterable, Mapping
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, cast
 
 import numpy as np
 
@@ -56,7 +57,7 @@ def find_layering(
     ------
     InputError
         If ``fix`` names a sheet that does not lie over the cell, or a sheet twice; if there is no such method, or
-        it knows no fixed orders.
+        it knows no fixed orders and no time limit.
 
     Notes
     -----
@@ -78,8 +79,11 @@ def find_layering(
     [2, 1, 1, 1, 1]
     """
     if method == "paper":
-        if fix:
-            raise InputError("the paper's way knows no fixed orders", hint='leave out "fix", or use method="exact"')
+        if fix or time_limit is not None:
+            raise InputError(
+                "the paper's way knows no fixed orders and no time limit",
+                hint='leave out "fix" and "time_limit", or use method="exact"',
+            )
         from plyfold.layering.paper import paper_layering
 
         return paper_layering(immersion)
@@ -168,13 +172,22 @@ def undecided(reason: str, question: str, clock: Clock, problem: OrderProblem | 
 def _fixed_literals(problem: OrderProblem, fix: FixedOrders) -> list[int]:
     """Return the literals that fixed orders make true; refuse what are not two sheets over the cell."""
     pairs = []
-    for (cell, first, second), order in fix.items():
+    for key, order in fix.items():
         if order not in ("above", "below"):
             raise InputError(f'a sheet lies "above" or "below" another one, not {order!r}')
+        cell, first, second = _cell_and_sheets(key)
         _require_sheets(problem.immersion, cell, first, second)
         pairs.append((second, first) if order == "above" else (first, second))
     lower, upper = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
     return [int(literal) for literal in problem.above(lower, upper)]
+
+
+def _cell_and_sheets(key: object) -> tuple[int, int, int]:
+    try:
+        cell, first, second = (operator.index(number) for number in cast(tuple[int, int, int], key))
+    except (TypeError, ValueError):
+        raise InputError(f"a fixed order is for (cell, sheet a, sheet b), not for {key!r}") from None
+    return cell, first, second
 
 
 def _require_sheets(immersion: Immersion, cell: int, first: int, second: int) -> None:
@@ -204,6 +217,7 @@ def _cyclic_order(problem: OrderProblem) -> Obstruction:
     triples = problem.triples.tolist()
     core = minimal_core([[triple, [-x for x in triple]] for triple in triples])
     value = tuple((problem.cell_of(i), problem.sheets[i].tolist()) for i in core)
-    sentence = f"No layering: among {len(core)} triples of sheets, some three always lie above each other in a circle."
+    triples_of_sheets = f"among {len(core)} triples of sheets, some three" if len(core) > 1 else "three sheets"
+    sentence = f"No layering: {triples_of_sheets} always lie above each other in a circle."
     places = places_of_cells(problem.immersion, [cell for cell, _ in value])
     return Obstruction("cyclic order", sentence, places, value)
