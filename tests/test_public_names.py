@@ -17,6 +17,7 @@ def test_public_names():
         "Obstruction",
         "Surface",
         "Unknown",
+        "UnwoundDisk",
         "arrangement",
         "best_immersion",
         "blank_word",
@@ -44,10 +45,12 @@ def test_public_names():
         "least_intersecting_layering",
         "lift",
         "loop_turning_numbers",
+        "map_disk",
         "nicest_layering",
         "read",
         "sample_immersion",
         "triangulate",
+        "unwrap",
     ]
     assert all(hasattr(pf, name) for name in pf.__all__)
 

@@ -45,7 +45,7 @@ from plyfold.layering.layered_surface import (
     layered_surfaces,
 )
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.surface import Surface, lift
+from plyfold.surface import Surface, UnwoundDisk, lift, map_disk, unwrap
 
 __version__ = "0.2.0"
 
@@ -62,6 +62,7 @@ __all__ = [
     "Obstruction",
     "Surface",
     "Unknown",
+    "UnwoundDisk",
     "arrangement",
     "best_immersion",
     "blank_word",
@@ -89,8 +90,10 @@ __all__ = [
     "least_intersecting_layering",
     "lift",
     "loop_turning_numbers",
+    "map_disk",
     "nicest_layering",
     "read",
     "sample_immersion",
     "triangulate",
+    "unwrap",
 ]

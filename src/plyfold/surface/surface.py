@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import chain
 from pathlib import Path
 from typing import cast
@@ -16,7 +17,7 @@ from plyfold.arrangement.core import CurveLike
 from plyfold.arrays import Floats, Ints
 from plyfold.curve import Curve
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
-from plyfold.flat.cells import DEFAULT_TRIANGLES, MOST_TRIANGLES, refuse_max_area, triangulate_cells
+from plyfold.flat.cells import DEFAULT_TRIANGLES, triangulate_cells
 from plyfold.immersion import Immersion, find_immersion, immersions
 from plyfold.io.saving import refuse_existing, save_bytes
 from plyfold.layering import Layering, Progress, first_layering
@@ -28,6 +29,8 @@ from plyfold.surface.glue import glue_sheets
 from plyfold.surface.heights import smooth_heights
 from plyfold.surface.mesh_files import WRITERS
 from plyfold.surface.passages import intersection_curves
+from plyfold.surface.sizes import refuse_sizes
+from plyfold.surface.unwrap import UnwoundDisk, unwound_surface
 
 __all__ = ["Surface", "lift"]
 
@@ -113,6 +116,26 @@ class Surface:
 
         gap = 0.0 if len(self.passing) else self.gap
         check_surface(self.curve.points, self.vertices, self.faces, self.boundary, gap, passing=self.passing)
+
+    def unwrap(self) -> UnwoundDisk:
+        """Spread the cloth out as a round disk: one-to-one, the boundary by arc length, no triangle flipped.
+
+        Returns
+        -------
+        UnwoundDisk
+            With this surface's vertices and triangles; computed once. It has texture coordinates, ``uv``, and maps
+            points of the disk to the drawing and to the surface.
+
+        Raises
+        ------
+        PrecisionError
+            If double precision cannot hold the disk; it names the place.
+        """
+        return self._unwound
+
+    @cached_property
+    def _unwound(self) -> UnwoundDisk:
+        return unwound_surface(self)
 
     def export(self, path: str | os.PathLike[str], force: bool = False, title: str | None = None) -> None:
         """Write the surface to a file.
@@ -228,7 +251,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     layering = _layering_of(curve, allow_intersections, time_limit, report)
     drawn = layering.immersion.arrangement
     distance = _distance(drawn, gap)
-    _refuse_sizes(drawn, triangles, max_area)
+    refuse_sizes(cast(Curve, drawn.curve).points, triangles, max_area)
     report("triangulating the cells", 0.0)
     cells = triangulate_cells(drawn, max_area, triangles)
     if isinstance(layering, IntersectingLayering):
@@ -257,14 +280,6 @@ def _distance(drawn: Arrangement, gap: float | None) -> float:
     if not 0 < gap <= _LARGEST_GAP * size:
         raise InputError(f"the gap must be positive and at most {_LARGEST_GAP * size:g}, not {gap!r}")
     return float(gap)
-
-
-def _refuse_sizes(drawn: Arrangement, triangles: int, max_area: float | None) -> None:
-    """Raise InputError for sizes that make no mesh, or one that no machine can hold."""
-    if not 1 <= triangles <= MOST_TRIANGLES:
-        raise InputError(f"the number of triangles must be from 1 to {MOST_TRIANGLES:,}, not {triangles!r}")
-    if max_area is not None and drawn.curve is not None:
-        refuse_max_area(drawn.curve.points, max_area)
 
 
 def _layering_of(
