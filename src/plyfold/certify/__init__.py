@@ -8,12 +8,21 @@ from __future__ import annotations
 
 import numpy.typing as npt
 
-from plyfold.certify.disk import check_disk_mesh
+from plyfold.certify.disk import check_ball_mesh, check_disk_mesh
 from plyfold.certify.exact import CertificateError, finite
 from plyfold.certify.immersed import check_immersed_disk
 from plyfold.certify.layered import check_layered
+from plyfold.certify.solid import check_solid
 
-__all__ = ["CertificateError", "check_disk_mesh", "check_immersed_disk", "check_layered", "check_surface"]
+__all__ = [
+    "CertificateError",
+    "check_ball_mesh",
+    "check_disk_mesh",
+    "check_immersed_disk",
+    "check_layered",
+    "check_solid",
+    "check_surface",
+]
 
 
 def check_surface(  # noqa: PLR0913 - the parts of a mesh, and two options

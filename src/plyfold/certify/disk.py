@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from plyfold.certify.exact import CertificateError, Ints, as_faces
 
-__all__ = ["Sides", "check_disk_mesh", "disk_sides"]
+__all__ = ["Sides", "check_ball_mesh", "check_disk_mesh", "disk_sides"]
 
 
 def check_disk_mesh(faces: npt.ArrayLike, n_vertices: int) -> None:
@@ -43,6 +43,35 @@ def check_disk_mesh(faces: npt.ArrayLike, n_vertices: int) -> None:
     disk_sides(faces, n_vertices)
 
 
+def check_ball_mesh(faces: npt.ArrayLike, n_vertices: int) -> None:
+    """Check that triangles make a sphere, the boundary of a ball.
+
+    Parameters
+    ----------
+    faces : array_like of int, shape (m, 3)
+        Vertices of each triangle, all in the same sense of rotation.
+    n_vertices : int
+        Number of vertices; each must occur.
+
+    Raises
+    ------
+    CertificateError
+        If the mesh has a boundary, its Euler characteristic is not 2, or it fails as in :func:`check_disk_mesh`.
+
+    Examples
+    --------
+    >>> check_ball_mesh([[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]], n_vertices=4)
+    >>> check_ball_mesh([[0, 1, 2], [0, 2, 3], [0, 3, 1]], n_vertices=4)
+    Traceback (most recent call last):
+    plyfold.certify.exact.CertificateError: the mesh is not closed: nothing is beyond the edge from vertex 1 to vertex 2
+    """
+    sides = _connected_sides(faces, n_vertices)
+    if len(rim := np.flatnonzero(sides.twin < 0)):
+        ends = f"from vertex {sides.start[rim[0]]} to vertex {sides.end[rim[0]]}"
+        raise CertificateError(f"the mesh is not closed: nothing is beyond the edge {ends}")
+    _require_euler(sides, n_vertices, "a sphere", 2)
+
+
 @dataclass(frozen=True, eq=False)
 class Sides:
     """The sides 3t, 3t + 1, 3t + 2 of each triangle t: their ends, and the same edge's side in the next triangle.
@@ -64,17 +93,27 @@ class Sides:
 
 def disk_sides(faces: npt.ArrayLike, n_vertices: int) -> Sides:
     """Return the sides of a mesh that is a disk."""
+    sides = _connected_sides(faces, n_vertices)
+    _require_one_loop(sides)
+    _require_euler(sides, n_vertices, "a disk", 1)
+    return sides
+
+
+def _connected_sides(faces: npt.ArrayLike, n_vertices: int) -> Sides:
+    """Return the sides of a mesh that is a connected surface, with or without boundary."""
     triangles = as_faces(faces, n_vertices)
     start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     twin = _twins(start, end, n_vertices)
     sides = Sides(start, end, twin, _boundary_sides(start, twin, n_vertices))
     _require_one_fan_each(sides, n_vertices)
     _require_connected(sides, n_vertices)
-    _require_one_loop(sides)
-    edges = (len(twin) + np.count_nonzero(twin < 0)) // 2
-    if (euler := n_vertices - edges + len(triangles)) != 1:
-        raise CertificateError(f"the mesh has Euler characteristic {euler}; a disk has 1")
     return sides
+
+
+def _require_euler(sides: Sides, n_vertices: int, name: str, expected: int) -> None:
+    edges = (len(sides.twin) + np.count_nonzero(sides.twin < 0)) // 2
+    if (euler := n_vertices - edges + len(sides.start) // 3) != expected:
+        raise CertificateError(f"the mesh has Euler characteristic {euler}; {name} has {expected}")
 
 
 def _twins(start: Ints, end: Ints, n_vertices: int) -> Ints:

@@ -19,17 +19,18 @@ from plyfold.curve import Curve
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
 from plyfold.flat.cells import DEFAULT_TRIANGLES, triangulate_cells
 from plyfold.immersion import Immersion, find_immersion, immersions
-from plyfold.io.saving import refuse_existing, save_bytes
+from plyfold.io.saving import save_bytes
 from plyfold.layering import Layering, Progress, first_layering
 from plyfold.layering.clock import Clock
 from plyfold.layering.intersections import IntersectingLayering, least_intersecting_layering
 from plyfold.obstruction import IMMERSION_REASONS, Obstruction
 from plyfold.surface.chords import split_chords
+from plyfold.surface.files import Colouring, model_of_surface, refuse_ending, save_model
 from plyfold.surface.glue import glue_sheets
 from plyfold.surface.heights import smooth_heights
-from plyfold.surface.mesh_files import WRITERS
 from plyfold.surface.passages import intersection_curves
 from plyfold.surface.sizes import refuse_sizes
+from plyfold.surface.thicken import Solid, thicken
 from plyfold.surface.unwrap import UnwoundDisk, unwound_surface
 
 __all__ = ["Surface", "lift"]
@@ -137,18 +138,54 @@ class Surface:
     def _unwound(self) -> UnwoundDisk:
         return unwound_surface(self)
 
-    def export(self, path: str | os.PathLike[str], force: bool = False, title: str | None = None) -> None:
+    def thicken(self, thickness: float) -> Solid:
+        """Return a solid with this surface in its middle, as thick as given in vertical direction: to be printed.
+
+        Parameters
+        ----------
+        thickness : float
+            In units of the drawing; less than :attr:`gap` where sheets overlap.
+
+        Returns
+        -------
+        Solid
+            With ``export`` and ``check``.
+
+        Raises
+        ------
+        InputError
+            If the thickness is not positive or not less than the gap, or the surface passes through itself.
+        PrecisionError
+            If the thickness, or what is left of the gap, is lost in rounding.
+        """
+        return thicken(self, thickness)
+
+    def export(
+        self,
+        path: str | os.PathLike[str],
+        force: bool = False,
+        title: str | None = None,
+        *,
+        colours: Colouring = "layers",
+        unwrapped: bool = True,
+    ) -> None:
         """Write the surface to a file.
 
         Parameters
         ----------
         path : path
-            The ending chooses the format: ``.glb``, ``.obj``, ``.ply``, ``.stl``, or ``.html`` for a 3D page that
-            works in any browser with no network.
+            The ending chooses the format: ``.glb``, ``.obj``, ``.ply``, ``.stl``, ``.3mf``, or ``.html`` for a 3D page
+            that works in any browser with no network.
         force : bool
             Replace an existing file.
         title : str, optional
             Heading of the page; the file's name by default.
+        colours : {"layers", "sheets"}
+            In a GLB, PLY or 3MF, a colour for each layer, in smooth transition, or a material for each sheet, named
+            like ``sheet_3_level_2``. With ``"sheets"``, an OBJ gets its materials in an ``.mtl`` file beside it.
+        unwrapped : bool
+            In a GLB, OBJ or PLY, texture coordinates from :meth:`unwrap`; in a GLB, moreover, the surface flat on the
+            table and unwound to a disk, as morph targets ``flat`` and ``disk`` and an animation.
 
         Raises
         ------
@@ -156,17 +193,13 @@ class Surface:
             If the ending is none of these.
         FileExistsError
             If the file exists and ``force`` is not set.
+        PrecisionError
+            If the 32-bit numbers of a GLB or STL cannot hold the surface.
         """
-        target = Path(path)
-        suffix = target.suffix.lower()
-        if suffix != ".html" and suffix not in WRITERS:
-            raise InputError(
-                f"{target.name}: a surface cannot be written as {suffix or 'a file without ending'}",
-                hint=f"use one of .html {' '.join(WRITERS)}",
-            )
-        refuse_existing(target, force)
-        content = self._page(title or target.stem) if suffix == ".html" else WRITERS[suffix](self)
-        save_bytes(target, content, force)
+        if refuse_ending(path, (".html",)) == ".html":
+            save_bytes(path, self._page(title or Path(path).stem), force)
+        else:
+            save_model(lambda: model_of_surface(self, colours, unwrapped), path, force)
 
     def show(self) -> None:
         """Open the 3D page in the browser, from a temporary file that stays until the system cleans up."""

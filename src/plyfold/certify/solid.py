@@ -1,0 +1,144 @@
+"""Check that a triangle mesh bounds a solid of constant vertical thickness that does not meet itself."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from plyfold.certify.disk import check_ball_mesh
+from plyfold.certify.exact import CertificateError, Floats, Ints, as_faces, cross_sign, finite
+from plyfold.certify.layered import check_layered
+
+__all__ = ["check_solid"]
+
+_HALF_ULP = 2.0**-53
+# Sums of the library numpy are pairwise: of 2^60 terms, each takes part in fewer additions than this.
+_ROUNDINGS = 64
+
+
+def check_solid(vertices: npt.ArrayLike, faces: npt.ArrayLike, thickness: float) -> None:
+    """Check that triangles bound a ball that is as thick everywhere as it should be, and does not meet itself.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (v, 3)
+        Positions; vertices with exactly equal x and y lie over one another.
+    faces : array_like of int, shape (m, 3)
+        Vertices of each triangle, counter-clockwise seen from the outside.
+    thickness : float
+        The vertical thickness.
+
+    Raises
+    ------
+    CertificateError
+        If the mesh is not closed, or not a sphere; if going up over any place does not lead by turns into the solid
+        through a triangle that faces down and out through one that faces up, right above it; if those two are not the
+        thickness apart, to two units in the last place; if triangles or edges over one another change their order; if
+        other triangles are not vertical walls between the two; or if the volume is not area times thickness. It names
+        the place.
+
+    Notes
+    -----
+    Why this proves it: over every place the vertices alternate, bottom and top, and each top triangle lies over the
+    bottom triangle that has the vertices right below. By :func:`check_layered`, the strict order at the corners goes
+    for the triangles and edges. So between a bottom triangle and its top there is nothing else, and the prisms between
+    them meet in common walls only; the remaining triangles are parts of such walls.
+
+    The volume is summed up over all triangles, walls too, and compared within the bounds of rounding errors. Cost: that
+    of :func:`check_layered`.
+
+    Examples
+    --------
+    >>> top, bottom = [(0, 0, 1), (1, 0, 1), (0, 1, 1)], [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+    >>> walls = [(3, 4, 1), (3, 1, 0), (4, 5, 2), (4, 2, 1), (5, 3, 0), (5, 0, 2)]
+    >>> check_solid(top + bottom, [(0, 1, 2), (5, 4, 3), *walls], thickness=1.0)
+    >>> check_solid(top + bottom, [(0, 1, 2), (5, 4, 3), *walls], thickness=0.5)
+    Traceback (most recent call last):
+    plyfold.certify.exact.CertificateError: top and bottom are not 0.5 apart, at (0, 0)
+    """
+    positions = finite(vertices, 3)
+    triangles = as_faces(faces, len(positions))
+    check_ball_mesh(triangles, len(positions))
+    a, b, c = positions[triangles, :2].swapaxes(0, 1)
+    turn = cross_sign(a, b, a, c)
+    upper, lower, walls = triangles[turn > 0], triangles[turn < 0], triangles[turn == 0]
+    top = _tops(positions, upper, lower)
+    _require_thickness(positions, top, thickness)
+    _require_prisms(upper, top[lower])
+    _require_walls(positions, walls, lower, top)
+    check_layered(positions, np.concatenate([upper, lower[:, ::-1]]))
+    _require_volume(positions, triangles, upper, thickness)
+
+
+def _tops(positions: Floats, upper: Ints, lower: Ints) -> Ints:
+    """Return for each vertex on the bottom the one right above it, for each other one −1; they must alternate."""
+    is_top, is_bottom = np.zeros((2, len(positions)), dtype=bool)
+    is_top[upper.ravel()] = is_bottom[lower.ravel()] = True
+    if len(bad := np.flatnonzero(is_top == is_bottom)):
+        raise CertificateError("a vertex is not either on the top or on the bottom", where=positions[bad[:1]])
+    x, y, z = positions.T
+    order = np.lexsort((z, y, x))
+    first, second = order[0::2], order[1::2]
+    same_place = (positions[first[: len(second)], :2] == positions[second, :2]).all(axis=1)
+    wrong = len(order) % 2 == 1 or not (is_bottom[first].all() and is_top[second].all() and same_place.all())
+    if wrong:
+        raise CertificateError("going up, top and bottom do not alternate")
+    top = np.full(len(positions), -1)
+    top[first] = second
+    return top
+
+
+def _require_thickness(positions: Floats, top: Ints, thickness: float) -> None:
+    bottom = np.flatnonzero(top >= 0)
+    rounding = 4 * _HALF_ULP * (np.abs(positions[:, 2]).max() + abs(thickness))
+    wrong = ~(np.abs(positions[top[bottom], 2] - positions[bottom, 2] - thickness) <= rounding)
+    if wrong.any():
+        raise CertificateError(
+            f"top and bottom are not {thickness:g} apart", where=positions[bottom[np.flatnonzero(wrong)[:1]], :2]
+        )
+
+
+def _require_prisms(upper: Ints, lifted: Ints) -> None:
+    """Check that the triangles right above those of the bottom are those of the top, the other way round."""
+    first, second = (_sorted_rows(triangles) for triangles in (upper, lifted[:, ::-1]))
+    if not np.array_equal(first, second):
+        raise CertificateError("the triangles of the top are not right above those of the bottom")
+
+
+def _sorted_rows(triangles: Ints) -> Ints:
+    """Return the triangles in order, each from its lowest vertex."""
+    turned = np.take_along_axis(triangles, (np.argmin(triangles, axis=1)[:, None] + np.arange(3)) % 3, axis=1)
+    return np.asarray(turned[np.lexsort(turned.T)])
+
+
+def _require_walls(positions: Floats, walls: Ints, lower: Ints, top: Ints) -> None:
+    """Check that there are two vertical triangles at each edge on the rim of the bottom, and no others.
+
+    Their corners are at the ends of the edge and of the one above it. As the mesh is closed, they fill what is between.
+    """
+    below = np.arange(len(positions))
+    below[top[top >= 0]] = np.flatnonzero(top >= 0)
+    at = np.sort(below[walls], axis=1)
+    at_two_places = (at[:, 0] == at[:, 1]) != (at[:, 1] == at[:, 2])
+    if len(bad := np.flatnonzero(~at_two_places)):
+        raise CertificateError("a wall is not between one top and its bottom", where=positions[walls[bad[0]], :2])
+    sides, used = np.unique(
+        np.sort(np.stack([lower, np.roll(lower, -1, axis=1)], axis=2).reshape(-1, 2)), axis=0, return_counts=True
+    )
+    pairs, times = np.unique(at[:, [0, 2]], axis=0, return_counts=True)
+    if not np.array_equal(pairs, sides[used == 1]) or (times != 2).any():
+        raise CertificateError("the walls are not along the rim of the bottom, two triangles at each edge")
+
+
+def _require_volume(positions: Floats, triangles: Ints, upper: Ints, thickness: float) -> None:
+    """Compare the volume, by all triangles, with area times thickness, within rounding errors."""
+    relative = positions - positions[triangles[0, 0]]
+    size = np.abs(relative).max()
+    a, b, c = (relative / size)[triangles].swapaxes(0, 1)
+    volume = float((a * np.cross(b, c)).sum()) / 6
+    magnitude = float(np.prod([np.abs(corner).sum(axis=1) for corner in (a, b, c)], axis=0).sum())
+    a, b, c = (relative / size)[upper, :2].swapaxes(0, 1)
+    area = float(np.linalg.det(np.stack([b - a, c - a], axis=1)).sum()) / 2
+    rounding = _ROUNDINGS * _HALF_ULP * (magnitude + area * (1 + np.abs(positions[:, 2]).max() / size))
+    if not (volume > 0 and abs(volume - area * thickness / size) <= rounding):
+        raise CertificateError(f"the volume is {volume * size**3:g}, not area times thickness")

@@ -1,0 +1,209 @@
+"""What every mesh file is written from: triangles with names, colours, texture coordinates and other shapes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
+
+import numpy as np
+import numpy.typing as npt
+
+from plyfold.arrays import Floats, Ints
+from plyfold.errors import InputError, PrecisionError
+
+if TYPE_CHECKING:
+    from plyfold.surface.surface import Surface
+    from plyfold.surface.thicken import Solid
+
+__all__ = ["Colouring", "Material", "Model", "model_of_solid", "model_of_surface", "single_precision", "vertex_normals"]
+
+Colouring: TypeAlias = Literal["layers", "sheets"]
+
+# 32-bit numbers must be at least so many times finer than what is to be seen.
+_FINER = 10
+# What is to be seen of a drawing, as a fraction of its size.
+_DETAIL = 1e-3
+
+
+@dataclass(frozen=True)
+class Material:
+    """The name and the colour, ``"#rrggbb"``, of a part."""
+
+    name: str
+    colour: str
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """Triangles in space and all that a file can say of them; z points up.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float
+    faces : (m, 3) int
+        Counter-clockwise seen from the outside, or from above.
+    material : (m,) int
+        The part that each triangle belongs to.
+    materials : tuple of Material
+        One for each part.
+    smooth : (m,) int
+        Triangles with the same number are shaded as one smooth surface.
+    closed : bool
+        Whether they bound a solid.
+    detail : float
+        A length that must still be seen after rounding.
+    colours : (n, 3) float or None
+        Red, green and blue of each vertex, 0 to 1 as on the screen; None if each part has the colour of its material.
+    uv : (n, 2) float or None
+        Texture coordinates, v up.
+    shapes : mapping of str to (n, 3) float
+        Other places of the vertices, by name.
+    """
+
+    vertices: Floats
+    faces: Ints
+    material: Ints
+    materials: tuple[Material, ...]
+    smooth: Ints
+    closed: bool
+    detail: float
+    colours: Floats | None = None
+    uv: Floats | None = None
+    shapes: Mapping[str, Floats] = field(default_factory=dict)
+
+
+def model_of_surface(surface: Surface, colours: Colouring = "layers", unwrapped: bool = True) -> Model:
+    """Return the model of a surface.
+
+    Parameters
+    ----------
+    surface : Surface
+    colours : {"layers", "sheets"}
+        A colour for each layer, in smooth transition, or for each sheet.
+    unwrapped : bool
+        Give texture coordinates in the unwound disk, and the shapes ``flat`` and ``disk``.
+
+    Returns
+    -------
+    Model
+
+    Examples
+    --------
+    >>> from plyfold import lift
+    >>> model_of_surface(lift([(0, 0), (1, 0), (0, 1)], max_area=1.0), unwrapped=False).materials
+    (Material(name='sheet_0_level_1', colour='#2f7fc1'),)
+    """
+    _refuse_colouring(colours)
+    uv, shapes = _unwrapped(surface) if unwrapped else (None, {})
+    return Model(
+        vertices=surface.vertices,
+        faces=surface.faces,
+        material=surface.sheet,
+        materials=_materials(surface),
+        smooth=np.zeros(len(surface.faces), dtype=np.int64),
+        closed=False,
+        detail=_DETAIL * _size(surface.vertices),
+        colours=_layer_colours(surface) if colours == "layers" else None,
+        uv=uv,
+        shapes=shapes,
+    )
+
+
+def model_of_solid(solid: Solid, colours: Colouring = "layers", unwrapped: bool = True) -> Model:
+    """Return the model of a solid; see :func:`model_of_surface`. Its walls are not smoothed."""
+    surface = solid.surface
+    model = model_of_surface(surface, colours, unwrapped)
+    up = np.repeat([solid.thickness / 2, -solid.thickness / 2], len(surface.vertices))[:, None] * (0.0, 0.0, 1.0)
+    walls = len(solid.faces) - 2 * len(surface.faces)
+    return Model(
+        vertices=solid.vertices,
+        faces=solid.faces,
+        material=solid.sheet,
+        materials=model.materials,
+        smooth=np.concatenate([np.zeros(2 * len(surface.faces), dtype=np.int64), 1 + np.arange(walls) // 2]),
+        closed=True,
+        detail=min(model.detail, solid.thickness),
+        colours=_twice(model.colours),
+        uv=_twice(model.uv),
+        shapes={name: np.tile(places, (2, 1)) + up for name, places in model.shapes.items()},
+    )
+
+
+def vertex_normals(vertices: Floats, faces: Ints) -> Floats:
+    """Return the unit normal at each vertex, shape (n, 3): that of the triangles around it, weighted by area.
+
+    Examples
+    --------
+    >>> vertex_normals(np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)]), np.array([(0, 1, 2)])).tolist()
+    [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]
+    """
+    a, b, c = (vertices / _size(vertices))[faces].swapaxes(0, 1)
+    summed = _summed_at_vertices(np.cross(b - a, c - a), faces, len(vertices))
+    return np.asarray(summed / np.linalg.norm(summed, axis=1, keepdims=True))
+
+
+def single_precision(values: Floats, detail: float) -> npt.NDArray[np.float32]:
+    """Return coordinates rounded to 32 bits.
+
+    Raises
+    ------
+    PrecisionError
+        If they are too large or too small for that, or rounding would hide the detail.
+    """
+    largest = float(np.abs(values).max())
+    range32 = np.finfo(np.float32)
+    if not (largest < range32.max and _FINER * np.spacing(np.float32(largest)) < detail and detail > range32.tiny):
+        raise PrecisionError(
+            "the 32-bit numbers of this format cannot hold the mesh",
+            where=values[:1],
+            hint="move it to the origin, scale it, or write .obj, .ply or .3mf",
+        )
+    return values.astype("<f4")
+
+
+def _unwrapped(surface: Surface) -> tuple[Floats, dict[str, Floats]]:
+    """Return texture coordinates, and the surface flat on the table and as a disk of the drawing's size."""
+    unwound = surface.unwrap()
+    plane = surface.vertices[:, :2]
+    low, high = plane.min(axis=0), plane.max(axis=0)
+    disk = low + (high - low) / 2 + unwound.disk * (high - low).max() / 2
+    return unwound.uv, {
+        name: np.column_stack([at, np.zeros(len(at))]) for name, at in (("flat", plane), ("disk", disk))
+    }
+
+
+def _refuse_colouring(colours: str) -> None:
+    if colours not in get_args(Colouring):
+        raise InputError(f"there is no colouring by {colours!r}", hint=f"use one of {', '.join(get_args(Colouring))}")
+
+
+def _materials(surface: Surface) -> tuple[Material, ...]:
+    from plyfold.draw.colours import sheet_colour
+
+    levels = surface.layering.level.tolist()
+    return tuple(Material(f"sheet_{i}_level_{level}", sheet_colour(i)) for i, level in enumerate(levels))
+
+
+def _layer_colours(surface: Surface) -> Floats:
+    """Return the colour of each vertex: the mean over the triangles around it, each in the colour of its layer."""
+    from plyfold.draw.colours import layer_colour, rgb
+
+    level = surface.layering.level
+    shades = np.array([rgb(layer_colour(number + 1, int(level.max()))) for number in range(level.max())])
+    total = _summed_at_vertices(shades[level[surface.sheet] - 1], surface.faces, len(surface.vertices))
+    return np.asarray(total / np.bincount(surface.faces.ravel(), minlength=len(total))[:, None])
+
+
+def _summed_at_vertices(values: Floats, faces: Ints, count: int) -> Floats:
+    """Return for each vertex the sum of the rows that belong to the triangles around it."""
+    corners = faces.ravel()
+    return np.stack([np.bincount(corners, np.repeat(column, 3), minlength=count) for column in values.T], axis=1)
+
+
+def _size(vertices: Floats) -> float:
+    return float(np.ptp(vertices, axis=0).max())
+
+
+def _twice(values: Floats | None) -> Floats | None:
+    return None if values is None else np.tile(values, (2, 1))

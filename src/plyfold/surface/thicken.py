@@ -1,0 +1,174 @@
+"""A solid from a surface: cloth of some thickness, watertight, to be printed."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from plyfold.arrays import Floats, Ints
+from plyfold.errors import InputError, PrecisionError
+from plyfold.surface.files import Colouring, model_of_solid, save_model
+
+if TYPE_CHECKING:
+    from plyfold.surface.surface import Surface
+
+__all__ = ["Solid", "thicken"]
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """The points at most half the thickness above or below a surface: a ball, bounded by triangles.
+
+    Parameters
+    ----------
+    surface : Surface
+        In the middle of the solid.
+    thickness : float
+        Measured vertically, in units of the drawing.
+    vertices : (2n, 3) float
+        The upper side, vertex by vertex as in the surface, then the lower side.
+    faces : (2m + 2b, 3) int
+        Counter-clockwise seen from the outside: the upper side, the lower side, and two triangles of the vertical wall
+        for each edge of the boundary.
+    sheet : (2m + 2b,) int
+        The sheet that each triangle belongs to.
+
+    Examples
+    --------
+    >>> from plyfold import lift
+    >>> tile = lift([(0, 0), (4, 0), (0, 3)], max_area=10.0).thicken(0.5)
+    >>> tile.vertices[:, 2].tolist(), len(tile.faces)
+    ([0.25, 0.25, 0.25, -0.25, -0.25, -0.25], 8)
+    >>> tile.check()
+    """
+
+    surface: Surface
+    thickness: float
+    vertices: Floats
+    faces: Ints
+    sheet: Ints
+
+    def __post_init__(self) -> None:
+        for array in (self.vertices, self.faces, self.sheet):
+            array.flags.writeable = False
+
+    def __repr__(self) -> str:
+        return f"<Solid: {len(self.faces)} triangles, {self.thickness:g} thick>"
+
+    def check(self) -> None:
+        """Prove with the independent checker :func:`plyfold.certify.check_solid` that it is a solid.
+
+        It is closed and has its outside outside, its volume is that of the drawing's area times the thickness, and it
+        nowhere meets itself.
+
+        Raises
+        ------
+        CertificateError
+            Naming the condition and the place.
+        """
+        from plyfold.certify import check_solid
+
+        check_solid(self.vertices, self.faces, self.thickness)
+
+    def export(
+        self,
+        path: str | os.PathLike[str],
+        force: bool = False,
+        colours: Colouring = "layers",
+        unwrapped: bool = True,
+    ) -> None:
+        """Write the solid to a file; see :meth:`Surface.export`. There is no page of a solid.
+
+        Parameters
+        ----------
+        path : path
+            The ending chooses the format: ``.stl``, ``.3mf``, ``.glb``, ``.obj`` or ``.ply``.
+        force : bool
+            Replace an existing file.
+        colours : {"layers", "sheets"}
+            A colour for each layer, in smooth transition, or a material for each sheet.
+        unwrapped : bool
+            With texture coordinates and other shapes, where the format has them.
+        """
+        save_model(lambda: model_of_solid(self, colours, unwrapped), path, force)
+
+
+def thicken(surface: Surface, thickness: float) -> Solid:
+    """Give a surface a thickness.
+
+    Parameters
+    ----------
+    surface : Surface
+        That does not pass through itself.
+    thickness : float
+        Measured vertically, in units of the drawing; less than the surface's gap where sheets overlap. On a slope, the
+        solid is thinner across.
+
+    Returns
+    -------
+    Solid
+        The surface moved up and down by half the thickness, and vertical walls along its boundary. Cost: O(n log n).
+
+    Raises
+    ------
+    InputError
+        If the thickness is not positive or not less than the gap, or the surface passes through itself.
+    PrecisionError
+        If the thickness, or what is left of the gap, is lost in rounding; it names the place.
+
+    Notes
+    -----
+    Over every point of the drawing, the heights of different sheets differ by the gap at least, so the intervals of
+    half the thickness round them are disjoint: the solid does not meet itself.
+    """
+    _refuse_thickness(surface, thickness)
+    n, b = len(surface.vertices), len(surface.boundary)
+    up = np.array([0.0, 0.0, thickness / 2])
+    vertices = np.concatenate([surface.vertices + up, surface.vertices - up])
+    _require_strict_order(vertices)
+    upper, following = surface.boundary, np.roll(surface.boundary, -1)
+    lower, lower_following = upper + n, following + n
+    walls = np.stack([lower, lower_following, following, lower, following, upper], axis=1).reshape(2 * b, 3)
+    faces = np.concatenate([surface.faces, surface.faces[:, ::-1] + n, walls])
+    sheet = np.concatenate([surface.sheet, surface.sheet, np.repeat(_sheets_along(surface), 2)])
+    return Solid(surface, float(thickness), vertices, faces, sheet)
+
+
+def _refuse_thickness(surface: Surface, thickness: float) -> None:
+    if not 0 < thickness < np.inf:
+        raise InputError(f"the thickness must be a positive number, not {thickness!r}")
+    if len(surface.passing):
+        raise InputError("a surface that passes through itself bounds no solid", where=surface.intersections[0][:1])
+    if surface.layering.level.max() > 1 and thickness >= surface.gap:
+        raise InputError(
+            f"sheets that lie over each other are {surface.gap:g} apart, and cannot be {thickness:g} thick",
+            hint="make the thickness smaller, or lift the curve with a larger gap",
+        )
+
+
+def _require_strict_order(vertices: Floats) -> None:
+    """Check that rounding has left both sides of each sheet apart, and neighbouring sheets."""
+    n = len(vertices) // 2
+    x, y, z = vertices[:n].T
+    order = np.lexsort((z, y, x))
+    upward = np.stack([vertices[n:][order], vertices[:n][order]], axis=1).reshape(-1, 3)
+    over = (upward[1:, :2] == upward[:-1, :2]).all(axis=1)
+    if len(bad := np.flatnonzero(over & ~(upward[1:, 2] > upward[:-1, 2]))):
+        raise PrecisionError(
+            "the solid is thinner than rounding errors, or what is between its sheets is",
+            where=upward[bad[:1], :2],
+            hint="choose a thickness between nothing and the gap",
+        )
+
+
+def _sheets_along(surface: Surface) -> Ints:
+    """Return the sheet of the triangle at each edge of the boundary; edge i starts at the i-th boundary vertex."""
+    start, end = surface.faces.ravel(), np.roll(surface.faces, -1, axis=1).ravel()
+    b = len(surface.boundary)
+    side = np.flatnonzero((start < b) & (end == (start + 1) % b))
+    sheet = np.empty(b, dtype=np.int64)
+    sheet[start[side]] = surface.sheet[side // 3]
+    return sheet
