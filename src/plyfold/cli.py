@@ -6,7 +6,6 @@ import argparse
 import json
 import os
 import sys
-import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -14,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from plyfold import __version__
 from plyfold.cli_gallery import add_gallery_command, named_curve
+from plyfold.cli_progress import Stopwatch, clear_progress
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
 from plyfold.io.saving import refuse_output, save_bytes
 
@@ -57,8 +57,6 @@ the object that --json prints:
 or, with exit code 2, {error, where, hint}
 """
 
-_CLEAR_LINE = "\r\x1b[K"
-
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line.
@@ -94,13 +92,13 @@ def main(arguments: list[str] | None = None) -> int:
     except (PlyfoldError, OSError, MemoryError) as error:
         return _complain(options, error, BAD_INPUT)
     except KeyboardInterrupt:
-        _clear_progress()
+        clear_progress()
         print("plyfold: interrupted; nothing was left half-written", file=sys.stderr)
         return INTERRUPTED
 
 
 def _complain(options: argparse.Namespace, error: Exception, code: int) -> int:
-    _clear_progress()
+    clear_progress()
     message = str(error) or type(error).__name__
     if getattr(options, "json", False):
         where = [list(place) for place in getattr(error, "where", ())]
@@ -126,7 +124,7 @@ def _parser() -> argparse.ArgumentParser:
     check.epilog, check.formatter_class = _JSON_GUIDE, argparse.RawDescriptionHelpFormatter
     lift = _command(commands, "lift", _lift, "lift a curve to a layered surface that does not cut itself")
     _time_limit(lift)
-    _outputs(lift, ".glb .obj .ply .stl .html")
+    _outputs(lift, ".glb .obj .ply .stl .3mf .html")
     lift.add_argument(
         "--gap", type=float, help="least distance of sheets, in units of the drawing (default: 1/20 of its larger side)"
     )
@@ -136,11 +134,41 @@ def _parser() -> argparse.ArgumentParser:
         help="where no layered surface exists, lift one with the shortest self-intersections",
     )
     lift.add_argument("--triangles", type=int, default=4000, help="roughly how many triangles (default: %(default)s)")
+    lift.add_argument(
+        "--thicken",
+        type=float,
+        metavar="T",
+        help="a solid to be printed, T thick in vertical direction; less than the gap",
+    )
+    lift.add_argument(
+        "--colours",
+        choices=["layers", "sheets"],
+        default="layers",
+        help="of a file that has some (default: %(default)s)",
+    )
+    lift.add_argument(
+        "--no-unwrap", action="store_true", help="leave out texture coordinates and, from a GLB, the way to the disk"
+    )
     draw = _command(commands, "draw", _draw, "draw the arrangement, the disk layout, the layers and the surface")
     _time_limit(draw)
-    _outputs(draw, ".svg .png .pdf")
+    _outputs(draw, ".svg .png .pdf; of the view over-under .svg .tikz .tex")
     draw.add_argument(
-        "--what", choices=["all", "arrangement", "layout", "layers", "surface"], default="all", help="one panel only"
+        "--what",
+        choices=["all", "arrangement", "layout", "layers", "surface", "over-under"],
+        default="all",
+        help="one panel only, or the surface from above with what is hidden removed",
+    )
+    draw.add_argument(
+        "--hidden",
+        choices=["removed", "dashed"],
+        default="removed",
+        help="over-under: what is covered (default: %(default)s)",
+    )
+    draw.add_argument(
+        "--colours",
+        choices=["cloth", "layers", "sheets"],
+        default="cloth",
+        help="over-under: of what (default: %(default)s)",
     )
     split = _command(commands, "split", _split, "cut a disk into simple polygons, or any curve into its cells")
     _outputs(split, ".geojson .wkt .svg")
@@ -191,41 +219,7 @@ def _outputs(command: argparse.ArgumentParser, endings: str) -> None:
     command.add_argument("--force", action="store_true", help="replace existing files")
 
 
-def _progress_is_seen() -> bool:
-    return sys.stderr is not None and sys.stderr.isatty()
-
-
-def _clear_progress() -> None:
-    """Wipe the line of progress, so that the next words begin a line of their own."""
-    if _progress_is_seen():
-        print(_CLEAR_LINE, end="", file=sys.stderr, flush=True)
-
-
-class _Stopwatch:
-    """Seconds per stage, and one line of progress on a terminal."""
-
-    def __init__(self) -> None:
-        self.seconds: dict[str, float] = {}
-        self._stage, self._since = "", time.perf_counter()
-
-    def __call__(self, stage: str, done: float = 0.0) -> None:
-        if stage != self._stage:
-            self.stop()
-            self._stage = stage
-        if stage and _progress_is_seen():
-            share = f" {done:.0%}" if done else ""
-            print(f"{_CLEAR_LINE}{stage}{share}", end="", file=sys.stderr, flush=True)
-
-    def stop(self) -> None:
-        """End the current stage and clear the line."""
-        now = time.perf_counter()
-        if self._stage:
-            self.seconds[self._stage] = self.seconds.get(self._stage, 0.0) + now - self._since
-            _clear_progress()
-        self._stage, self._since = "", now
-
-
-def _arranged(options: argparse.Namespace, watch: _Stopwatch) -> Arrangement:
+def _arranged(options: argparse.Namespace, watch: Stopwatch) -> Arrangement:
     from plyfold.arrangement import arrangement
     from plyfold.io import read
 
@@ -241,7 +235,7 @@ def _arranged(options: argparse.Namespace, watch: _Stopwatch) -> Arrangement:
 def _check(options: argparse.Namespace) -> int:
     from plyfold.report import describe, verdict
 
-    watch = _Stopwatch()
+    watch = Stopwatch()
     arranged = _arranged(options, watch)
     watch("finding immersions and layerings")
     figures = verdict(arranged, options.time_limit)
@@ -254,15 +248,16 @@ def _check(options: argparse.Namespace) -> int:
     return DISK if figures["immersible"] else NO_DISK
 
 
-def _timing(watch: _Stopwatch) -> str:
+def _timing(watch: Stopwatch) -> str:
     return "  seconds: " + ", ".join(f"{stage} {seconds:.3f}" for stage, seconds in watch.seconds.items())
 
 
 def _lift(options: argparse.Namespace) -> int:
     from plyfold.surface import lift
 
-    watch = _Stopwatch()
-    arranged = _prepared(options, (".glb", ".obj", ".ply", ".stl", ".html"), watch)
+    watch = Stopwatch()
+    endings = (".glb", ".obj", ".ply", ".stl", ".3mf", *([] if options.thicken is not None else [".html"]))
+    arranged = _prepared(options, endings, watch)
     surface = lift(
         arranged,
         gap=options.gap,
@@ -272,8 +267,7 @@ def _lift(options: argparse.Namespace) -> int:
         allow_intersections=options.allow_intersections,
     )
     watch("writing")
-    for path in options.output:
-        surface.export(path, force=options.force, title=_title(options.file))
+    _export(surface, options)
     watch.stop()
     levels = int(surface.layering.level.max())
     print(
@@ -287,14 +281,26 @@ def _lift(options: argparse.Namespace) -> int:
     return DISK
 
 
+def _export(surface: Any, options: argparse.Namespace) -> None:
+    solid = None if options.thicken is None else surface.thicken(options.thicken)
+    for path in options.output:
+        choices: dict[str, Any] = {"colours": options.colours, "unwrapped": not options.no_unwrap}
+        if solid is not None:
+            solid.export(path, options.force, **choices)
+        else:
+            surface.export(path, options.force, _title(options.file), **choices)
+
+
 def _title(file: str) -> str:
     return "plyfold" if file == "-" else Path(file.removeprefix("gallery:")).stem
 
 
 def _draw(options: argparse.Namespace) -> int:
+    if options.what == "over-under":
+        return _draw_over_under(options)
     from plyfold.draw.figures import save
 
-    watch = _Stopwatch()
+    watch = Stopwatch()
     arranged = _prepared(options, (".svg", ".png", ".pdf"), watch)
     value, obstruction = _furthest(arranged, options, watch)
     watch("drawing")
@@ -309,7 +315,20 @@ def _draw(options: argparse.Namespace) -> int:
     return DISK if obstruction is None else NO_DISK
 
 
-def _furthest(arranged: Arrangement, options: argparse.Namespace, watch: _Stopwatch) -> tuple[Any, Any]:
+def _draw_over_under(options: argparse.Namespace) -> int:
+    from plyfold.draw.over_under_files import OVER_UNDER_WRITERS
+    from plyfold.surface.surface import layering_of
+
+    watch = Stopwatch()
+    arranged = _prepared(options, tuple(OVER_UNDER_WRITERS), watch)
+    layering = layering_of(arranged, False, options.time_limit, watch)
+    watch.stop()
+    choices = {"colours": options.colours, "hidden": options.hidden}
+    _write(options, {ending: partial(write, layering, **choices) for ending, write in OVER_UNDER_WRITERS.items()})
+    return DISK
+
+
+def _furthest(arranged: Arrangement, options: argparse.Namespace, watch: Stopwatch) -> tuple[Any, Any]:
     """Return the furthest stage that the curve reaches, and the obstruction that ended it."""
     from plyfold.immersion import find_immersion
     from plyfold.surface import lift
@@ -347,7 +366,7 @@ def _split(options: argparse.Namespace) -> int:
     from plyfold.flat import coverage, decompose
     from plyfold.io.pieces import POLYGON_WRITERS
 
-    watch = _Stopwatch()
+    watch = Stopwatch()
     arranged = _prepared(options, tuple(POLYGON_WRITERS), watch)
     watch("cutting")
     if options.cells:
@@ -367,7 +386,7 @@ def _triangulate(options: argparse.Namespace) -> int:
     from plyfold.flat import triangulate
     from plyfold.io.pieces import TRIANGLE_WRITERS
 
-    watch = _Stopwatch()
+    watch = Stopwatch()
     arranged = _prepared(options, tuple(TRIANGLE_WRITERS), watch)
     watch("triangulating")
     faces = triangulate(arranged)
@@ -379,7 +398,7 @@ def _triangulate(options: argparse.Namespace) -> int:
     return DISK
 
 
-def _prepared(options: argparse.Namespace, endings: tuple[str, ...], watch: _Stopwatch) -> Arrangement:
+def _prepared(options: argparse.Namespace, endings: tuple[str, ...], watch: Stopwatch) -> Arrangement:
     """Refuse outputs that cannot be written, then read the input."""
     options.output = list(dict.fromkeys(options.output))
     for path in options.output:
@@ -398,7 +417,7 @@ def _word(options: argparse.Namespace) -> int:
 
     from plyfold.immersion import blank_word
 
-    word = blank_word(_arranged(options, watch := _Stopwatch()))
+    word = blank_word(_arranged(options, watch := Stopwatch()))
     watch.stop()
     print(word)
     groupings = word.groupings()

@@ -33,7 +33,7 @@ from plyfold.surface.sizes import refuse_sizes
 from plyfold.surface.thicken import Solid, thicken
 from plyfold.surface.unwrap import UnwoundDisk, unwound_surface
 
-__all__ = ["Surface", "lift"]
+__all__ = ["Surface", "layering_of", "lift"]
 
 # Distance of neighbouring sheets, as a fraction of the drawing's larger side.
 _DEFAULT_GAP = 0.05
@@ -281,7 +281,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     ([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]], [[0, 1, 2]])
     """
     report = progress or _silent
-    layering = _layering_of(curve, allow_intersections, time_limit, report)
+    layering = layering_of(curve, allow_intersections, time_limit, report)
     drawn = layering.immersion.arrangement
     distance = _distance(drawn, gap)
     refuse_sizes(cast(Curve, drawn.curve).points, triangles, max_area)
@@ -315,12 +315,13 @@ def _distance(drawn: Arrangement, gap: float | None) -> float:
     return float(gap)
 
 
-def _layering_of(
+def layering_of(
     curve: CurveLike | Immersion | Layering | IntersectingLayering,
     allow_intersections: bool,
     time_limit: float | None,
     report: Progress,
 ) -> Layering | IntersectingLayering:
+    """Return the layering that :func:`lift` lifts, with its options and errors."""
     if isinstance(curve, Layering | IntersectingLayering):
         return curve
     choose = _least_intersecting if allow_intersections else _liftable

@@ -1,0 +1,45 @@
+"""What a command on the command line says while it works, and how long its stages take."""
+
+from __future__ import annotations
+
+import sys
+import time
+
+__all__ = ["Stopwatch", "clear_progress"]
+
+_CLEAR_LINE = "\r\x1b[K"
+
+
+def _progress_is_seen() -> bool:
+    return sys.stderr is not None and sys.stderr.isatty()
+
+
+def clear_progress() -> None:
+    """Wipe the line of progress, so that the next words begin a line of their own."""
+    if _progress_is_seen():
+        print(_CLEAR_LINE, end="", file=sys.stderr, flush=True)
+
+
+class Stopwatch:
+    """Seconds per stage, and one line of progress on a terminal."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+        self._stage, self._since = "", time.perf_counter()
+
+    def __call__(self, stage: str, done: float = 0.0) -> None:
+        """Show the stage, and start it if it is not the current one."""
+        if stage != self._stage:
+            self.stop()
+            self._stage = stage
+        if stage and _progress_is_seen():
+            share = f" {done:.0%}" if done else ""
+            print(f"{_CLEAR_LINE}{stage}{share}", end="", file=sys.stderr, flush=True)
+
+    def stop(self) -> None:
+        """End the current stage and clear the line."""
+        now = time.perf_counter()
+        if self._stage:
+            self.seconds[self._stage] = self.seconds.get(self._stage, 0.0) + now - self._since
+            clear_progress()
+        self._stage, self._since = "", now

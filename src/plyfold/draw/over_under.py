@@ -1,0 +1,258 @@
+"""The layered surface seen from straight above: pieces of cloth from back to front, and the curve where it is seen.
+
+Sheets lie over one cell each, and their levels count from below. So drawing level by level puts everything that is
+above something else after it, also where no order of larger pieces would: where three strips lie over one another in a
+circle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal, TypeAlias, get_args
+
+import numpy as np
+
+from plyfold.arrangement import Arrangement
+from plyfold.arrays import Bools, Floats, Ints
+from plyfold.draw.colours import CLOTH_HIGH, PAPER, layer_colour, mix, sheet_colour
+from plyfold.draw.places import Frame, line_weight
+from plyfold.errors import InputError
+from plyfold.layering import Layering
+
+__all__ = ["ClothColours", "Hidden", "OverUnder", "Piece", "Strand", "over_under"]
+
+ClothColours: TypeAlias = Literal["cloth", "layers", "sheets"]
+Hidden: TypeAlias = Literal["removed", "dashed"]
+
+# The width of lines, as a fraction of the larger side, and of gaps from the middle of the strand above, in widths.
+_STROKE = 0.005
+_GAP = 2.0
+# At shallow crossings, gaps become longer, but not longer than so many times, nor than this part of their border.
+_LONGEST_GAP = 4.0
+_MOST_OF_BORDER = 1 / 3
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A connected piece of cloth on one level.
+
+    Parameters
+    ----------
+    level : int
+        From 1 at the bottom.
+    sheets : tuple of int
+    rings : tuple of (m, 2) float
+        Closed polygons around it, to be filled by the even-odd rule. They may touch in crossings.
+    colour : str
+        ``"#rrggbb"``.
+    """
+
+    level: int
+    sheets: tuple[int, ...]
+    rings: tuple[Floats, ...]
+    colour: str
+
+    @property
+    def name(self) -> str:
+        """A name for people, like ``sheets 2, 5``."""
+        return f"sheet{'s' if len(self.sheets) > 1 else ''} {', '.join(map(str, self.sheets))}"
+
+
+@dataclass(frozen=True, eq=False)
+class Strand:
+    """A part of the curve, as long as can be, that is seen or hidden: a polyline, which may be closed."""
+
+    points: Floats
+    hidden: bool
+    closed: bool
+
+
+@dataclass(frozen=True, eq=False)
+class OverUnder:
+    """A layered drawing; its middle is the origin, its larger side 1, and y points up.
+
+    Parameters
+    ----------
+    pieces : tuple of Piece
+        From back to front.
+    strands : tuple of Strand
+        Before all pieces; hidden ones first.
+    half : (2,) float
+        Half the width and half the height.
+    stroke : float
+        How wide lines should be.
+    """
+
+    pieces: tuple[Piece, ...]
+    strands: tuple[Strand, ...]
+    half: Floats
+    stroke: float
+
+    @property
+    def layers(self) -> tuple[tuple[Piece, ...], ...]:
+        """The pieces of each level, from below."""
+        levels = self.pieces[-1].level
+        return tuple(tuple(piece for piece in self.pieces if piece.level == level + 1) for level in range(levels))
+
+
+def over_under(layering: Layering, *, colours: ClothColours = "cloth", hidden: Hidden = "removed") -> OverUnder:
+    """Return what is seen of a layered surface from above.
+
+    Parameters
+    ----------
+    layering : Layering
+        Of a drawing.
+    colours : {"cloth", "layers", "sheets"}
+        One colour for all, or one for each layer, or for each sheet. Where sheets need not be told apart, those of one
+        level that are glued together are one piece.
+    hidden : {"removed", "dashed"}
+        Leave out the strands that are covered, or return them too.
+
+    Returns
+    -------
+    OverUnder
+        Strands end a little before the strand that they pass under. Cost: O(Σ w) and the number of points along the
+        borders.
+
+    Raises
+    ------
+    InputError
+        If it is no layering, or an option is unknown.
+
+    Examples
+    --------
+    >>> from plyfold import find_immersion, find_layering
+    >>> ramp = find_immersion([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)])
+    >>> seen = over_under(find_layering(ramp))
+    >>> [piece.level for piece in seen.pieces], [strand.closed for strand in seen.strands]
+    ([1, 1, 2], [False, False])
+    """
+    _refuse_options(layering, colours, hidden)
+    arrangement = layering.immersion.arrangement
+    points = arrangement.border_points(0) if arrangement.curve is None else arrangement.curve.points
+    frame, stroke = Frame(points), _STROKE * line_weight(arrangement.n_crossings)
+    strands = sorted(_strands(layering, frame, _GAP * stroke), key=lambda strand: not strand.hidden)
+    return OverUnder(
+        pieces=tuple(_pieces(layering, frame, colours)),
+        strands=tuple(strand for strand in strands if hidden == "dashed" or not strand.hidden),
+        half=np.abs(frame(points)).max(axis=0),
+        stroke=stroke,
+    )
+
+
+def _refuse_options(layering: Layering, colours: str, hidden: str) -> None:
+    if not isinstance(layering, Layering):
+        raise InputError(
+            f"a {type(layering).__name__} has no over and under everywhere", hint="find_layering(immersion) finds them"
+        )
+    for value, known in ((colours, get_args(ClothColours)), (hidden, get_args(Hidden))):
+        if value not in known:
+            raise InputError(f"there is no option {value!r} for this drawing", hint=f"use one of {', '.join(known)}")
+
+
+# ---- pieces --------------------------------------------------------------------------------------------------------
+
+
+def _pieces(layering: Layering, frame: Frame, colours: ClothColours) -> Iterator[Piece]:
+    """Yield the pieces, from the lowest level on."""
+    part = np.arange(len(layering.level)) if colours == "sheets" else _glued_on_one_level(layering)
+    order = np.lexsort((part, layering.level))
+    starts = np.flatnonzero(np.diff(part[order], prepend=-1))
+    levels = int(layering.level.max())
+    for start, end in pairwise([*starts.tolist(), len(order)]):
+        sheets = order[start:end]
+        level = int(layering.level[sheets[0]])
+        colour = {
+            "cloth": mix(CLOTH_HIGH, PAPER, 0.45),
+            "layers": layer_colour(level, levels),
+            "sheets": sheet_colour(int(sheets[0])),
+        }[colours]
+        cells = layering.immersion.sheet_cell[sheets]
+        rings = tuple(frame(ring) for ring in _rings(layering.immersion.arrangement, cells))
+        yield Piece(level, tuple(sheets.tolist()), rings, colour)
+
+
+def _glued_on_one_level(layering: Layering) -> Ints:
+    """Return a number for each sheet, the same for those that are connected by gluings within their level."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    _, right, left = layering.immersion.gluing.T
+    same = layering.level[right] == layering.level[left]
+    count = len(layering.level)
+    links = coo_array((np.ones(same.sum()), (right[same], left[same])), shape=(count, count))
+    return np.asarray(connected_components(links, directed=False)[1])
+
+
+def _rings(arrangement: Arrangement, cells: Ints) -> Iterator[Floats]:
+    """Yield the polygons around a union of cells: darts with a cell of it on the left and none on the right."""
+    inside = np.zeros(arrangement.n_cells, dtype=bool)
+    inside[cells] = True
+    dart = np.arange(len(arrangement.cell_of_dart))
+    around = inside[arrangement.cell_of_dart] & ~inside[arrangement.cell_of_dart[dart ^ 1]]
+    left = dict.fromkeys(dart[around].tolist())
+    while left:
+        ring = [next(iter(left))]
+        while ring[-1] in left:
+            del left[ring[-1]]
+            ring.append(_following(arrangement, around, ring[-1]))
+        yield np.concatenate([_dart_points(arrangement, one) for one in ring[:-1]])
+
+
+def _following(arrangement: Arrangement, around: Bools, dart: int) -> int:
+    """Return the next dart around a union of cells: past those inside it, turning about the crossing."""
+    dart = int(arrangement.next_dart[dart])
+    while not around[dart]:
+        dart = int(arrangement.next_dart[dart ^ 1])
+    return dart
+
+
+def _dart_points(arrangement: Arrangement, dart: int) -> Floats:
+    points = arrangement.border_points(dart // 2)
+    points = points[::-1] if dart % 2 else points
+    return points if arrangement.n_crossings == 0 else points[:-1]
+
+
+# ---- strands -------------------------------------------------------------------------------------------------------
+
+
+def _strands(layering: Layering, frame: Frame, gap: float) -> Iterator[Strand]:
+    """Yield the curve in parts that are seen or hidden as a whole.
+
+    A border is hidden where a sheet lies over its own sheet. Beyond the border, that sheet goes on.
+    """
+    arrangement = layering.immersion.arrangement
+    assert arrangement.curve is not None
+    hidden = layering.border_level < arrangement.winding[arrangement.left_cell]
+    changes = np.flatnonzero(hidden != np.roll(hidden, 1)).tolist()
+    if not changes:
+        yield Strand(frame(arrangement.curve.points), False, True)
+    for start, end in zip(changes, changes[1:] + changes[:1], strict=True):
+        borders = [(start + i) % len(hidden) for i in range((end - start - 1) % len(hidden) + 1)]
+        lines = [frame(arrangement.border_points(border)) for border in borders]
+        if not hidden[start]:
+            lines[0] = _shortened(lines[0], _gap_at(arrangement, start, gap))
+            lines[-1] = _shortened(lines[-1][::-1], _gap_at(arrangement, end, gap))[::-1]
+        yield Strand(np.concatenate([*(line[:-1] for line in lines), lines[-1][-1:]]), bool(hidden[start]), False)
+
+
+def _gap_at(arrangement: Arrangement, visit: int, gap: float) -> float:
+    """Return how much of a strand to leave out at a visit, so that the gap is as wide as asked for, seen across."""
+    assert arrangement.curve is not None
+    points = arrangement.curve.points
+    start = arrangement.visit_edge[[visit, arrangement.partner[visit]]]
+    (ax, ay), (bx, by) = points[(start + 1) % len(points)] - points[start]
+    sine = abs(ax * by - ay * bx) / (np.hypot(ax, ay) * np.hypot(bx, by))
+    return float(gap / max(sine, 1 / _LONGEST_GAP))
+
+
+def _shortened(points: Floats, length: float) -> Floats:
+    """Return a polyline without its beginning, but most of it."""
+    steps = np.hypot(*np.diff(points, axis=0).T)
+    travelled = np.concatenate([[0.0], np.cumsum(steps)])
+    cut = min(length, _MOST_OF_BORDER * travelled[-1])
+    edge = int(np.searchsorted(travelled, cut, side="right")) - 1
+    share = (cut - travelled[edge]) / steps[edge]
+    return np.concatenate([points[edge : edge + 1] + share * (points[edge + 1] - points[edge]), points[edge + 1 :]])
