@@ -152,8 +152,8 @@ def single_precision(values: Floats, detail: float) -> npt.NDArray[np.float32]:
         If they are too large or too small for that, or rounding would hide the detail.
     """
     largest = float(np.abs(values).max())
-    range32 = np.finfo(np.float32)
-    if not (largest < range32.max and _FINER * np.spacing(np.float32(largest)) < detail and detail > range32.tiny):
+    least, most = (float(x) for x in (np.finfo(np.float32).tiny, np.finfo(np.float32).max))
+    if not (largest < most and least < detail and _FINER * np.spacing(np.float32(largest)) < detail):
         raise PrecisionError(
             "the 32-bit numbers of this format cannot hold the mesh",
             where=values[:1],

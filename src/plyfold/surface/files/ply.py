@@ -1,4 +1,4 @@
-"""PLY: double precision, with the sheet of each triangle, colours and texture coordinates."""
+"""PLY: double precision, with colours and texture coordinates."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ _Columns: TypeAlias = list[tuple[str, str, npt.NDArray[Any]]]
 def ply(model: Model) -> bytes:
     """Return the model as a binary PLY.
 
-    Colours belong to vertices where they are smooth, and to triangles where they are not. Texture coordinates are
-    named ``s`` and ``t``.
+    Smooth colours belong to vertices. If each sheet has its colour, triangles have it, and the number of their sheet;
+    not all readers understand properties of triangles. Texture coordinates are named ``s`` and ``t``.
     """
     vertices, faces = _vertex_table(model), _face_table(model)
     header = ["ply", "format binary_little_endian 1.0", "comment plyfold", f"element vertex {len(vertices)}"]
@@ -48,9 +48,10 @@ def _vertex_table(model: Model) -> npt.NDArray[np.void]:
 
 def _face_table(model: Model) -> npt.NDArray[np.void]:
     columns: _Columns = [("count", "u1", np.full(len(model.faces), 3)), ("corners", "3<i4", model.faces)]
-    columns += _columns(["sheet"], "<i4", model.material[:, None])
+    if model.colours is not None:
+        return _table(columns, None)
     colour = np.array([rgb(material.colour) for material in model.materials])
-    return _table(columns, colour[model.material] if model.colours is None else None)
+    return _table([*columns, ("sheet", "<i4", model.material)], colour[model.material])
 
 
 def _columns(names: Iterable[str], kind: str, values: npt.NDArray[Any]) -> _Columns:

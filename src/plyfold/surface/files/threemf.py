@@ -79,5 +79,5 @@ def _package(model: str) -> bytes:
     with zipfile.ZipFile(packed, "w") as package:
         for name, text in content.items():
             # Without a date, the same surface gives the same file.
-            package.writestr(zipfile.ZipInfo(name), text, zipfile.ZIP_DEFLATED)
+            package.writestr(zipfile.ZipInfo(name), text, zipfile.ZIP_DEFLATED, compresslevel=1)
     return packed.getvalue()
