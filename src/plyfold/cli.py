@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from plyfold import __version__
 from plyfold.cli_gallery import add_gallery_command, named_curve
 from plyfold.cli_progress import Stopwatch, clear_progress
+from plyfold.cli_sketch import add_sketch_command
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
 from plyfold.io.saving import refuse_output, save_bytes
 
@@ -34,6 +35,7 @@ examples:
   plyfold split loop.svg -o pieces.geojson   simple polygons that cover the disk once
   plyfold word loop.svg                      Blank's word and its groupings
   plyfold gallery                            named curves to begin with
+  plyfold sketch                             draw in the browser, and see at once how it lies
   plyfold lift gallery:exit-ramp -o ramp.glb
 
 FILE is an SVG, CSV, TXT, NPY, JSON, WKT or GeoJSON file, "-" for standard input, or gallery:NAME.
@@ -181,6 +183,7 @@ def _parser() -> argparse.ArgumentParser:
         "--most", type=int, default=20, help="how many groupings to print (default: %(default)s)"
     )
     add_gallery_command(commands)
+    add_sketch_command(commands)
     return parser
 
 

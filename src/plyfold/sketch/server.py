@@ -1,0 +1,160 @@
+"""The page's server: thin, for this machine alone unless told otherwise. It checks who asks, and workers answer.
+
+It is the standard library's threading server: each connection has a thread, which does nothing but wait for a worker
+and watch whether the page is still there.
+"""
+
+from __future__ import annotations
+
+import socket
+import sys
+from email.message import Message
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from typing import Any
+from urllib.parse import urlsplit
+
+from plyfold.sketch.answers import Answer, error_answer
+from plyfold.sketch.guard import objection
+from plyfold.sketch.pages import SECURITY_HEADERS, page_file
+from plyfold.sketch.schema import MOST_BYTES
+from plyfold.sketch.workers import Question, Workers
+
+__all__ = ["SketchServer"]
+
+_API = "/api/v1/"
+_SECONDS = {"gallery": 20.0, "look": 20.0, "lie": 20.0, "surface": 60.0, "export": 120.0, "open": 30.0}
+_ASKED = ("look", "lie", "surface", "export", "open")
+_SUPERSEDING = ("look", "lie", "surface")
+_SECONDS_OF_SILENCE = 120
+_LONGEST_NAME = 64
+_PASSED_ON = ("X-File-Name",)
+_MOST_SWALLOWED = 4 * MOST_BYTES
+
+
+class SketchServer(ThreadingHTTPServer):
+    """Serves the page and its questions until it is shut down.
+
+    Parameters
+    ----------
+    host : str
+        Where to listen; ``"127.0.0.1"`` for this machine alone.
+    port : int
+        0 for any that is free.
+    start : dict, optional
+        The answer to what the page should begin with.
+
+    Raises
+    ------
+    OSError
+        If the port is taken or the host is not this machine.
+    """
+
+    daemon_threads = True
+
+    def __init__(self, host: str, port: int, workers: Workers, start: Answer) -> None:
+        self.workers, self.start, self.name = workers, start, host
+        self.address_family = socket.AF_INET6 if ":" in host else socket.AF_INET
+        super().__init__((host, port), _Handler)
+
+    @property
+    def address(self) -> str:
+        """The page's address."""
+        host = f"[{self.name}]" if ":" in self.name else self.name
+        return f"http://{host}:{self.server_port}/"
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Say nothing of pages that went away in the middle of a sentence; tell the terminal of anything else."""
+        if not isinstance(sys.exception(), OSError):
+            super().handle_error(request, client_address)
+
+
+class _Handler(BaseHTTPRequestHandler):
+    """One connection."""
+
+    server: SketchServer
+    protocol_version = "HTTP/1.1"
+    server_version, sys_version = "plyfold", ""
+    timeout = _SECONDS_OF_SILENCE
+    disable_nagle_algorithm = True
+    wbufsize = -1  # headers and body leave together
+
+    def do_GET(self) -> None:
+        self._reply(self._refusal() or self._got(urlsplit(self.path).path))
+
+    def do_HEAD(self) -> None:
+        self.do_GET()
+
+    def do_POST(self) -> None:
+        name = urlsplit(self.path).path.removeprefix(_API)
+        refusal = self._refusal() or _refused_question(name, self.headers)
+        self._reply(self._refused_unread(refusal) if refusal else self._asked(name))
+
+    def send_error(self, code: int, message: str | None = None, explain: str | None = None) -> None:
+        """Answer what is no proper request at all."""
+        self.close_connection = True
+        self._reply(error_answer("input", message or "this is no request that is understood", status=code))
+
+    def log_message(self, format: str, *values: Any) -> None:
+        """Keep the terminal quiet."""
+
+    def _refusal(self) -> Answer | None:
+        sentence = objection(self.headers, self.server.name)
+        return error_answer("refused", sentence, hint="open the address that plyfold printed") if sentence else None
+
+    def _got(self, path: str) -> Answer:
+        if path == f"{_API}start":
+            return self.server.start
+        if path == f"{_API}gallery":
+            return self._ask("gallery", b"")
+        return page_file(path) or error_answer("not found", f"there is nothing at {path[:100]}")
+
+    def _asked(self, name: str) -> Answer:
+        body = self.rfile.read(int(self.headers["Content-Length"]))
+        return self._ask(name, body)
+
+    def _ask(self, name: str, body: bytes) -> Answer:
+        page = self.headers.get("X-Plyfold-Page")
+        place = (page, name) if page and name in _SUPERSEDING else None
+        told = {key: self.headers[key] for key in _PASSED_ON if key in self.headers}
+        return self.server.workers.ask(Question(name, body, told, _SECONDS[name], place), self.connection)
+
+    def _refused_unread(self, refusal: Answer) -> Answer:
+        """Swallow what was sent with a refused question, within reason: who is still talking does not hear."""
+        length = _length(self.headers)
+        if length is None or length > _MOST_SWALLOWED:
+            self.close_connection = True
+        else:
+            while length > 0 and (piece := self.rfile.read(min(length, 2**16))):
+                length -= len(piece)
+        return refusal
+
+    def _reply(self, answer: Answer) -> None:
+        self.send_response(answer.status)
+        lasting = {"Connection": "close"} if self.close_connection else {}
+        about = {"Content-Type": answer.content_type, "Content-Length": str(len(answer.body))}
+        for name, value in (SECURITY_HEADERS | about | lasting | dict(answer.headers)).items():
+            self.send_header(name, value)
+        self.end_headers()
+        if self.command != "HEAD":
+            self.wfile.write(answer.body)
+
+
+def _refused_question(name: str, headers: Message) -> Answer | None:
+    """Return why a question is not even read, or None."""
+    if name not in _ASKED:
+        return error_answer("not found", "there is no such question")
+    if name != "open" and headers.get_content_type() != "application/json":
+        return error_answer("input", "a question is sent as application/json", status=415)
+    if len(headers.get("X-Plyfold-Page", "")) > _LONGEST_NAME:
+        return error_answer("input", f"the name of the page is longer than {_LONGEST_NAME} letters")
+    length = _length(headers)
+    if length is None:
+        return error_answer("too large", "the question does not say how long it is", status=411)
+    if length > MOST_BYTES:
+        return error_answer("too large", f"this is more than {MOST_BYTES // 2**20} MiB", hint="send less at once")
+    return None
+
+
+def _length(headers: Message) -> int | None:
+    text = headers.get("Content-Length", "")
+    return int(text) if text.isdecimal() and text.isascii() and len(text) < 20 else None
