@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import plyfold as pf
 from plyfold.errors import InputError, NotImmersibleError
 from plyfold.gallery import chain
-from plyfold.immersion import changed_borders, flip_distance, irreducible_kernels
+from plyfold.immersion import changed_borders, flip_distance, irreducible_kernels, nth_immersion
 from plyfold.immersion.compare import _partition_distance
 from reference import random_curves
 from reference.planar_maps import census, may_bound_disk, oriented
@@ -42,6 +42,25 @@ def test_huge_families_are_listed_lazily_and_without_repeats():
     assert len(set(first)) == 40
     again = pf.immersions(chain(MILNOR_LIKE, 30))
     assert [next(again).own_sheet.tobytes() for _ in range(40)] == first
+
+
+@pytest.mark.parametrize(
+    "curve",
+    [MILNOR_LIKE, TEN_GON, BENNEQUIN_LIKE, chain(MILNOR_LIKE, 4), chain(BENNEQUIN_LIKE, 2), [(0, 0), (1, 0), (0, 1)]],
+)
+def test_immersions_by_number_are_those_in_the_list(curve):
+    arranged = pf.arrangement(curve)
+    listed = list(pf.immersions(arranged))
+    for number, immersion in enumerate(listed):
+        assert nth_immersion(arranged, number).own_sheet.tolist() == immersion.own_sheet.tolist()
+    for number in (-1, len(listed)):
+        with pytest.raises(InputError, match=f"no immersion {number}"):
+            nth_immersion(arranged, number)
+
+
+def test_the_last_of_very_many_immersions_is_made_at_once():
+    arranged = pf.arrangement(chain(MILNOR_LIKE, 60))
+    nth_immersion(arranged, 2**60 - 1).check()
 
 
 @pytest.mark.parametrize(("curve", "count"), [(BENNEQUIN_LIKE, 5), (chain(MILNOR_LIKE, 3), 8)])

@@ -10,6 +10,7 @@ from plyfold.immersion.solve import (
     count_immersions,
     find_immersion,
     immersions,
+    nth_immersion,
     sample_immersion,
 )
 
@@ -27,5 +28,6 @@ __all__ = [
     "flip_distance",
     "immersions",
     "irreducible_kernels",
+    "nth_immersion",
     "sample_immersion",
 ]

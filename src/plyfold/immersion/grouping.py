@@ -173,7 +173,7 @@ def list_groupings(groupings: Groupings) -> Iterator[Grouping]:
 
 
 def nth_grouping(groupings: Groupings, index: int) -> Grouping:
-    """Return one of the groupings by its number, 0 to their count less 1, without making those before it."""
+    """Return the grouping that is listed at a number, from 0 on, without making those before it."""
     letters = []
     pending = _shared_out(groupings, groupings.regions, index)
     while pending:
@@ -186,9 +186,9 @@ def nth_grouping(groupings: Groupings, index: int) -> Grouping:
 
 
 def _shared_out(groupings: Groupings, parts: Iterable[Interval], index: int) -> list[tuple[Interval, int]]:
-    """Split a number into one for each of several independent intervals."""
+    """Split a number into one for each of several independent intervals, of which the last one changes first."""
     shares = []
-    for part in parts:
+    for part in reversed(tuple(parts)):
         index, here = divmod(index, _count(groupings, part))
         shares.append((part, here))
     return shares

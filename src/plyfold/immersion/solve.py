@@ -26,7 +26,15 @@ from plyfold.immersion.obstructions import no_grouping, visible_obstruction
 from plyfold.immersion.word import write_word
 from plyfold.obstruction import Obstruction
 
-__all__ = ["best_immersion", "bounds_disk", "count_immersions", "find_immersion", "immersions", "sample_immersion"]
+__all__ = [
+    "best_immersion",
+    "bounds_disk",
+    "count_immersions",
+    "find_immersion",
+    "immersions",
+    "nth_immersion",
+    "sample_immersion",
+]
 
 
 def find_immersion(curve: CurveLike, method: Literal["exact", "paper"] = "exact") -> Immersion | Obstruction:
@@ -174,6 +182,39 @@ def sample_immersion(curve: CurveLike, rng: np.random.Generator | int) -> Immers
     if family is None:
         return find_immersion(curve)
     index = _random_below(count_groupings(family.groupings), np.random.default_rng(rng))
+    return _glued(family, nth_grouping(family.groupings, index))
+
+
+def nth_immersion(curve: CurveLike, index: int) -> Immersion:
+    """Return the immersion that :func:`immersions` lists at a number, without making those before it.
+
+    Parameters
+    ----------
+    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    index : int
+        From 0 to the number of immersions less 1.
+
+    Returns
+    -------
+    Immersion
+        Cost: that of :func:`count_immersions`, however large the index.
+
+    Raises
+    ------
+    InputError
+        If there are not so many immersions.
+
+    Examples
+    --------
+    >>> milnor = [(88, 39), (62, 102), (-17, -15), (-17, -13), (44, -7), (-75, 180),
+    ...           (-88, -39), (-62, -102), (17, 15), (17, 13), (-44, 7), (75, -180)]
+    >>> nth_immersion(milnor, 1).own_sheet.tolist() == list(immersions(milnor))[1].own_sheet.tolist()
+    True
+    """
+    family = _family(curve)
+    count = 0 if family is None else count_groupings(family.groupings)
+    if family is None or not 0 <= index < count:
+        raise InputError(f"there is no immersion {index}", hint=f"the curve has {count}, numbered from 0")
     return _glued(family, nth_grouping(family.groupings, index))
 
 
