@@ -292,7 +292,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     report("gluing the sheets", 0.0)
     mesh = glue_sheets(layering, cells)
     report("smoothing heights", 0.0)
-    heights = smooth_heights(cells.points, mesh, distance, report)
+    heights = smooth_heights(cells.points, mesh, distance, progress=report)
     vertices = np.column_stack([cells.points[mesh.planar_vertex], heights])
     curves = intersection_curves(vertices, mesh)
     return Surface(layering, vertices, mesh.faces, mesh.sheet, mesh.boundary, distance, mesh.passing, curves)

@@ -1,0 +1,192 @@
+"""Where sheets touch: the least energy of cloth whose heights keep some distances, found from the forces of contact.
+
+Cloth rests on cloth in few places, mostly at single points where an edge lies on a sheet. So the unknowns are not the
+heights but the forces there. They start at none; in each round the worst places join, the forces that keep all places
+apart follow from a small dense problem, and heights answer to forces at the cost of two sparse systems.
+
+It ends when distances asked for a little too large are kept to within that little: then all distances are kept, and
+no other heights that keep them have less energy but for this little.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from plyfold.arrays import Bools, Floats, Ints
+from plyfold.layering import Progress
+from plyfold.surface.energy import Cloth, held_response, response
+
+__all__ = ["Distances", "Problem", "forced_heights", "least_forces"]
+
+# More places than this are left to springs: the dense problem would outgrow the sparse ones.
+_MOST_PLACES = 3000
+# Forces below this fraction of the largest are rounding errors.
+_NO_FORCE = 1e-11
+_ROUNDS_PER_PLACE = 5
+_PATIENCE = 3
+
+
+@dataclass(frozen=True, eq=False)
+class Distances:
+    """Rows of a matrix D, and the least values of Dz; the first rows must have exactly theirs.
+
+    Parameters
+    ----------
+    rows : (c, v) sparse array
+        Differences of heights, or weighted means of them.
+    least : (c,) float
+    exact : int
+        How many rows must have exactly their value.
+    beside : (e, 2) int
+        Pairs of rows over neighbouring points.
+    """
+
+    rows: Any
+    least: Floats
+    exact: int
+    beside: Ints
+
+    def missing(self, z: Floats) -> Floats:
+        """Return how much each distance is too small; of the exact ones, how far they are off."""
+        missing = self.least - self.rows @ z
+        missing[: self.exact] = np.abs(missing[: self.exact])
+        return np.asarray(missing)
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """The least energy with given distances, in gaps.
+
+    Parameters
+    ----------
+    cloth : Cloth
+    wanted : Distances
+    held : (v,) bool
+        Vertices whose heights are given.
+    given : (v,) float
+        These heights; 0 for the others.
+    tolerance : float
+        By how much a distance may be smaller than wanted.
+    """
+
+    cloth: Cloth
+    wanted: Distances
+    held: Bools
+    given: Floats
+    tolerance: float
+
+
+def forced_heights(problem: Problem, progress: Progress) -> Floats | None:
+    """Return the heights of least energy, from the forces that keep the distances.
+
+    Parameters
+    ----------
+    problem : Problem
+    progress : callable
+
+    Returns
+    -------
+    (v,) float or None
+        Up to a constant if no vertex is held. None where there are too many places of contact, or where no forces keep
+        them apart. Cost: two or three answers to forces for each place of contact.
+    """
+    cloth, held, wanted, tolerance = problem.cloth, problem.held, problem.wanted, problem.tolerance
+    respond = held_response(cloth, held) if held.any() else response(cloth)
+    base = problem.given - respond(cloth.stiffness @ problem.given) if held.any() else problem.given
+    places, flexibility, done = np.empty(0, dtype=np.int64), np.empty((0, 0)), 0.0
+    z, short = base, wanted.least - wanted.rows @ base
+    added = np.arange(wanted.exact) if wanted.exact else _worst(wanted, short, places, tolerance)
+    while len(added):
+        places = np.concatenate([places, added])
+        if len(places) > _MOST_PLACES:
+            return None
+        flexibility = _bordered(flexibility, wanted.rows[places] @ respond(wanted.rows[added].T.toarray()))
+        force = least_forces(flexibility, short[places], wanted.exact)
+        if force is None:
+            return None
+        z = base + respond(wanted.rows[places].T @ force)
+        missing = wanted.missing(z)
+        done = max(done, _share_done(missing, tolerance))
+        progress("smoothing heights", done)
+        added = _worst(wanted, missing, places, tolerance)
+    return z
+
+
+def _worst(wanted: Distances, missing: Floats, places: Ints, tolerance: float) -> Ints:
+    """Return the rows that miss most: more than all neighbours, and not yet among the places; a few at first."""
+    most = missing.copy()
+    first, second = wanted.beside.T
+    np.maximum.at(most, first, missing[second])
+    np.maximum.at(most, second, missing[first])
+    peak = (missing >= most) & (missing > tolerance)
+    peak[places] = False
+    peaks = np.flatnonzero(peak)
+    by_size = np.argsort(-missing[peaks], kind="stable")
+    return peaks[by_size[: 1 + len(places) // 2]]
+
+
+def _bordered(block: Floats, columns: Floats) -> Floats:
+    """Return a symmetric matrix that begins with a block and ends with the given columns."""
+    old = len(block)
+    whole = np.concatenate([np.concatenate([block, columns[:old].T]), columns], axis=1)
+    return np.asarray((whole + whole.T) / 2)
+
+
+def _share_done(missing: Floats, tolerance: float) -> float:
+    """Return how far, on a scale of powers of ten, the largest miss is between the whole gap and the tolerance."""
+    left = np.clip(missing.max(), tolerance, 1.0)
+    return float(np.log(left) / np.log(tolerance))
+
+
+def least_forces(flexibility: Floats, short: Floats, exact: int) -> Floats | None:
+    """Return forces f, none of them pulling, that bring distances about at the least energy.
+
+    Parameters
+    ----------
+    flexibility : (c, c) float
+        Symmetric, positive definite: how distances grow with forces.
+    short : (c,) float
+        How much is missing without forces.
+    exact : int
+        So many of the first forces may pull too.
+
+    Returns
+    -------
+    (c,) float or None
+        The minimum of ½ fᵀSf − fᵀs. By exchanging all wrong places at once, or, when this does not lead on, one. None
+        if there is no end to it, because distances contradict each other or rounding errors decide.
+
+    Examples
+    --------
+    >>> least_forces(np.array([[2.0, 1.0], [1.0, 2.0]]), np.array([3.0, -9.0]), exact=0).tolist()
+    [1.5, 0.0]
+    """
+    pressing = np.ones(len(short), dtype=bool)
+    fewest, patience = len(short) + 1, _PATIENCE
+    for _ in range(_ROUNDS_PER_PLACE * len(short) + 100):
+        force = np.zeros(len(short))
+        try:
+            force[pressing] = np.linalg.solve(flexibility[np.ix_(pressing, pressing)], short[pressing])
+        except np.linalg.LinAlgError:
+            return None
+        wrong = _wrong(flexibility, short, force, pressing)
+        wrong[:exact] = False
+        count = int(wrong.sum())
+        if not count:
+            return force
+        patience = _PATIENCE if count < fewest else patience - 1
+        fewest = min(fewest, count)
+        if patience < 0:
+            wrong[: np.flatnonzero(wrong)[-1]] = False
+        pressing ^= wrong
+    return None
+
+
+def _wrong(flexibility: Floats, short: Floats, force: Floats, pressing: Bools) -> Bools:
+    """Tell which pressing places pull, and at which others a distance is too small."""
+    missing = short - flexibility @ force
+    pulls = force < -_NO_FORCE * np.abs(force).max(initial=0.0)
+    return np.asarray(np.where(pressing, pulls, missing > _NO_FORCE * np.abs(short).max()))

@@ -1,0 +1,166 @@
+"""The energy of the cloth: a thin plate that bends and a membrane that slopes, and how heights answer to forces.
+
+With the cotangent Laplacian L and the area M that belongs to each vertex (a diagonal), the energy of heights z is
+
+    E(z) = ½ ∫ ℓ² (Δz)² + |∇z|²  ≈  ½ zᵀ K z,    K = ℓ² L M⁻¹ L + L = L M⁻¹ (M + ℓ² L).
+
+So K is a product of two matrices as sparse as L, and heights answer to forces by two systems of that kind, which cost
+a tenth of one with K itself. Only where heights are held in whole regions K has to be factorised.
+
+Cloth that is w times as stiff in a region has the weight w in both integrals there: ½ ∫ ℓ² (div w∇z)²/w + w |∇z|².
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from plyfold.arrays import Bools, Floats, Ints
+from plyfold.surface.glue import LiftedMesh
+
+__all__ = ["Cloth", "Response", "cloth_of", "held_response", "response"]
+
+# Heights that balance forces; several columns at a time if need be.
+Response: TypeAlias = Callable[[Floats], Floats]
+
+# Every side of a triangle ties its ends together a little: the only hold across a strip as thin as rounding errors.
+_TIE = 1e-3
+# Thinner triangles (double area by longest side squared) and smaller areas (by the mean) count as if they were not,
+# for their numbers would drown all others.
+_THINNEST = 1e-2
+_SMALLEST = 1e-4
+
+
+@dataclass(frozen=True, eq=False)
+class Cloth:
+    """The energy ½ zᵀ K z.
+
+    Parameters
+    ----------
+    laplacian : (v, v) sparse array
+        Of ½ ∫ w |∇z|².
+    area : (v,) float
+        What belongs to each vertex, times w.
+    bending : float
+        ℓ², the square of the length below which bending rules, and above which slope does.
+    """
+
+    laplacian: Any
+    area: Floats
+    bending: float
+
+    @cached_property
+    def stiffness(self) -> Any:
+        """The matrix K; sparse, with about 19 entries in a row."""
+        from scipy.sparse import diags_array
+
+        return self.bending * (self.laplacian @ diags_array(1 / self.area) @ self.laplacian) + self.laplacian
+
+    def energy(self, z: Floats) -> float:
+        """Return ½ zᵀ K z."""
+        slope = self.laplacian @ z
+        return float(self.bending * (slope / self.area) @ slope + z @ slope) / 2
+
+    def smoothed(self, values: Floats) -> Floats:
+        """Return values that change within the bending length ℓ instead of at once."""
+        return np.asarray(self._near().solve(self.area * values))
+
+    def _near(self) -> Any:
+        from scipy.sparse import diags_array
+
+        return factorised(diags_array(self.area) + self.bending * self.laplacian)
+
+
+def cloth_of(points: Floats, mesh: LiftedMesh, stiffness: float, flat: float) -> Cloth:
+    """Return the energy of a mesh in the drawing's units of length, whatever they are.
+
+    Parameters
+    ----------
+    points : (p, 2) float
+        The points of the planar triangulation.
+    mesh : LiftedMesh
+    stiffness : float
+        ℓ as a fraction of the mean width of the cloth.
+    flat : float
+        How many times as stiff the cloth is where nothing overlaps; the change is gradual.
+    """
+    corners = points[mesh.planar_vertex]
+    corners = (corners - corners[0]) / np.ptp(corners, axis=0).max()
+    outline = corners[mesh.boundary]
+    perimeter = np.hypot(*(np.roll(outline, -1, axis=0) - outline).T).sum()
+    even = np.ones(len(mesh.faces))
+    laplacian, area = _cotangent_laplacian(corners, mesh.faces, even)
+    mean_width = 2 * area.sum() / perimeter
+    plain = Cloth(laplacian, area, (stiffness * mean_width) ** 2)
+    if flat == 1:
+        return plain
+    share = plain.smoothed(_alone(mesh).astype(np.float64)).clip(0, 1)
+    weighted, _ = _cotangent_laplacian(corners, mesh.faces, flat ** share[mesh.faces].mean(axis=1))
+    return Cloth(weighted, area * flat**share, plain.bending)
+
+
+def response(cloth: Cloth) -> Response:
+    """Return the heights that balance forces whose sum is 0, up to a constant."""
+    # Hold one vertex: heights are known up to a constant.
+    far, near = factorised(cloth.laplacian[1:, 1:]), cloth._near()
+
+    def balance(force: Floats) -> Floats:
+        curved = np.zeros(force.shape)
+        curved[1:] = far.solve(force[1:])
+        return np.asarray(near.solve((cloth.area * curved.T).T))
+
+    return balance
+
+
+def held_response(cloth: Cloth, held: Bools) -> Response:
+    """Return the heights that balance forces on vertices that are not held; those that are stay at 0."""
+    free = np.flatnonzero(~held)
+    inner = factorised(cloth.stiffness[free][:, free])
+
+    def balance(force: Floats) -> Floats:
+        z = np.zeros(force.shape)
+        z[free] = inner.solve(force[free])
+        return z
+
+    return balance
+
+
+def factorised(matrix: Any) -> Any:
+    """Return the factors of a symmetric positive definite matrix."""
+    from scipy.sparse.linalg import splu
+
+    options = {"SymmetricMode": True}
+    return splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+
+
+def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[Any, Floats]:
+    """Return the matrix of ½ ∫ w |∇z|² and the area that belongs to each vertex."""
+    from scipy.sparse import coo_array
+
+    triangle = corners[faces]
+    n = len(corners)
+    edges = np.roll(triangle, -1, axis=1) - np.roll(triangle, 1, axis=1)
+    lengths = np.einsum("tix,tix->ti", edges, edges)
+    double_area = edges[:, 0, 0] * edges[:, 1, 1] - edges[:, 0, 1] * edges[:, 1, 0]
+    double_area = np.maximum(double_area, _THINNEST * lengths.max(axis=1))
+    local = np.einsum("tix,tjx->tij", edges, edges) / (2 * double_area)[:, None, None]
+    local += _TIE * (3 * np.eye(3) - 1)
+    local *= weight[:, None, None]
+    rows, columns = np.repeat(faces, 3, axis=1).ravel(), np.tile(faces, (1, 3)).ravel()
+    laplacian = coo_array((local.ravel(), (rows, columns)), shape=(n, n)).tocsr()
+    area = np.bincount(faces.ravel(), np.repeat(double_area / 6, 3), minlength=n)
+    return laplacian, np.maximum(area, _SMALLEST * area.mean())
+
+
+def _alone(mesh: LiftedMesh) -> Bools:
+    """Tell which vertices lie where nothing overlaps: above and below all triangles around them is no other one."""
+    below = mesh.planar_vertex[mesh.faces]
+    first = np.flatnonzero(np.concatenate([[True], (below[1:] != below[:-1]).any(axis=1)]))
+    copies = np.diff(np.append(first, len(below)))
+    alone = np.ones(len(mesh.level), dtype=bool)
+    alone[mesh.faces[np.repeat(copies > 1, copies)]] = False
+    return alone
