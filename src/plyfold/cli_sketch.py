@@ -41,14 +41,15 @@ def add_sketch_command(commands: Any) -> None:
 
 
 def _sketch(options: argparse.Namespace) -> int:
-    from plyfold.sketch.opening import start_answer
+    from plyfold.sketch.answers import json_answer
+    from plyfold.sketch.opening import start
     from plyfold.sketch.workers import Workers
 
-    start = start_answer(options.file)
+    beginning = json_answer(start(options.file))
     signal.signal(signal.SIGTERM, _interrupt)
     workers = Workers()
     try:
-        server = _listening(options.host, options.port, workers, start)
+        server = _listening(options.host, options.port, workers, beginning)
         print(f"Drawing at {server.address}  (Ctrl-C ends it)", flush=True)
         if not options.no_browser:
             threading.Thread(target=webbrowser.open, args=(server.address,), daemon=True).start()

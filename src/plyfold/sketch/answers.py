@@ -10,8 +10,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from plyfold.errors import CurveError, InputError, PlyfoldError, StrokeError, TimeLimitError
+from plyfold.sketch.export import export
+from plyfold.sketch.lie import lie
+from plyfold.sketch.lifting import surface
 from plyfold.sketch.look import look
-from plyfold.sketch.schema import VERSION, Look, parse, read_question
+from plyfold.sketch.opening import gallery, opened
+from plyfold.sketch.schema import VERSION, Export, Lie, Look, Surface, parse, read_question
 
 __all__ = ["Answer", "answer", "error_answer", "json_answer"]
 
@@ -95,11 +99,36 @@ def _kind(error: PlyfoldError) -> str:
 
 
 def _look(body: bytes, _headers: Mapping[str, str]) -> Answer:
-    question = read_question("look", parse(body))
-    assert isinstance(question, Look)
-    return json_answer(look(question))
+    return json_answer(look(read_question(Look, parse(body))))
+
+
+def _lie(body: bytes, _headers: Mapping[str, str]) -> Answer:
+    return json_answer(lie(read_question(Lie, parse(body))))
+
+
+def _surface(body: bytes, _headers: Mapping[str, str]) -> Answer:
+    return json_answer(surface(read_question(Surface, parse(body))))
+
+
+def _export(body: bytes, _headers: Mapping[str, str]) -> Answer:
+    order = read_question(Export, parse(body))
+    content, kind = export(order)
+    return Answer(200, kind, content, {"Content-Disposition": f'attachment; filename="drawing.{order.format}"'})
+
+
+def _open(body: bytes, headers: Mapping[str, str]) -> Answer:
+    return json_answer(opened(body, headers))
+
+
+def _gallery(_body: bytes, _headers: Mapping[str, str]) -> Answer:
+    return json_answer(gallery())
 
 
 _ANSWERS: dict[str, Callable[[bytes, Mapping[str, str]], Answer]] = {
     "look": _look,
+    "lie": _lie,
+    "surface": _surface,
+    "export": _export,
+    "open": _open,
+    "gallery": _gallery,
 }

@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import lru_cache
+from itertools import islice
 
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.curve import Curve
-from plyfold.errors import StrokeError
+from plyfold.errors import NotImmersibleError, StrokeError
+from plyfold.immersion import Immersion, count_immersions, find_immersion, nth_immersion
+from plyfold.layering import Layering, count_layerings, find_layering, layerings
+from plyfold.obstruction import Obstruction, Unknown
 from plyfold.sketch.schema import Stroke
 
-__all__ = ["arranged", "curve_of"]
+__all__ = ["Layered", "arranged", "curve_of", "immersed", "immersion_count", "layered"]
 
 _REMEMBERED = 8
+_SECONDS_TO_DECIDE = 5.0
+_SECONDS_TO_COUNT = 1.0
+_MOST_LISTED = 10_000
 
 
 def curve_of(strokes: Sequence[Stroke]) -> Curve:
@@ -24,6 +32,11 @@ def curve_of(strokes: Sequence[Stroke]) -> Curve:
         If they do not make one closed loop.
     CurveError
         If the loop is degenerate.
+
+    Examples
+    --------
+    >>> len(curve_of([Stroke(((0, 0), (4, 0))), Stroke(((0, 3), (4, 0))), Stroke(((0, 0), (0, 3)))]))
+    3
     """
     if len(strokes) == 1 and strokes[0].closed:
         return Curve(strokes[0].points)
@@ -38,3 +51,62 @@ def curve_of(strokes: Sequence[Stroke]) -> Curve:
 def arranged(strokes: tuple[Stroke, ...]) -> Arrangement:
     """Return the arrangement of the loop that strokes draw."""
     return arrangement(curve_of(strokes))
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def immersion_count(strokes: tuple[Stroke, ...]) -> int:
+    """Return the number of immersions of the loop."""
+    return count_immersions(arranged(strokes))
+
+
+@lru_cache(maxsize=4 * _REMEMBERED)
+def immersed(strokes: tuple[Stroke, ...], number: int) -> Immersion:
+    """Return an immersion of the loop by its number, which wraps round.
+
+    Raises
+    ------
+    NotImmersibleError
+        If there is none.
+    """
+    count = immersion_count(strokes)
+    if count:
+        return nth_immersion(arranged(strokes), number % count)
+    why = find_immersion(arranged(strokes))
+    assert isinstance(why, Obstruction)
+    raise NotImmersibleError(why)
+
+
+@dataclass(frozen=True)
+class Layered:
+    """A layering of an immersion, or why there is none.
+
+    Parameters
+    ----------
+    found : Layering, Obstruction or Unknown
+    number : int
+        Which of the layerings it is.
+    count : int or None
+        How many there are; None if that was not found in time.
+    """
+
+    found: Layering | Obstruction | Unknown
+    number: int
+    count: int | None
+
+
+@lru_cache(maxsize=4 * _REMEMBERED)
+def layered(strokes: tuple[Stroke, ...], immersion: int, layering: int) -> Layered:
+    """Return a layering by its number, which wraps round, among the first 10,000 of them.
+
+    Where the layerings are not counted in time, listing them may never come to an end either; then it is the one that
+    was found first.
+    """
+    disk = immersed(strokes, immersion)
+    found = find_layering(disk, _SECONDS_TO_DECIDE)
+    if not isinstance(found, Layering):
+        return Layered(found, 0, 0 if isinstance(found, Obstruction) else None)
+    count = count_layerings(disk, _SECONDS_TO_COUNT)
+    if isinstance(count, Unknown):
+        return Layered(found, 0, None)
+    number = layering % min(count, _MOST_LISTED)
+    return Layered(next(islice(layerings(disk), number, None)), number, count)

@@ -1,12 +1,163 @@
-"""From files to documents (a first version: the named curves and nothing)."""
+"""From files to documents: saved ones as they were, drawings as a loop, pictures to draw after."""
 
 from __future__ import annotations
 
-from plyfold.sketch.answers import Answer, json_answer
-from plyfold.sketch.schema import MOST_BYTES, MOST_POINTS, VERSION
+import base64
+import re
+import sys
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+from plyfold.curve import Curve
+from plyfold.errors import FileFormatError, InputError
+from plyfold.gallery import CURVES
+from plyfold.io import read
+from plyfold.sketch.embedding import PNG_START, png_document, svg_document
+from plyfold.sketch.schema import (
+    MOST_BYTES,
+    MOST_POINTS,
+    VERSION,
+    Document,
+    Image,
+    Stroke,
+    document_data,
+    parse,
+    read_document,
+)
+
+__all__ = ["gallery", "open_file", "opened", "start"]
+
+_PICTURES = ((PNG_START, "png"), (b"\xff\xd8\xff", "jpeg"), (b"GIF8", "gif"), (b"RIFF", "webp"))
+_LARGEST_PICTURE = 8 * 2**20
+_STRANGE = re.compile(r"[^\w .()+-]")
+_LONGEST_NAME = 100
 
 
-def start_answer(file: str | None) -> Answer:
-    """Return the answer to what the page should begin with."""
+def open_file(name: str, content: bytes) -> Document:
+    r"""Return the document that a file holds, or one made of the drawing or the picture in it.
+
+    Parameters
+    ----------
+    name : str
+        The file's name; its ending tells formats apart that look alike.
+    content : bytes
+
+    Returns
+    -------
+    Document
+
+    Raises
+    ------
+    InputError
+        If the file is broken, too large, or of a kind that is not read.
+
+    Examples
+    --------
+    >>> open_file("loop.csv", b"x,y\n0,0\n4,0\n0,3\n").strokes
+    (Stroke(points=((0.0, 0.0), (4.0, 0.0), (0.0, 3.0)), closed=True),)
+    """
+    if len(content) > MOST_BYTES:
+        raise FileFormatError(f"{name} is larger than {MOST_BYTES // 2**20} MiB", hint="thin out the points")
+    carried = _carried(content)
+    if carried is not None:
+        return read_document(carried)
+    kind = next((kind for start, kind in _PICTURES if content.startswith(start)), None)
+    return _tracing(content, kind) if kind else _document_of(_read(name, content))
+
+
+def opened(content: bytes, headers: Mapping[str, str]) -> dict[str, Any]:
+    """Return the answer to the question what a file holds."""
+    name = unquote(headers.get("X-File-Name", "")) or "drawing"
+    document = document_data(open_file(name, content))
+    return {"version": VERSION, "document": document, "name": Path(name).stem[:_LONGEST_NAME]}
+
+
+def gallery() -> dict[str, Any]:
+    """Return the named curves, ready for JSON."""
+    curves = [
+        {
+            "name": curve.name,
+            "title": curve.title,
+            "crossings": str(curve.crossings),
+            "turning_number": curve.turning_number,
+            "immersions": str(curve.immersions),
+            "embeddable": str(curve.embeddable),
+            "points": curve.curve.points.tolist(),
+        }
+        for curve in CURVES.values()
+    ]
+    return {"version": VERSION, "curves": curves}
+
+
+def start(file: str | None) -> dict[str, Any]:
+    """Return what the page begins with.
+
+    Parameters
+    ----------
+    file : str or None
+        A path, ``"-"`` for standard input, ``"gallery:NAME"``, or None for an empty page.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be opened.
+    """
     limits = {"bytes": MOST_BYTES, "points": MOST_POINTS}
-    return json_answer({"version": VERSION, "document": None, "name": file, "limits": limits})
+    if file is None:
+        return {"version": VERSION, "document": None, "name": None, "limits": limits}
+    document = document_data(_started_with(file))
+    return {"version": VERSION, "document": document, "name": _title(file), "limits": limits}
+
+
+def _started_with(file: str) -> Document:
+    if file.startswith("gallery:"):
+        from plyfold.cli_gallery import named_curve
+
+        return _document_of(named_curve(file.removeprefix("gallery:")).curve)
+    if file == "-":
+        return open_file("standard input", sys.stdin.buffer.read(MOST_BYTES + 1))
+    try:
+        with Path(file).open("rb") as opened_file:
+            return open_file(Path(file).name, opened_file.read(MOST_BYTES + 1))
+    except OSError as error:
+        raise FileFormatError(f"{file} cannot be read ({error.strerror})", hint="check the path") from error
+
+
+def _title(file: str) -> str:
+    return "drawing" if file == "-" else Path(file.removeprefix("gallery:")).stem
+
+
+def _carried(content: bytes) -> Any:
+    """Return the data of the document that a file carries, if it was saved by the page."""
+    if content.startswith(PNG_START):
+        return png_document(content)
+    beginning = content[:1000].removeprefix(b"\xef\xbb\xbf").lstrip()
+    if beginning.startswith(b"<"):
+        return svg_document(content)
+    if beginning.startswith(b"{"):
+        data = parse(content.removeprefix(b"\xef\xbb\xbf"))
+        return data if "plyfold" in data else None
+    return None
+
+
+def _tracing(content: bytes, kind: str) -> Document:
+    if len(content) > _LARGEST_PICTURE:
+        raise InputError(f"the picture is larger than {_LARGEST_PICTURE // 2**20} MiB", hint="make it smaller")
+    return Document((), Image(f"data:image/{kind};base64,{base64.b64encode(content).decode()}"))
+
+
+def _read(name: str, content: bytes) -> Curve:
+    safe = _STRANGE.sub("_", Path(name).name)[-_LONGEST_NAME:].lstrip(".") or "drawing"
+    with tempfile.TemporaryDirectory(prefix="plyfold-") as folder:
+        path = Path(folder) / safe
+        path.write_bytes(content)
+        return read(path)
+
+
+def _document_of(curve: Curve) -> Document:
+    if len(curve) > MOST_POINTS:
+        raise InputError(f"the drawing has {len(curve):,} points, more than {MOST_POINTS:,}", hint="thin them out")
+    return Document((Stroke(tuple((x, y) for x, y in curve.points.tolist()), closed=True),))

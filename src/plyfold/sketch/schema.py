@@ -7,7 +7,7 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, NoReturn, TypeAlias
+from typing import Any, NoReturn, TypeAlias, TypeVar, cast
 
 from plyfold.errors import InputError
 
@@ -20,6 +20,7 @@ __all__ = [
     "Image",
     "Lie",
     "Look",
+    "Points",
     "Stroke",
     "Surface",
     "document_data",
@@ -105,6 +106,9 @@ class Export:
     surface: Surface
 
 
+Q = TypeVar("Q", Look, Lie, Surface, Export)
+
+
 # ---- reading ---------------------------------------------------------------------------------------------------------
 
 
@@ -137,12 +141,12 @@ def _refuse_constant(name: str) -> NoReturn:
     raise InputError(f"{name} is no number that JSON has", hint="send finite numbers")
 
 
-def read_question(name: str, data: Any) -> Look | Lie | Surface | Export:
+def read_question(kind: type[Q], data: Any) -> Q:
     """Check a question and return it.
 
     Parameters
     ----------
-    name : {"look", "lie", "surface", "export"}
+    kind : {Look, Lie, Surface, Export}
     data : object
         What its JSON says.
 
@@ -153,13 +157,13 @@ def read_question(name: str, data: Any) -> Look | Lie | Surface | Export:
 
     Examples
     --------
-    >>> read_question("look", {"version": 1, "points": [[0, 0], [1, 0], [0, 1]]}).strokes[0].closed
+    >>> read_question(Look, {"version": 1, "points": [[0, 0], [1, 0], [0, 1]]}).strokes[0].closed
     True
     """
     question = _object(data, "the question")
     if question.get("version") != VERSION:
         _refuse(f"the question has the version {question.get('version')!r}, and this is {VERSION}", "reload the page")
-    return _READERS[name](question)
+    return cast(Q, _READERS[kind](question))
 
 
 def read_document(data: Any) -> Document:
@@ -226,11 +230,11 @@ def _export(question: dict[str, Any]) -> Export:
     return Export(document, kind, _surface_of(question, document.strokes))
 
 
-_READERS: dict[str, Callable[[dict[str, Any]], Look | Lie | Surface | Export]] = {
-    "look": _look,
-    "lie": _lie,
-    "surface": _surface,
-    "export": _export,
+_READERS: dict[type, Callable[[dict[str, Any]], Look | Lie | Surface | Export]] = {
+    Look: _look,
+    Lie: _lie,
+    Surface: _surface,
+    Export: _export,
 }
 
 

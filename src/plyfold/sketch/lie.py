@@ -1,0 +1,129 @@
+"""How does the cloth lie? One immersion, one layering of it, and what they look like unwound."""
+
+from __future__ import annotations
+
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from plyfold.arrays import Floats
+from plyfold.draw.hyperbolic import BorderCircle
+from plyfold.errors import NotImmersibleError
+from plyfold.immersion import Immersion, changed_borders
+from plyfold.layering import Layering
+from plyfold.obstruction import Obstruction
+from plyfold.sketch.drawings import Layered, immersed, immersion_count, layered
+from plyfold.sketch.schema import VERSION, Lie
+
+__all__ = ["lie", "obstruction_data"]
+
+_DECIMALS = 4
+
+
+def lie(question: Lie) -> dict[str, Any]:
+    """Return one immersion of a loop, one of its layerings, and what is new in it.
+
+    Parameters
+    ----------
+    question : Lie
+
+    Returns
+    -------
+    dict
+        As ``PROTOCOL.md`` says, ready for JSON. What cannot be decided or counted within seconds is null.
+
+    Raises
+    ------
+    PlyfoldError
+        If the strokes make no loop that can be used.
+
+    Examples
+    --------
+    >>> from plyfold.gallery import CURVES
+    >>> from plyfold.sketch.schema import Stroke
+    >>> milnor = Stroke(tuple(map(tuple, CURVES["milnor"].curve.points.tolist())), closed=True)
+    >>> answer = lie(Lie((milnor,), -1, 0, None))
+    >>> answer["immersion"], answer["immersions"], answer["layerings"], answer["changed_borders"][:4]
+    ('1', '2', '2', [0, 1, 2, 3])
+    """
+    began = perf_counter()
+    try:
+        disk = immersed(question.strokes, question.immersion)
+    except NotImmersibleError as error:
+        why = obstruction_data(error.obstruction)
+        return {"version": VERSION, "obstruction": why, "immersions": "0", "seconds": perf_counter() - began}
+    count = immersion_count(question.strokes)
+    answer = {
+        "version": VERSION,
+        "immersion": str(question.immersion % count),
+        "immersions": str(count),
+        "changed_borders": _changed(question, disk, count),
+        "sheets": _own_borders(disk),
+        "sheet_cell": disk.sheet_cell.tolist(),
+        "layout": _layout(disk),
+    }
+    answer |= _layering(layered(question.strokes, question.immersion, question.layering))
+    return answer | {"seconds": perf_counter() - began}
+
+
+def obstruction_data(obstruction: Obstruction) -> dict[str, Any]:
+    """Return an obstruction as plain data, with the sheets and cells that are in conflict."""
+    places = obstruction.value if obstruction.reason in ("reversed pair", "cyclic order") else ()
+    sheets = {sheet for _, *others in places for sheet in np.ravel(others).tolist()}
+    return {
+        "reason": obstruction.reason,
+        "sentence": obstruction.sentence,
+        "where": [list(place) for place in obstruction.where],
+        "sheets": sorted(sheets),
+        "cells": sorted({int(cell) for cell, *_ in places}),
+    }
+
+
+def _layering(layered: Layered) -> dict[str, Any]:
+    found = layered.found
+    lies = isinstance(found, Layering)
+    return {
+        "layering": str(layered.number),
+        "layerings": None if layered.count is None else str(layered.count),
+        "layerable": True if lies else False if isinstance(found, Obstruction) else None,
+        "obstruction": obstruction_data(found) if isinstance(found, Obstruction) else None,
+        "levels": found.level.tolist() if isinstance(found, Layering) else None,
+        "casing": found.casing.tolist() if isinstance(found, Layering) else None,
+    }
+
+
+def _changed(question: Lie, disk: Immersion, count: int) -> list[int]:
+    """Return the borders that lie otherwise than before: by default in the immersion before this one, if any."""
+    now = question.immersion % count
+    before = now - 1 if question.before is None else question.before % count
+    return [] if before < 0 else list(changed_borders(immersed(question.strokes, before), disk))
+
+
+def _own_borders(disk: Immersion) -> list[list[int]]:
+    borders: list[list[int]] = [[] for _ in range(disk.n_sheets)]
+    for border, sheet in enumerate(disk.own_sheet.tolist()):
+        borders[sheet].append(border)
+    return borders
+
+
+def _layout(disk: Immersion) -> dict[str, Any]:
+    """Return the disk layout in the unit disk, as :func:`plyfold.draw.plots.plot_disk_layout` draws it."""
+    circle = BorderCircle(disk.arrangement.n_borders)
+    return {
+        "borders": [_rounded(circle.arc(border)) for border in range(disk.arrangement.n_borders)],
+        "groups": [
+            {
+                "sheet": group.sheet,
+                "cell": group.cell,
+                "borders": list(group.borders),
+                "region": _rounded(circle.region(group.borders)),
+                "arcs": [_rounded(circle.join(border, other)) for border, other in group.arcs],
+            }
+            for group in disk.disk_layout()
+        ],
+    }
+
+
+def _rounded(points: Floats) -> list[list[float]]:
+    return [[x, y] for x, y in points.round(_DECIMALS).tolist()]
