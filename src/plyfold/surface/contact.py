@@ -96,7 +96,7 @@ def forced_heights(problem: Problem, progress: Progress) -> Floats | None:
     cloth, held, wanted, tolerance = problem.cloth, problem.held, problem.wanted, problem.tolerance
     respond = held_response(cloth, held) if held.any() else response(cloth)
     base = problem.given - respond(cloth.stiffness @ problem.given) if held.any() else problem.given
-    places, flexibility, done = np.empty(0, dtype=np.int64), np.empty((0, 0)), 0.0
+    places, force, flexibility, done = np.empty(0, dtype=np.int64), np.empty(0), np.empty((0, 0)), 0.0
     z, short = base, wanted.least - wanted.rows @ base
     added = np.arange(wanted.exact) if wanted.exact else _worst(wanted, short, places, tolerance)
     while len(added):
@@ -104,9 +104,11 @@ def forced_heights(problem: Problem, progress: Progress) -> Floats | None:
         if len(places) > _MOST_PLACES:
             return None
         flexibility = _bordered(flexibility, wanted.rows[places] @ respond(wanted.rows[added].T.toarray()))
-        force = least_forces(flexibility, short[places], wanted.exact)
-        if force is None:
+        pressing = np.append(force != 0, np.ones(len(added), dtype=bool))
+        found = least_forces(flexibility, short[places], wanted.exact, pressing)
+        if found is None:
             return None
+        force = found
         z = base + respond(wanted.rows[places].T @ force)
         missing = wanted.missing(z)
         done = max(done, _share_done(missing, tolerance))
@@ -141,7 +143,7 @@ def _share_done(missing: Floats, tolerance: float) -> float:
     return float(np.log(left) / np.log(tolerance))
 
 
-def least_forces(flexibility: Floats, short: Floats, exact: int) -> Floats | None:
+def least_forces(flexibility: Floats, short: Floats, exact: int, pressing: Bools) -> Floats | None:
     """Return forces f, none of them pulling, that bring distances about at the least energy.
 
     Parameters
@@ -151,7 +153,9 @@ def least_forces(flexibility: Floats, short: Floats, exact: int) -> Floats | Non
     short : (c,) float
         How much is missing without forces.
     exact : int
-        So many of the first forces may pull too.
+        So many of the first forces may pull too; they are pressing from the beginning.
+    pressing : (c,) bool
+        The places where forces are expected; others only cost time.
 
     Returns
     -------
@@ -161,10 +165,9 @@ def least_forces(flexibility: Floats, short: Floats, exact: int) -> Floats | Non
 
     Examples
     --------
-    >>> least_forces(np.array([[2.0, 1.0], [1.0, 2.0]]), np.array([3.0, -9.0]), exact=0).tolist()
+    >>> least_forces(np.array([[2.0, 1.0], [1.0, 2.0]]), np.array([3.0, -9.0]), 0, np.array([True, True])).tolist()
     [1.5, 0.0]
     """
-    pressing = np.ones(len(short), dtype=bool)
     fewest, patience = len(short) + 1, _PATIENCE
     for _ in range(_ROUNDS_PER_PLACE * len(short) + 100):
         force = np.zeros(len(short))
@@ -181,7 +184,7 @@ def least_forces(flexibility: Floats, short: Floats, exact: int) -> Floats | Non
         fewest = min(fewest, count)
         if patience < 0:
             wrong[: np.flatnonzero(wrong)[-1]] = False
-        pressing ^= wrong
+        pressing = pressing ^ wrong
     return None
 
 
