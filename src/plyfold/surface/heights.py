@@ -33,7 +33,7 @@ from plyfold.surface.passages import shares_of_gap
 from plyfold.surface.pins import PinKey, Pins, Room, pins_of, room_between, rows_upward
 from plyfold.surface.springs import sprung_heights
 
-__all__ = ["DEFAULT_STIFFNESS", "smooth_heights"]
+__all__ = ["DEFAULT_STIFFNESS", "flat_weight", "refuse_stiffness", "smooth_heights"]
 
 # ℓ, below which bending rules and above which the membrane does, as a fraction of the mean width of the cloth. Were it
 # wider than a ribbon, the ribbon would rather climb many times the gap than bend in its width where sheets touch.
@@ -42,6 +42,8 @@ DEFAULT_STIFFNESS = 0.5
 _TOLERANCE = 1e-6
 # The same as a fraction of pinned heights, whose rounding errors may be larger.
 _RELATIVE = 1e-11
+_SOFTEST, _STIFFEST = 1e-3, 1e3
+_FLAT, _FLATTEST = 100.0, 1e6
 _HIGHEST_PIN = 1000.0
 # Vertices between pins that have less room than this part of the gap are held too.
 _NO_ROOM = 1e-3
@@ -114,6 +116,27 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
         place = points[mesh.planar_vertex[wanted.rows[[int(np.argmax(missing))]].indices[:1]]]
         raise InputError("the pins leave less room than the gap", where=place, hint="move the pinned heights apart")
     return _kept_apart(_settled(gap * z, mesh, given, held, fixed), mesh, gap * shares, held)
+
+
+def refuse_stiffness(stiffness: float) -> None:
+    """Raise InputError for a stiffness that is no number in reason."""
+    if not _SOFTEST <= stiffness <= _STIFFEST:
+        raise InputError(f"the stiffness must be from {_SOFTEST:g} to {_STIFFEST:g}, not {stiffness!r}")
+
+
+def flat_weight(flat: bool | float) -> float:
+    """Return how many times as stiff cloth is where nothing overlaps; InputError for a weight not in reason.
+
+    Examples
+    --------
+    >>> flat_weight(False), flat_weight(True), flat_weight(20)
+    (1.0, 100.0, 20.0)
+    """
+    if isinstance(flat, bool):
+        return _FLAT if flat else 1.0
+    if not 1 <= flat <= _FLATTEST:
+        raise InputError(f"how flat parts are must be true, false or from 1 to {_FLATTEST:g}, not {flat!r}")
+    return float(flat)
 
 
 def _silent(stage: str, done: float) -> None:

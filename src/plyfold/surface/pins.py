@@ -122,7 +122,7 @@ def _place(key: tuple[float, ...], points: Floats, mesh: LiftedMesh) -> tuple[in
     if len(sheets) != 1:
         there = "no sheet lies" if len(sheets) == 0 else f"sheets {', '.join(map(str, sheets.tolist()))} lie"
         hint = "name one of them: (x, y, sheet)" if len(sheets) else "pin a point inside of the sheet"
-        raise InputError(f"the pin {key} names no place: {there} over the point", where=[where], hint=hint)
+        raise InputError(f"a pin names no place of the surface: {there} over the point", where=[where], hint=hint)
     best = int(np.argmax(weights.min(axis=1)))
     shares = weights[best].clip(0, 1)
     return int(candidates[best]), shares / shares.sum()

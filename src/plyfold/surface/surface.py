@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain
@@ -27,8 +27,9 @@ from plyfold.obstruction import IMMERSION_REASONS, Obstruction
 from plyfold.surface.chords import split_chords
 from plyfold.surface.files import Colouring, model_of_surface, refuse_ending, save_model
 from plyfold.surface.glue import glue_sheets
-from plyfold.surface.heights import smooth_heights
+from plyfold.surface.heights import DEFAULT_STIFFNESS, flat_weight, refuse_stiffness, smooth_heights
 from plyfold.surface.passages import intersection_curves
+from plyfold.surface.pins import PinKey
 from plyfold.surface.sizes import refuse_sizes
 from plyfold.surface.thicken import Solid, thicken
 from plyfold.surface.unwrap import UnwoundDisk, unwound_surface
@@ -228,6 +229,9 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     gap: float | None = None,
     triangles: int = DEFAULT_TRIANGLES,
     max_area: float | None = None,
+    stiffness: float = DEFAULT_STIFFNESS,
+    pins: Mapping[PinKey, float] | None = None,
+    flat: bool | float = False,
     time_limit: float | None = None,
     progress: Progress | None = None,
 ) -> Surface:
@@ -246,6 +250,16 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         Roughly how many triangles to make; curves with many points have more.
     max_area : float, optional
         Largest area of a triangle seen from above, instead of ``triangles``.
+    stiffness : float
+        The length below which the cloth resists bending more than sloping, as a fraction of its mean width: stiffer
+        cloth swings out further, softer cloth creases where sheets touch.
+    pins : mapping, optional
+        Heights that are given, in units of the drawing: ``{sheet: z}`` holds a whole sheet level, ``{(x, y): z}`` a
+        point where a single sheet lies, and ``{(x, y, sheet): z}`` one of several sheets. Without pins the lowest
+        vertex has the height 0.
+    flat : bool or float
+        Keep those parts level that nothing overlaps: they are so many times as stiff (at least 1), or 100 times if
+        true. The way up and down is made where sheets overlap, as far as it can be.
     time_limit : float, optional
         Seconds after which the search for a layering gives up; none by default.
     progress : callable, optional
@@ -267,7 +281,8 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     PrecisionError
         If double precision cannot hold the mesh.
     InputError
-        If ``gap``, ``triangles`` or ``max_area`` is not positive, or the triangles would be more than ten million.
+        If ``gap``, ``triangles`` or ``max_area`` is not positive, or the triangles would be more than ten million; if
+        pins name no place of the surface, or leave less room than the gap somewhere.
 
     References
     ----------
@@ -285,6 +300,8 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     drawn = layering.immersion.arrangement
     distance = _distance(drawn, gap)
     refuse_sizes(cast(Curve, drawn.curve).points, triangles, max_area)
+    refuse_stiffness(stiffness)
+    weight = flat_weight(flat)
     report("triangulating the cells", 0.0)
     cells = triangulate_cells(drawn, max_area, triangles)
     if isinstance(layering, IntersectingLayering):
@@ -292,7 +309,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     report("gluing the sheets", 0.0)
     mesh = glue_sheets(layering, cells)
     report("smoothing heights", 0.0)
-    heights = smooth_heights(cells.points, mesh, distance, progress=report)
+    heights = smooth_heights(cells.points, mesh, distance, stiffness=stiffness, pins=pins, flat=weight, progress=report)
     vertices = np.column_stack([cells.points[mesh.planar_vertex], heights])
     curves = intersection_curves(vertices, mesh)
     return Surface(layering, vertices, mesh.faces, mesh.sheet, mesh.boundary, distance, mesh.passing, curves)
