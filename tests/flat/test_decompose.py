@@ -69,8 +69,7 @@ def test_never_fewer_than_the_depth_nor_as_many_as_triangles():
 
 def test_overlaps_that_no_crossing_sides_show(monkeypatch):
     """Sides of triangles that are no edges of the curve cross here: they are looked for, and the pieces are simple."""
-    points = [(0, 0), (0, 1), (5, 0), (-11, 7), (5, -17), (20, 0), (7, -18)]
-    points += [(22, -27), (31, -16), (45, -7), (29, -3), (28, -4), (10, 20)]
+    points = [(0, 0), (-776, 256), (-495, -467), (1000, 0), (500, 1000), (-987, 197), (-987, 106), (-538, 294)]
     module = sys.modules["plyfold.flat.decompose"]
     found = []
     look = module._overlaps

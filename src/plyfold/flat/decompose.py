@@ -12,7 +12,9 @@ from plyfold.arrangement import Arrangement
 from plyfold.arrangement.core import CurveLike
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import PrecisionError
-from plyfold.flat.triangulate import chosen_immersion, own_triangles
+from plyfold.flat.flips import flip_edges
+from plyfold.flat.sweep import sweep_triangles
+from plyfold.flat.triangulate import chosen_immersion
 from plyfold.immersion import Immersion
 from plyfold.predicates import orient
 
@@ -66,8 +68,12 @@ def decompose(curve: CurveLike, immersion: Immersion | None = None) -> list[Poly
     import shapely
 
     chosen = chosen_immersion(curve, immersion)
-    points, faces = own_triangles(chosen)
-    conflicts = _crossing_sides(chosen.arrangement, faces)
+    drawn = chosen.arrangement
+    assert drawn.curve is not None
+    points = drawn.curve.points
+    # Round triangles overlap fewer others than long ones.
+    faces = flip_edges(points, sweep_triangles(chosen))
+    conflicts = _crossing_sides(drawn, faces)
     tree = _tree(faces)
     while True:
         piece = _pieces(conflicts, *tree)

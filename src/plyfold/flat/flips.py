@@ -10,7 +10,7 @@ from math import hypot
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
-from plyfold.flat.deletion import turns_left
+from plyfold.flat.turns import Places, as_places, turn
 
 __all__ = ["flip_edges"]
 
@@ -32,14 +32,14 @@ def flip_edges(points: Floats, faces: Ints) -> Ints:
     (m, 3) int
         Triangles of the same disk, counter-clockwise, exactly. Cost: O(m) as a rule.
     """
-    x, y = points.T.tolist()
+    places = Places(*(numbers.tolist() for numbers in as_places(points)))
     # No two edges join the same points: between them would lie a disk of two straight sides, without angles.
     apex = {(u, v): w for a, b, c in faces.tolist() for u, v, w in ((a, b, c), (b, c, a), (c, a, b))}
     waiting = [edge for edge in apex if edge[0] < edge[1]]
     while waiting:
         u, v = waiting.pop()
         a, b = apex.get((u, v)), apex.get((v, u))
-        if a is None or b is None or not _wants_flip(x, y, (u, b, v, a)):
+        if a is None or b is None or not _wants_flip(places, (u, b, v, a)):
             continue
         del apex[u, v], apex[v, u]
         for p, q, r in ((u, b, a), (b, v, a)):
@@ -49,18 +49,19 @@ def flip_edges(points: Floats, faces: Ints) -> Ints:
     return np.array(rows, dtype=np.int64).reshape(-1, 3)
 
 
-def _wants_flip(x: list[float], y: list[float], corners: tuple[int, int, int, int]) -> bool:
+def _wants_flip(places: Places, corners: tuple[int, int, int, int]) -> bool:
     """Tell whether a quadrilateral u, b, v, a is convex, and its angles at a and b are more than half a turn."""
     u, b, v, a = corners
-    sine_a, cosine_a = _angle(x, y, u, a, v)
-    sine_b, cosine_b = _angle(x, y, v, b, u)
+    sine_a, cosine_a = _angle(places, u, a, v)
+    sine_b, cosine_b = _angle(places, v, b, u)
     if sine_a * cosine_b + cosine_a * sine_b > -_CLEARLY:
         return False
-    return turns_left(x, y, u, b, a) and turns_left(x, y, b, v, a)
+    return turn(places, u, b, a) > 0 and turn(places, b, v, a) > 0
 
 
-def _angle(x: list[float], y: list[float], before: int, corner: int, after: int) -> tuple[float, float]:
+def _angle(places: Places, before: int, corner: int, after: int) -> tuple[float, float]:
     """Return sine and cosine of the angle at the corner of a counter-clockwise triangle."""
+    x, y, _ = places
     px, py = x[after] - x[corner], y[after] - y[corner]
     qx, qy = x[before] - x[corner], y[before] - y[corner]
     size = hypot(px, py) * hypot(qx, qy) or 1.0

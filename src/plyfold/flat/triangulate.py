@@ -10,16 +10,15 @@ from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.core import CurveLike
 from plyfold.arrays import Floats, Ints
 from plyfold.curve import as_curve
-from plyfold.errors import InputError, NotImmersibleError, PlyfoldError, PrecisionError
-from plyfold.flat.cells import MOST_TRIANGLES, refuse_max_area, triangulate_cells
-from plyfold.flat.deletion import without_vertices
+from plyfold.errors import InputError, NotImmersibleError, PlyfoldError
+from plyfold.flat.cells import refuse_max_area
 from plyfold.flat.flips import flip_edges
-from plyfold.flat.sheets import glue_copies
+from plyfold.flat.sweep import sweep_triangles
 from plyfold.immersion import Immersion, find_immersion
 from plyfold.immersion.immersion import require_immersion
 from plyfold.predicates import orient
 
-__all__ = ["chosen_immersion", "own_triangles", "triangulate"]
+__all__ = ["chosen_immersion", "triangulate"]
 
 
 @overload
@@ -58,18 +57,17 @@ def triangulate(
     ------
     NotImmersibleError
         If the curve bounds no immersed disk; ``error.obstruction`` says why.
-    PrecisionError
-        If crossings, rounded to doubles, are in the way of each other or of the curve's points; it names the place.
     InputError
         If ``refine`` is no positive number or makes too many triangles, or the immersion is one of another curve.
 
     Notes
     -----
-    The same input and output as programs after Shor and Van Wyk [SW92]_ have, which take O(n³). Here the cells are
-    triangulated together with the crossings, copied once per sheet, glued, and then the vertices over crossings and
-    those under other sheets are deleted one at a time. That such triangles exist is proved in [SW92]_ and [WZ14]_.
-    O(m log m) for m copied triangles, of which there are as many as winding numbers of all points together; more than
-    10,000,000 are refused. 60,000 points with 18,000 crossings take about a second.
+    The same input and output as programs after Shor and Van Wyk [SW92]_ have, which take O(n³). Here a line sweeps
+    over the disk: what it meets of the disk is intervals between two edges, however the sheets lie over each other, and
+    only at corners where an interval is split does it have to be found, by a walk through the sheets. All signs are
+    exact. O((n + k) log n) and some steps for each strand that is walked over; 60,000 points with 18,000 crossings take
+    a hundredth of a second with numba, a quarter of a second without. That such triangles exist is proved in [SW92]_
+    and [WZ14]_. Many are long and thin; those that ``refine`` makes are as round as the outline lets them.
 
     Points that repeat the one before them are left out (see :class:`~plyfold.Curve`) and do not count. If vertices had
     to be moved into general position, the triangles are those of the moved curve, ``arrangement(curve).curve``.
@@ -93,8 +91,7 @@ def triangulate(
     chosen = chosen_immersion(curve, immersion)
     if refine is not None:
         return _refined(chosen, refine)
-    points, faces = own_triangles(chosen)
-    return _input_order(chosen.arrangement, len(points))[faces]
+    return _input_order(chosen.arrangement)[sweep_triangles(chosen)]
 
 
 def chosen_immersion(curve: CurveLike, immersion: Immersion | None) -> Immersion:
@@ -118,61 +115,26 @@ def _draws(drawn: Arrangement, points: Floats) -> bool:
     if drawn.curve is None or len(drawn.curve) != len(points):
         return False
     moved = {repair.where for repair in drawn.curve.repairs}
-    differing = (drawn.curve.points[_input_order(drawn, len(points))] != points).any(axis=1)
+    differing = (drawn.curve.points[_input_order(drawn)] != points).any(axis=1)
     return all((x, y) in moved for x, y in points[differing].tolist())
 
 
-def own_triangles(immersion: Immersion) -> tuple[Floats, Ints]:
-    """Return the points of the arrangement's curve, and triangles on them that make the disk of the immersion.
-
-    All of them have been checked to be positive, in the cells or when they were made. Then they are an immersed disk:
-    the curve turns once, so the angles of n − 2 triangles add up to those of the curve, with no full turn to spare.
-    """
-    mesh = triangulate_cells(immersion.arrangement, triangles=0)
-    _refuse_too_many(int(immersion.arrangement.winding[mesh.cell].sum()))
-    glued = glue_copies(immersion, mesh)
-    n = len(mesh.points) - immersion.arrangement.n_crossings
-    extra = np.ones(len(glued.planar_vertex), dtype=bool)
-    extra[glued.boundary[mesh.chain < n]] = False
-    faces = glued.planar_vertex[without_vertices(mesh.points[glued.planar_vertex], glued.faces, extra)]
-    if len(faces) != n - 2:
-        raise PrecisionError("rounding the crossings to double precision spoils the triangles", where=mesh.points[n:])
-    return mesh.points[:n], faces
-
-
-def _refuse_too_many(triangles: int) -> None:
-    if triangles > MOST_TRIANGLES:
-        raise PlyfoldError(
-            f"the sheets have {triangles:,} triangles in all, more than the {MOST_TRIANGLES:,} that are made",
-            hint="the curve covers itself too often; find_immersion tells its sheets all the same",
-        )
-
-
-def _input_order(drawn: Arrangement, n: int) -> Ints:
+def _input_order(drawn: Arrangement) -> Ints:
     """Return the number that each point of the arrangement's curve has in the input."""
+    assert drawn.curve is not None
+    n = len(drawn.curve.points)
     return -np.arange(n) % n if drawn.reversed else np.arange(n)
 
 
 def _refined(immersion: Immersion, max_area: float) -> tuple[Floats, Ints]:
-    """Triangulate with added points, and take those on the boundary out again."""
+    """Triangulate with added points."""
     drawn = immersion.arrangement
     assert drawn.curve is not None
     if isinstance(max_area, bool) or not isinstance(max_area, int | float | np.number):
         raise InputError(f"the largest area of a triangle must be a number, not {max_area!r}")
-    n = len(drawn.curve.points)
     refuse_max_area(drawn.curve.points, max_area)
-    mesh = triangulate_cells(drawn, max_area)
-    glued = glue_copies(immersion, mesh)
-    places = mesh.points[glued.planar_vertex]
-    own = mesh.chain < n
-    extra = np.zeros(len(places), dtype=bool)
-    extra[glued.boundary[~own]] = True
-    faces = without_vertices(places, glued.faces, extra)
-    number = np.arange(len(places)) - len(glued.boundary) + n
-    number[glued.boundary[own]] = _input_order(drawn, n)
-    points = np.empty((len(places) - int(extra.sum()), 2))
-    points[number[~extra]] = places[~extra]
-    return _split_large(points, number[faces], max_area)
+    number = _input_order(drawn)
+    return _split_large(drawn.curve.points[number], number[sweep_triangles(immersion)], max_area)
 
 
 def _split_large(points: Floats, faces: Ints, max_area: float) -> tuple[Floats, Ints]:

@@ -11,22 +11,59 @@ off the tree follow, for at every crossing three gluings give the fourth.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import chain
-from typing import TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
 from plyfold.arrangement import Arrangement
 from plyfold.arrays import Ints
+from plyfold.compiled import called_from_loops, run_loop
 from plyfold.immersion.dual_tree import DualTree
-from plyfold.immersion.immersion import Immersion, count_each
+from plyfold.immersion.immersion import Immersion
 
 __all__ = ["glue_sheets"]
 
-# What happens over one border: the upper sheet that each lower sheet is glued to, and at the end the one left over.
-# Sheets are counted from the first one of their cell.
-# Tuples of numbers, unlike lists, cost the garbage collector nothing.
-Seam: TypeAlias = tuple[int, ...]
+
+class _Tree(NamedTuple):
+    """The dual tree: for each cell its parent, the link to it, the partner chosen for that or −1, and the sheets.
+
+    ``name`` is of each sheet the border through which it leaves the disk on the way along the tree to the outside.
+    ``named`` tells which cells have names for their sheets, ``waiting`` is a stack of cells.
+    """
+
+    parent: Ints
+    link: Ints
+    partner: Ints
+    winding: Ints
+    first_sheet: Ints
+    name: Ints
+    named: Ints
+    waiting: Ints
+
+
+class _Crossings(NamedTuple):
+    """The borders around each crossing, and the crossing at the start of each border.
+
+    At each crossing ``unknown`` borders have no seam yet, and ``sum_unknown`` is the sum of their numbers; where there
+    is one, it is that one. ``scratch`` is room for a seam.
+    """
+
+    around: Ints
+    at_start: Ints
+    unknown: Ints
+    sum_unknown: Ints
+    ready: Ints
+    scratch: Ints
+
+
+class _Seams(NamedTuple):
+    """What happens over each border: the upper sheet that each lower sheet is glued to, and last the one left over.
+
+    Sheets are counted from the first one of their cell. Border e has ``upper[start[e]:start[e + 1]]``.
+    """
+
+    start: Ints
+    upper: Ints
 
 
 def glue_sheets(arrangement: Arrangement, tree: DualTree, partner: Mapping[int, int]) -> Immersion:
@@ -46,78 +83,57 @@ def glue_sheets(arrangement: Arrangement, tree: DualTree, partner: Mapping[int, 
     Immersion
         Cost: O(Σ w), the number of sheets counted once per border.
     """
-    seams = _seams_on_tree(arrangement, tree, partner)
-    _seams_off_tree(arrangement, seams)
     winding, lower = arrangement.winding, arrangement.winding[arrangement.right_cell]
     first_sheet = np.cumsum(winding) - winding
-    flat = np.fromiter(chain.from_iterable(seams), dtype=np.int64, count=int(lower.sum()) + len(lower))
-    flat += np.repeat(first_sheet[arrangement.left_cell], lower + 1)
-    last = np.cumsum(lower + 1) - 1
-    border = np.repeat(np.arange(arrangement.n_borders), lower)
+    start = np.zeros(len(lower) + 1, dtype=np.int64)
+    np.cumsum(lower + 1, out=start[1:])
+    given = _tree(arrangement, tree, partner, first_sheet), _crossings(arrangement, tree)
+    seams = _Seams(start, np.empty(start[-1], dtype=np.int64))
+    upper = run_loop(_sew, len(seams.upper), given, seams).upper
+    border = np.repeat(np.arange(len(lower)), lower + 1)
+    upper += first_sheet[arrangement.left_cell[border]]
+    right = np.arange(len(upper)) + (first_sheet[arrangement.right_cell] - start[:-1])[border]
+    glued = np.ones(len(upper), dtype=bool)
+    glued[start[1:] - 1] = False
     return Immersion(
         arrangement=arrangement,
         sheet_cell=np.repeat(np.arange(arrangement.n_cells), winding),
         first_sheet=first_sheet,
-        own_sheet=flat[last],
-        gluing=np.stack(
-            [border, first_sheet[arrangement.right_cell[border]] + count_each(lower), np.delete(flat, last)], axis=1
-        ),
+        own_sheet=upper[~glued],
+        gluing=np.array([border[glued], right[glued], upper[glued]]).T,
     )
 
 
-def _seams_on_tree(arrangement: Arrangement, tree: DualTree, partner: Mapping[int, int]) -> list[Seam]:
-    """Return the seam of every link; of the other borders an empty one.
-
-    A sheet's name is the border through which it leaves the disk when one walks along the tree to the outside. Names
-    are needed on the ways to ascending links only: behind a descending one everything stays in order.
-    """
-    lower = arrangement.winding[arrangement.right_cell]
-    straight = [tuple(range(sheets + 1)) for sheets in range(int(lower.max()) + 1)]
-    on_tree = np.zeros(len(lower), dtype=bool)
-    on_tree[tree.link[1:]] = True
-    seams = [
-        straight[sheets] if linked else () for sheets, linked in zip(lower.tolist(), on_tree.tolist(), strict=True)
-    ]
-    link, ascends = tree.link.tolist(), tree.ascends.tolist()
-    children = tree.all_ways
-    stack: list[tuple[int, tuple[int, ...]]] = [(0, ())]
-    while stack:
-        cell, above = stack.pop()
-        for child in children.get(cell, ()):
-            if ascends[child]:
-                own = above.index(partner[link[child]])
-                seams[link[child]] = (*range(own), *range(own + 1, len(above)), own)
-                stack.append((child, above[:own] + above[own + 1 :]))
-            else:
-                stack.append((child, (*above, link[child])))
-    return seams
+def _tree(arrangement: Arrangement, tree: DualTree, partner: Mapping[int, int], first_sheet: Ints) -> _Tree:
+    chosen = np.full(arrangement.n_borders, -1)
+    chosen[list(partner.keys())] = list(partner.values())
+    return _Tree(
+        parent=tree.parent,
+        link=tree.link,
+        partner=chosen[tree.link],
+        winding=arrangement.winding,
+        first_sheet=first_sheet,
+        name=np.empty(int(arrangement.winding.sum()), dtype=np.int64),
+        named=(np.arange(arrangement.n_cells) == 0).astype(np.int64),
+        waiting=np.empty(arrangement.n_cells, dtype=np.int64),
+    )
 
 
-def _seams_off_tree(arrangement: Arrangement, seams: list[Seam]) -> None:
-    """Complete the seams, crossing by crossing: the borders off the dual tree form a tree of crossings.
-
-    A crossing at which one seam is missing gives it to the crossing at the border's other end. ``missing`` is the sum
-    of the borders without seam at each crossing, so where there is one, it is that one.
-    """
+def _crossings(arrangement: Arrangement, tree: DualTree) -> _Crossings:
     around = corners(arrangement)
-    first, second = _end_crossings(arrangement, around)
-    unknown = np.array([not seam for seam in seams])
-    missing = np.where(unknown[around], around, 0).sum(axis=1).tolist()
-    count = unknown[around].sum(axis=1)
-    ready: list[int] = np.flatnonzero(count == 1).tolist()
-    left: list[int] = count.tolist()
-    borders: list[int] = around.ravel().tolist()
-    while ready:
-        crossing = ready.pop()
-        if left[crossing] == 0:
-            continue
-        border = missing[crossing]
-        seams[border] = _fourth_seam(seams, border, borders[4 * crossing : 4 * crossing + 4])
-        for end in (first[border], second[border]):
-            left[end] -= 1
-            missing[end] -= border
-            if left[end] == 1:
-                ready.append(end)
+    at_start = np.zeros(arrangement.n_borders, dtype=np.int64)
+    at_start[around[:, 1]] = at_start[around[:, 2]] = np.arange(len(around))
+    off_tree = np.ones(arrangement.n_borders, dtype=np.int64)
+    off_tree[tree.link[1:]] = 0
+    unknown = off_tree[around]
+    return _Crossings(
+        around=around,
+        at_start=at_start,
+        unknown=unknown.sum(axis=1),
+        sum_unknown=(around * unknown).sum(axis=1),
+        ready=np.empty(2 * len(around), dtype=np.int64),
+        scratch=np.empty(int(arrangement.winding.max()) + 1, dtype=np.int64),
+    )
 
 
 def corners(arrangement: Arrangement) -> Ints:
@@ -132,41 +148,106 @@ def corners(arrangement: Arrangement) -> Ints:
     return np.stack([(a - 1) % n, a, b, (b - 1) % n], axis=1)
 
 
-def _end_crossings(arrangement: Arrangement, around: Ints) -> tuple[list[int], list[int]]:
-    """Return the row of ``around`` at the start and at the end of each border."""
-    at_visit = np.empty(arrangement.n_borders, dtype=np.int64)
-    at_visit[around[:, 1]] = at_visit[around[:, 2]] = np.arange(len(around))
-    return at_visit.tolist(), np.roll(at_visit, -1).tolist()
+def _sew(given: tuple[_Tree, _Crossings], seams: _Seams) -> int:
+    """Find the seams of all links, parents first, and then those of the other borders."""
+    tree, crossings = given
+    for start in range(len(tree.parent)):
+        cell, size = start, 0
+        while tree.named[cell] == 0:
+            tree.waiting[size] = cell
+            cell, size = tree.parent[cell], size + 1
+        while size > 0:
+            size -= 1
+            _name_sheets(tree, seams, tree.waiting[size])
+    return _complete(crossings, seams)
 
 
-def _fourth_seam(seams: list[Seam], border: int, around: list[int]) -> Seam:
-    """Return the missing one of the four seams around a crossing.
+@called_from_loops
+def _name_sheets(tree: _Tree, seams: _Seams, cell: int) -> None:
+    """Name the sheets over a cell after those over its parent, and write down the seam between them."""
+    name, upper, partner = tree.name, seams.upper, tree.partner[cell]
+    count, above = tree.winding[tree.parent[cell]], tree.first_sheet[tree.parent[cell]]
+    first, seam = tree.first_sheet[cell], seams.start[tree.link[cell]]
+    kept = 0
+    for sheet in range(count):
+        if name[above + sheet] == partner:
+            upper[seam + count - 1] = sheet
+        else:
+            name[first + kept] = name[above + sheet]
+            upper[seam + kept] = sheet
+            kept += 1
+    if partner < 0:
+        name[first + count] = tree.link[cell]
+        upper[seam + count] = count
+    tree.named[cell] = 1
+
+
+@called_from_loops
+def _complete(crossings: _Crossings, seams: _Seams) -> int:
+    """Complete the seams, crossing by crossing: the borders off the dual tree form a tree of crossings.
+
+    A crossing at which one seam is missing gives it to the crossing at the border's other end.
+    """
+    unknown, ready = crossings.unknown, crossings.ready
+    size = 0
+    for crossing in range(len(unknown)):
+        if unknown[crossing] == 1:
+            ready[size] = crossing
+            size += 1
+    while size > 0:
+        size -= 1
+        crossing = ready[size]
+        if unknown[crossing] == 0:
+            continue
+        border = crossings.sum_unknown[crossing]
+        _find_seam(crossings, seams, border, crossing)
+        following = border + 1 if border + 1 < len(crossings.at_start) else 0
+        for end in (crossings.at_start[border], crossings.at_start[following]):
+            unknown[end] -= 1
+            crossings.sum_unknown[end] -= border
+            if unknown[end] == 1:
+                ready[size] = end
+                size += 1
+    return size
+
+
+@called_from_loops
+def _find_seam(crossings: _Crossings, seams: _Seams, border: int, crossing: int) -> None:
+    """Find the missing one of the four seams around a crossing.
 
     Going from the bottom cell to the top one around either side is the same: b_top ∘ a_bottom = a_top ∘ b_bottom,
     and each strand has one own sheet on both sides of the crossing.
     """
-    a_top, a_bottom, b_top, b_bottom = around
+    a_top, a_bottom, b_top, b_bottom = crossings.around[crossing]
     if border == b_bottom:
-        return _lower_seam(seams[a_bottom], seams[b_top], seams[a_top])
-    if border == a_bottom:
-        return _lower_seam(seams[b_bottom], seams[a_top], seams[b_top])
-    if border == b_top:
-        return _upper_seam(seams[a_bottom], seams[a_top], seams[b_bottom])
-    return _upper_seam(seams[b_bottom], seams[b_top], seams[a_bottom])
+        _find_lower(seams, crossings.scratch, border, (a_bottom, b_top, a_top))
+    elif border == a_bottom:
+        _find_lower(seams, crossings.scratch, border, (b_bottom, a_top, b_top))
+    elif border == b_top:
+        _find_upper(seams, border, a_bottom, a_top, b_bottom)
+    else:
+        _find_upper(seams, border, b_bottom, b_top, a_bottom)
 
 
-def _lower_seam(bottom: Seam, top: Seam, other_top: Seam) -> Seam:
-    """Return the seam below ``other_top``, given the way round the other side: ``bottom``, then ``top``."""
-    lower_of = {upper: lower for lower, upper in enumerate(other_top)}
+@called_from_loops
+def _find_lower(seams: _Seams, lower_of: Ints, border: int, others: tuple[int, int, int]) -> None:
+    """Find the seam below ``other_top``, given the way round the other side: ``bottom``, then ``top``."""
+    bottom, top, other_top = others
+    start, upper = seams.start, seams.upper
+    for lower in range(start[other_top + 1] - start[other_top]):
+        lower_of[upper[start[other_top] + lower]] = lower
+    for lower in range(start[border + 1] - start[border] - 1):
+        upper[start[border] + lower] = lower_of[upper[start[top] + upper[start[bottom] + lower]]]
     # The last entries are the own sheets: that of ``top`` has one on the other side of the crossing as well.
-    return (*[lower_of[top[side]] for side in bottom[:-1]], lower_of[top[-1]])
+    upper[start[border + 1] - 1] = lower_of[upper[start[top + 1] - 1]]
 
 
-def _upper_seam(bottom: Seam, other_top: Seam, other_bottom: Seam) -> Seam:
-    """Return the seam above ``bottom``, given the way round the other side: ``other_bottom``, then ``other_top``."""
-    upper_of = [0] * len(other_top)
-    upper_of[bottom[-1]] = other_top[-1]
-    for side, low in zip(bottom[:-1], other_bottom[:-1], strict=True):
-        upper_of[side] = other_top[low]
-    upper_of[-1] = other_top[other_bottom[-1]]
-    return tuple(upper_of)
+@called_from_loops
+def _find_upper(seams: _Seams, border: int, bottom: int, other_top: int, other_bottom: int) -> None:
+    """Find the seam above ``bottom``, given the way round the other side: ``other_bottom``, then ``other_top``."""
+    start, upper = seams.start, seams.upper
+    upper[start[border] + upper[start[bottom + 1] - 1]] = upper[start[other_top + 1] - 1]
+    for lower in range(start[bottom + 1] - start[bottom] - 1):
+        side = upper[start[bottom] + lower]
+        upper[start[border] + side] = upper[start[other_top] + upper[start[other_bottom] + lower]]
+    upper[start[border + 1] - 1] = upper[start[other_top] + upper[start[other_bottom + 1] - 1]]
