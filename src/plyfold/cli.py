@@ -287,7 +287,7 @@ def _lift(options: argparse.Namespace) -> int:
 def _export(surface: Any, options: argparse.Namespace) -> None:
     solid = None if options.thicken is None else surface.thicken(options.thicken)
     for path in options.output:
-        choices: dict[str, Any] = {"colours": options.colours, "unwrapped": not options.no_unwrap}
+        choices: dict[str, Any] = {"colours": options.colours, "unwrapped": False if options.no_unwrap else None}
         if solid is not None:
             solid.export(path, options.force, **choices)
         else:

@@ -265,3 +265,21 @@ def test_obj_of_numbers_that_need_all_digits(surface):
     third = dataclasses.replace(model_of_surface(surface, unwrapped=False), vertices=surface.vertices / 3)
     read = [line.split()[1:] for line in obj(third).decode().splitlines() if line.startswith("v ")]
     assert np.array_equal(np.array(read, dtype=float), third.vertices)
+
+
+def test_3mf_refuses_what_its_readers_refuse(tmp_path):
+    surface = lift(1e9 * CURVES["horseshoe"].draw(), triangles=50)
+    with pytest.raises(PrecisionError, match="3MF"):
+        surface.export(tmp_path / "out.3mf")
+
+
+def test_a_disk_that_doubles_cannot_hold_is_left_out_unless_asked_for(surface, tmp_path, monkeypatch):
+    def refuse(_self):
+        raise PrecisionError("too thin")
+
+    monkeypatch.setattr(type(surface), "unwrap", refuse)
+    surface.export(tmp_path / "out.obj")
+    assert "\nvt " not in (tmp_path / "out.obj").read_text()
+    with pytest.raises(PrecisionError, match="too thin"):
+        surface.export(tmp_path / "other.obj", unwrapped=True)
+    assert [path.name for path in tmp_path.iterdir()] == ["out.obj"]

@@ -168,7 +168,7 @@ class Surface:
         title: str | None = None,
         *,
         colours: Colouring = "layers",
-        unwrapped: bool = True,
+        unwrapped: bool | None = None,
     ) -> None:
         """Write the surface to a file.
 
@@ -184,9 +184,10 @@ class Surface:
         colours : {"layers", "sheets"}
             In a GLB, PLY or 3MF, a colour for each layer, in smooth transition, or a material for each sheet, named
             like ``sheet_3_level_2``. With ``"sheets"``, an OBJ gets its materials in an ``.mtl`` file beside it.
-        unwrapped : bool
+        unwrapped : bool, optional
             In a GLB, OBJ or PLY, texture coordinates from :meth:`unwrap`; in a GLB, moreover, the surface flat on the
-            table and unwound to a disk, as morph targets ``flat`` and ``disk`` and an animation.
+            table and unwound to a disk, as morph targets ``flat`` and ``disk`` and an animation. By default, if double
+            precision can hold that disk.
 
         Raises
         ------
@@ -195,7 +196,7 @@ class Surface:
         FileExistsError
             If the file exists and ``force`` is not set.
         PrecisionError
-            If the 32-bit numbers of a GLB or STL cannot hold the surface.
+            If the numbers of the format cannot hold the surface, or doubles cannot hold the disk that is asked for.
         """
         if refuse_ending(path, (".html",)) == ".html":
             save_bytes(path, self._page(title or Path(path).stem), force)

@@ -78,7 +78,7 @@ class Solid:
         path: str | os.PathLike[str],
         force: bool = False,
         colours: Colouring = "layers",
-        unwrapped: bool = True,
+        unwrapped: bool | None = None,
     ) -> None:
         """Write the solid to a file; see :meth:`Surface.export`. There is no page of a solid.
 
@@ -90,7 +90,7 @@ class Solid:
             Replace an existing file.
         colours : {"layers", "sheets"}
             A colour for each layer, in smooth transition, or a material for each sheet.
-        unwrapped : bool
+        unwrapped : bool, optional
             With texture coordinates and other shapes, where the format has them.
         """
         save_model(lambda: model_of_solid(self, colours, unwrapped), path, force)

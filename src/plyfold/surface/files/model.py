@@ -73,7 +73,7 @@ class Model:
     shapes: Mapping[str, Floats] = field(default_factory=dict)
 
 
-def model_of_surface(surface: Surface, colours: Colouring = "layers", unwrapped: bool = True) -> Model:
+def model_of_surface(surface: Surface, colours: Colouring = "layers", unwrapped: bool | None = None) -> Model:
     """Return the model of a surface.
 
     Parameters
@@ -81,12 +81,20 @@ def model_of_surface(surface: Surface, colours: Colouring = "layers", unwrapped:
     surface : Surface
     colours : {"layers", "sheets"}
         A colour for each layer, in smooth transition, or for each sheet.
-    unwrapped : bool
-        Give texture coordinates in the unwound disk, and the shapes ``flat`` and ``disk``.
+    unwrapped : bool, optional
+        Give texture coordinates in the unwound disk, and the shapes ``flat`` and ``disk``; by default if double
+        precision can hold that disk.
 
     Returns
     -------
     Model
+
+    Raises
+    ------
+    InputError
+        If the colouring is unknown.
+    PrecisionError
+        If the disk is asked for, and double precision cannot hold it.
 
     Examples
     --------
@@ -95,7 +103,7 @@ def model_of_surface(surface: Surface, colours: Colouring = "layers", unwrapped:
     (Material(name='sheet_0_level_1', colour='#2f7fc1'),)
     """
     _refuse_colouring(colours)
-    uv, shapes = _unwrapped(surface) if unwrapped else (None, {})
+    uv, shapes = _unwrapped(surface, unwrapped)
     return Model(
         vertices=surface.vertices,
         faces=surface.faces,
@@ -110,7 +118,7 @@ def model_of_surface(surface: Surface, colours: Colouring = "layers", unwrapped:
     )
 
 
-def model_of_solid(solid: Solid, colours: Colouring = "layers", unwrapped: bool = True) -> Model:
+def model_of_solid(solid: Solid, colours: Colouring = "layers", unwrapped: bool | None = None) -> Model:
     """Return the model of a solid; see :func:`model_of_surface`. Its walls are not smoothed."""
     surface = solid.surface
     model = model_of_surface(surface, colours, unwrapped)
@@ -133,6 +141,8 @@ def model_of_solid(solid: Solid, colours: Colouring = "layers", unwrapped: bool 
 def vertex_normals(vertices: Floats, faces: Ints) -> Floats:
     """Return the unit normal at each vertex, shape (n, 3): that of the triangles around it, weighted by area.
 
+    Where their area is lost in rounding, it points up.
+
     Examples
     --------
     >>> vertex_normals(np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)]), np.array([(0, 1, 2)])).tolist()
@@ -140,6 +150,7 @@ def vertex_normals(vertices: Floats, faces: Ints) -> Floats:
     """
     a, b, c = (vertices / _size(vertices))[faces].swapaxes(0, 1)
     summed = _summed_at_vertices(np.cross(b - a, c - a), faces, len(vertices))
+    summed[(summed == 0).all(axis=1)] = 0.0, 0.0, 1.0
     return np.asarray(summed / np.linalg.norm(summed, axis=1, keepdims=True))
 
 
@@ -162,15 +173,21 @@ def single_precision(values: Floats, detail: float) -> npt.NDArray[np.float32]:
     return values.astype("<f4")
 
 
-def _unwrapped(surface: Surface) -> tuple[Floats, dict[str, Floats]]:
+def _unwrapped(surface: Surface, wanted: bool | None) -> tuple[Floats | None, dict[str, Floats]]:
     """Return texture coordinates, and the surface flat on the table and as a disk of the drawing's size."""
-    unwound = surface.unwrap()
+    if wanted is False:
+        return None, {}
+    try:
+        unwound = surface.unwrap()
+    except PrecisionError:
+        if wanted:
+            raise
+        return None, {}
     plane = surface.vertices[:, :2]
     low, high = plane.min(axis=0), plane.max(axis=0)
     disk = low + (high - low) / 2 + unwound.disk * (high - low).max() / 2
-    return unwound.uv, {
-        name: np.column_stack([at, np.zeros(len(at))]) for name, at in (("flat", plane), ("disk", disk))
-    }
+    shapes = {"flat": plane, "disk": disk}
+    return unwound.uv, {name: np.column_stack([places, np.zeros(len(places))]) for name, places in shapes.items()}
 
 
 def _refuse_colouring(colours: str) -> None:

@@ -7,6 +7,7 @@ import zipfile
 
 import numpy as np
 
+from plyfold.errors import PrecisionError
 from plyfold.surface.files.model import Model
 from plyfold.surface.files.text import rows_as_text
 
@@ -29,6 +30,8 @@ _MODEL = (
     'xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02">\n'
     '<metadata name="Application">plyfold</metadata>\n'
 )
+# The format's own library refuses what is farther away, in millimetres.
+_FARTHEST = 1e9
 
 
 def threemf(model: Model) -> bytes:
@@ -36,7 +39,19 @@ def threemf(model: Model) -> bytes:
 
     Solids are objects of type *model*, open surfaces of type *surface*. Colours are smooth, as a colour group of the
     materials extension, or those of the base materials, one for each sheet.
+
+    Raises
+    ------
+    PrecisionError
+        If a coordinate is beyond a thousand kilometres, where readers of the format give up.
     """
+    far = np.abs(model.vertices).max(axis=1) > _FARTHEST
+    if far.any():
+        raise PrecisionError(
+            "readers of 3MF cannot hold the mesh, with a unit of the drawing being a millimetre",
+            where=model.vertices[far][:1],
+            hint="move it to the origin, scale it, or write .obj or .ply",
+        )
     kind = "model" if model.closed else "surface"
     properties, triangles = _base_materials(model) if model.colours is None else _colour_group(model)
     place = " ".join(repr(-x) for x in model.vertices.min(axis=0).tolist())
