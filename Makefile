@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 DEMO   ?= examples/ramp.svg
 
-.PHONY: demo test test-slow nightly lint pictures benchmark benchmark-docs clean
+.PHONY: demo test test-slow nightly browser lint pictures benchmark benchmark-docs clean
 
 demo: $(READY)  ## Lift an example: out/ gets a GLB, a 3D page and a picture of every stage
 	@mkdir -p out
@@ -15,8 +15,10 @@ demo: $(READY)  ## Lift an example: out/ gets a GLB, a 3D page and a picture of 
 	@$(BIN)/plyfold draw $(DEMO) --force -o out/demo.png
 	@echo
 	@echo "Open out/demo.html in a browser to turn the surface; out/demo.png shows every stage."
+	@echo "Draw a loop of your own and see at once how it lies: $(BIN)/plyfold sketch"
 
 test: $(READY) lint  ## Style, types, and every test but the slow ones
+	@$(MAKE) --no-print-directory browser 2>/dev/null || echo "The tests of the pages are skipped."
 	$(BIN)/python -m pytest -n 2
 
 test-slow: $(READY)  ## The tests that take minutes: every curve with six crossings
@@ -24,6 +26,15 @@ test-slow: $(READY)  ## The tests that take minutes: every curve with six crossi
 
 nightly: $(READY)  ## 100,000 random curves against the slow references: under an hour; OPTIONS="--seconds 60" for a taste
 	PYTHONPATH=tests $(BIN)/python -m nightly $(OPTIONS)
+
+browser:  ## A browser for the tests of the pages, where there is none: Debian's Chromium, if this is root on Debian
+	@for program in chromium chromium-browser google-chrome; do \
+	    if command -v $$program >/dev/null 2>&1; then exit 0; fi; \
+	done; \
+	if ! command -v apt-get >/dev/null 2>&1 || [ "$$(id -u)" != 0 ]; then \
+	    echo "There is no Chromium, and it cannot be installed from here."; exit 1; \
+	fi; \
+	apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends chromium >/dev/null
 
 lint: $(READY)
 	$(BIN)/ruff check .

@@ -133,19 +133,6 @@ def test_scripts_are_sound_javascript(written, script, tmp_path):
 # ---- in a real browser, where there is one ---------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="module")
-def browser():
-    sync_api = pytest.importorskip("playwright.sync_api")
-    program = shutil.which("chromium")
-    if program is None:
-        pytest.skip("no chromium")
-    arguments = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-    with sync_api.sync_playwright() as driver:
-        running = driver.chromium.launch(executable_path=program, args=arguments)
-        yield running
-        running.close()
-
-
 @pytest.fixture
 def shown(browser, written, tmp_path):
     """The page opened from a file, with everything it complained about and asked for."""

@@ -9,7 +9,7 @@ from itertools import islice
 
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.curve import Curve
-from plyfold.errors import NotImmersibleError, StrokeError
+from plyfold.errors import CurveError, NotImmersibleError, StrokeError
 from plyfold.immersion import Immersion, count_immersions, find_immersion, nth_immersion
 from plyfold.layering import Layering, count_layerings, find_layering, layerings
 from plyfold.obstruction import Obstruction, Unknown
@@ -21,6 +21,7 @@ _REMEMBERED = 8
 _SECONDS_TO_DECIDE = 5.0
 _SECONDS_TO_COUNT = 1.0
 _MOST_LISTED = 10_000
+_MOST_CROSSINGS = 20_000
 
 
 def curve_of(strokes: Sequence[Stroke]) -> Curve:
@@ -44,13 +45,20 @@ def curve_of(strokes: Sequence[Stroke]) -> Curve:
     if closed:
         what = "several closed loops" if len(closed) > 1 else "a closed loop and other strokes beside it"
         raise StrokeError(f"the drawing has {what}, and it should be one loop", closed, "erase what does not belong")
-    return Curve.from_strokes(stroke.points for stroke in strokes)
+    try:
+        return Curve.from_strokes(stroke.points for stroke in strokes)
+    except StrokeError as error:
+        raise StrokeError(error.message, error.where, "draw the missing part") from error
 
 
 @lru_cache(maxsize=_REMEMBERED)
 def arranged(strokes: tuple[Stroke, ...]) -> Arrangement:
-    """Return the arrangement of the loop that strokes draw."""
-    return arrangement(curve_of(strokes))
+    """Return the arrangement of the loop that strokes draw; refuse one that crosses itself more than 20,000 times."""
+    drawn = arrangement(curve_of(strokes))
+    if drawn.n_crossings > _MOST_CROSSINGS:
+        crossings = f"the loop crosses itself {drawn.n_crossings:,} times, more than {_MOST_CROSSINGS:,}"
+        raise CurveError(crossings, hint="draw a simpler one, or use plyfold from Python or the command line")
+    return drawn
 
 
 @lru_cache(maxsize=_REMEMBERED)

@@ -17,6 +17,7 @@ from plyfold.immersion import bounds_disk
 __all__ = ["Kink", "find_kink", "place_of_turning"]
 
 _MOST_TRIED = 24
+_MOST_CROSSINGS_DECIDED = 4000  # by all tries together
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +51,7 @@ def find_kink(drawn: Arrangement) -> Kink | None:
     -------
     Kink or None
         What is left has been decided anew. None if no single loop is the cause, or none of the 24 shortest ones that
-        leave a curve which turns once.
+        leave a curve which turns once; fewer are tried where the curve has hundreds of crossings.
 
     Examples
     --------
@@ -59,9 +60,10 @@ def find_kink(drawn: Arrangement) -> Kink | None:
     >>> curl.turning_number, find_kink(curl).where
     (2, (5.0, 0.0))
     """
+    tried = min(_MOST_TRIED, _MOST_CROSSINGS_DECIDED // max(drawn.n_crossings, 1))
     turning = loop_turning_numbers(drawn)
     candidates = [(a, b) for _, a, b, turns in _loops(drawn, turning) if abs(drawn.turning_number - turns) == 1]
-    kinks = (_kink(drawn, a, b) for a, b in candidates[:_MOST_TRIED])
+    kinks = (_kink(drawn, a, b) for a, b in candidates[:tried])
     return next((kink for kink in kinks if _is_disk(kink.rest)), None)
 
 

@@ -26,6 +26,7 @@ __all__ = ["Question", "Workers"]
 
 _WAITING = 2
 _MOST = 8
+_MOST_MEMORY = 4 * 2**30
 _ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 _SUPERSEDED = error_answer("superseded", "a newer question took the place of this one")
@@ -132,6 +133,7 @@ class Workers:
                     other.process.kill()
             if len(self._working) >= _MOST:
                 return None
+            self._waiting[:] = [worker for worker in self._waiting if worker.process.is_alive()]
             worker = self._waiting.pop() if self._waiting else self._start()
             self._working[worker] = place
             return worker
@@ -191,6 +193,7 @@ def _work(pipe: Connection) -> None:
     import plyfold.sketch.warm  # noqa: F401
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server, which ends its workers
+    _limit_memory()
     threading.Thread(target=_end_with_server, daemon=True).start()
     while True:
         try:
@@ -198,6 +201,16 @@ def _work(pipe: Connection) -> None:
         except (EOFError, OSError):
             return
         pipe.send(answer(*question))
+
+
+def _limit_memory() -> None:
+    """Let a question that would fill the machine's memory fail by itself."""
+    if sys.platform == "linux":
+        import resource
+
+        _, most = resource.getrlimit(resource.RLIMIT_AS)
+        limit = _MOST_MEMORY if most == resource.RLIM_INFINITY else min(most, _MOST_MEMORY)
+        resource.setrlimit(resource.RLIMIT_AS, (limit, most))
 
 
 def _end_with_server() -> None:
