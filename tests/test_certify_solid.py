@@ -24,8 +24,9 @@ def tile(height=0.5):
 
 
 def refused(vertices, faces, thickness=0.5, match=None):
-    with pytest.raises(CertificateError, match=match):
+    with pytest.raises(CertificateError, match=match) as caught:
         check_solid(vertices, faces, thickness)
+    return caught.value
 
 
 def test_a_tile():
@@ -98,6 +99,25 @@ def test_a_box_has_no_top_that_is_cut_otherwise():
     vertices = np.concatenate([vertices, [[1.0, 1.0, 0.5]]])
     top = [[0, 1, 8], [1, 2, 8], [2, 3, 8], [3, 0, 8]]
     refused(vertices, np.array([*top, *faces[2:].tolist()]), match="alternate")
+
+
+def fin():
+    """A tile with a thin fold of wall inside, from corner to corner, that encloses nothing."""
+    vertices, faces = tile()
+    two_sides = [[4, 6, 2], [4, 2, 0], [6, 4, 0], [6, 0, 2]]
+    return vertices, np.concatenate([faces, two_sides])
+
+
+def test_walls_elsewhere_than_along_the_rim():
+    refused(*fin())
+
+
+def test_errors_name_the_place():
+    vertices, faces = tile()
+    vertices = np.concatenate([vertices, [[1.0, 1.0, 0.5]]])
+    top = [[0, 1, 8], [1, 2, 8], [2, 3, 8], [3, 0, 8]]
+    assert refused(vertices, np.array([*top, *faces[2:].tolist()])).where == ((1.0, 1.0),)
+    assert refused(*tile(), 0.25).where == ((0.0, 0.0),)
 
 
 def test_overhanging_wall():

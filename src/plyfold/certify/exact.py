@@ -10,7 +10,17 @@ import numpy.typing as npt
 
 from plyfold.errors import PlyfoldError
 
-__all__ = ["Bools", "CertificateError", "Floats", "Ints", "as_faces", "cross_sign", "finite", "require_positive"]
+__all__ = [
+    "Bools",
+    "CertificateError",
+    "Floats",
+    "Ints",
+    "as_faces",
+    "cross_sign",
+    "finite",
+    "pair_keys",
+    "require_positive",
+]
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int64]
@@ -47,6 +57,11 @@ def as_faces(faces: npt.ArrayLike, n_vertices: int) -> Ints:
     if twice.any():
         raise CertificateError(f"triangle {np.argmax(twice)} names a vertex twice")
     return triangles
+
+
+def pair_keys(pairs: Ints, count: int) -> Ints:
+    """Return one number for each pair of numbers below the count, whichever comes first."""
+    return np.asarray(pairs.min(axis=-1) * count + pairs.max(axis=-1))
 
 
 def require_positive(places: Floats, triangles: Ints) -> None:

@@ -16,6 +16,7 @@ from plyfold.certify.exact import (
     as_faces,
     cross_sign,
     finite,
+    pair_keys,
     require_positive,
 )
 
@@ -77,10 +78,10 @@ def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.
     flat = _from_lowest_corner(below, triangles)
     edges = _different_edges(below, triangles)
     named = _named_pairs(passing, edges, below)
-    stacks = _Stacks(below, height, places, _keys(edges[named].swapaxes(1, 2).reshape(-1, 2), len(positions)))
+    stacks = _Stacks(below, height, places, pair_keys(edges[named].swapaxes(1, 2).reshape(-1, 2), len(positions)))
     stacks.require_gap(gap)
     stacks.require_one_order("triangles", flat)
-    stacks.require_one_order("edges", edges, _keys(named, len(edges)))
+    stacks.require_one_order("edges", edges, pair_keys(named, len(edges)))
     _require_no_overlap(np.unique(below[flat], axis=0), places)
 
 
@@ -119,7 +120,7 @@ class _Stacks:
         same = (rises == compared).all(axis=1) | (falls == compared).all(axis=1)
         decided: Bools = np.asarray(compared.any(axis=1))
         if named is not None:
-            decided |= np.isin(_keys(np.stack([first, second], axis=1), len(things)), named)
+            decided |= np.isin(pair_keys(np.stack([first, second], axis=1), len(things)), named)
         if len(wrong := np.flatnonzero(~(same & decided))):
             what = "change their order" if decided[wrong[0]] else "have no order"
             raise CertificateError(f"two {name} over one another {what}", where=self.places[self.below[a[wrong[0]]]])
@@ -127,7 +128,7 @@ class _Stacks:
     def _is_open(self, a: Ints, b: Ints) -> Bools:
         if not len(self.open_pairs):
             return np.zeros(a.shape, dtype=bool)
-        return np.isin(_keys(np.stack([a, b], axis=-1), len(self.below)), self.open_pairs)
+        return np.isin(pair_keys(np.stack([a, b], axis=-1), len(self.below)), self.open_pairs)
 
     def _compared(self, things: Ints) -> tuple[Ints, Ints]:
         """Return numbers of things over the same places, the one with the lower first corner first.
@@ -148,11 +149,6 @@ class _Stacks:
 
     def _open_vertices(self) -> Ints:
         return np.unique(np.divmod(self.open_pairs, len(self.below)))
-
-
-def _keys(pairs: Ints, count: int) -> Ints:
-    """Return one number for each pair of numbers below the count, whichever comes first."""
-    return np.asarray(pairs.min(axis=-1) * count + pairs.max(axis=-1))
 
 
 def _named_pairs(passing: npt.ArrayLike, edges: Ints, below: Ints) -> Ints:

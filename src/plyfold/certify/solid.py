@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.certify.disk import check_ball_mesh
-from plyfold.certify.exact import CertificateError, Floats, Ints, as_faces, cross_sign, finite
+from plyfold.certify.exact import CertificateError, Floats, Ints, as_faces, cross_sign, finite, pair_keys
 from plyfold.certify.layered import check_layered
 
 __all__ = ["check_solid"]
@@ -79,10 +79,12 @@ def _tops(positions: Floats, upper: Ints, lower: Ints) -> Ints:
     x, y, z = positions.T
     order = np.lexsort((z, y, x))
     first, second = order[0::2], order[1::2]
-    same_place = (positions[first[: len(second)], :2] == positions[second, :2]).all(axis=1)
-    wrong = len(order) % 2 == 1 or not (is_bottom[first].all() and is_top[second].all() and same_place.all())
-    if wrong:
-        raise CertificateError("going up, top and bottom do not alternate")
+    bottom = first[: len(second)]
+    fits = is_bottom[bottom] & is_top[second] & (positions[bottom, :2] == positions[second, :2]).all(axis=1)
+    if len(first) > len(second) or not fits.all():
+        raise CertificateError(
+            "going up, top and bottom do not alternate", where=positions[first[[np.argmin([*fits, False])]], :2]
+        )
     top = np.full(len(positions), -1)
     top[first] = second
     return top
@@ -122,12 +124,16 @@ def _require_walls(positions: Floats, walls: Ints, lower: Ints, top: Ints) -> No
     at_two_places = (at[:, 0] == at[:, 1]) != (at[:, 1] == at[:, 2])
     if len(bad := np.flatnonzero(~at_two_places)):
         raise CertificateError("a wall is not between one top and its bottom", where=positions[walls[bad[0]], :2])
-    sides, used = np.unique(
-        np.sort(np.stack([lower, np.roll(lower, -1, axis=1)], axis=2).reshape(-1, 2)), axis=0, return_counts=True
+    side = pair_keys(np.stack([lower, np.roll(lower, -1, axis=1)], axis=2).reshape(-1, 2), len(positions))
+    (edges, used), (ends, times) = (
+        np.unique(keys, return_counts=True) for keys in (side, pair_keys(at[:, [0, 2]], len(positions)))
     )
-    pairs, times = np.unique(at[:, [0, 2]], axis=0, return_counts=True)
-    if not np.array_equal(pairs, sides[used == 1]) or (times != 2).any():
-        raise CertificateError("the walls are not along the rim of the bottom, two triangles at each edge")
+    wrong = np.union1d(np.setxor1d(edges[used == 1], ends), ends[times != 2])
+    if len(wrong):
+        raise CertificateError(
+            "the walls are not along the rim of the bottom, two triangles at each edge",
+            where=positions[np.array(divmod(wrong[0], len(positions))), :2],
+        )
 
 
 def _require_volume(positions: Floats, triangles: Ints, upper: Ints, thickness: float) -> None:
