@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
+from typing import NamedTuple
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.loops import loop_turning_numbers
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Floats
 from plyfold.curve import Curve
 from plyfold.errors import PlyfoldError
 from plyfold.immersion import bounds_disk
@@ -17,30 +18,31 @@ from plyfold.immersion import bounds_disk
 __all__ = ["Kink", "find_kink", "place_of_turning"]
 
 _MOST_TRIED = 24
+_MOST_TRIED_IN_PAIRS = 5
 _MOST_CROSSINGS_DECIDED = 4000  # by all tries together
 
 
 @dataclass(frozen=True, eq=False)
 class Kink:
-    """A loop of the curve, from a crossing back to it.
+    """Loops of the curve, each from a crossing back to it: one as a rule, two if only both can be the cause.
 
     Parameters
     ----------
-    where : (x, y)
-        The crossing.
-    loop : (m, 2) float
-        The loop, from the crossing on, closed implicitly.
+    places : tuple of (x, y)
+        The crossings.
+    loops : tuple of (m, 2) float
+        The loops, each from its crossing on, closed implicitly.
     rest : (n, 2) float
-        The curve without it, with a corner at the crossing.
+        The curve without them, with corners at the crossings.
     """
 
-    where: tuple[float, float]
-    loop: Floats
+    places: tuple[tuple[float, float], ...]
+    loops: tuple[Floats, ...]
     rest: Floats
 
 
 def find_kink(drawn: Arrangement) -> Kink | None:
-    """Return the shortest loop of at most half the curve's length that can be left out to leave a disk.
+    """Return the shortest loop of at most half the curve's length that can be left out to leave a disk, or two of them.
 
     Parameters
     ----------
@@ -50,43 +52,73 @@ def find_kink(drawn: Arrangement) -> Kink | None:
     Returns
     -------
     Kink or None
-        What is left has been decided anew. None if no single loop is the cause, or none of the 24 shortest ones that
-        leave a curve which turns once; fewer are tried where the curve has hundreds of crossings.
+        What is left has been decided anew. The 24 shortest loops are tried that leave a curve which turns once, and, if
+        none of them will do, pairs of the five shortest ones; fewer where the curve has hundreds of crossings.
 
     Examples
     --------
     >>> from plyfold.arrangement import arrangement
     >>> curl = arrangement([(0, 0), (6, 0), (6, 3), (5, 3), (5, -1), (7, -1), (7, 6), (0, 6)])
-    >>> curl.turning_number, find_kink(curl).where
-    (2, (5.0, 0.0))
+    >>> curl.turning_number, find_kink(curl).places
+    (2, ((5.0, 0.0),))
     """
-    tried = min(_MOST_TRIED, _MOST_CROSSINGS_DECIDED // max(drawn.n_crossings, 1))
-    turning = loop_turning_numbers(drawn)
-    candidates = [(a, b) for _, a, b, turns in _loops(drawn, turning) if abs(drawn.turning_number - turns) == 1]
-    kinks = (_kink(drawn, a, b) for a, b in candidates[:tried])
+    return _single(drawn, _MOST_TRIED) or _pair(drawn)
+
+
+def _single(drawn: Arrangement, most: int) -> Kink | None:
+    tried = min(most, _MOST_CROSSINGS_DECIDED // max(drawn.n_crossings, 1))
+    loops = (loop for loop in _loops(drawn) if abs(drawn.turning_number - loop.turning) == 1)
+    kinks = (_without(drawn, loop) for loop in islice(loops, tried))
     return next((kink for kink in kinks if _is_disk(kink.rest)), None)
+
+
+def _pair(drawn: Arrangement) -> Kink | None:
+    """Leave out one of the shortest loops, whatever is left, and look for another one."""
+    tried = min(_MOST_TRIED_IN_PAIRS, _MOST_CROSSINGS_DECIDED // (5 * max(drawn.n_crossings, 1)))
+    for loop in islice(_loops(drawn), tried):
+        first = _without(drawn, loop)
+        second = _single_of(first.rest)
+        if second is not None:
+            return Kink(first.places + second.places, first.loops + second.loops, second.rest)
+    return None
+
+
+def _single_of(points: Floats) -> Kink | None:
+    try:
+        return _single(arrangement(Curve(points)), _MOST_TRIED_IN_PAIRS)
+    except PlyfoldError:  # what is left is no curve at all
+        return None
 
 
 def place_of_turning(drawn: Arrangement) -> tuple[tuple[float, float], ...]:
     """Return the crossing of the shortest loop without which the turning number would be nearer to 1, if any."""
     turning = drawn.turning_number
-    loops = _loops(drawn, loop_turning_numbers(drawn))
-    nearer = (first for _, first, _, turns in loops if abs(turning - turns - 1) < abs(turning - 1))
-    visit = next(nearer, None)
-    return () if visit is None else (_crossing(drawn, visit),)
+    nearer = (loop for loop in _loops(drawn) if abs(turning - loop.turning - 1) < abs(turning - 1))
+    return tuple(_crossing(drawn, loop.first) for loop in islice(nearer, 1))
 
 
-def _loops(drawn: Arrangement, turning: Ints) -> Iterator[tuple[float, int, int, int]]:
-    """Yield the shorter loop at each crossing, shortest first: length, first and last visit, turning number."""
+class _Loop(NamedTuple):
+    """The part of the curve between two visits to the same crossing."""
+
+    length: float
+    first: int
+    last: int
+    turning: int
+
+
+def _loops(drawn: Arrangement) -> list[_Loop]:
+    """Return the shorter one of the two loops at each crossing, the shortest first."""
+    if drawn.n_crossings == 0:
+        return []
     first = np.flatnonzero(np.arange(len(drawn.partner)) < drawn.partner)
     second = drawn.partner[first]
     along, whole = _places_along(drawn)
-    length = along[second] - along[first]
-    found = [
-        (inner, p, q, turns[0]) if inner <= whole - inner else (whole - inner, q, p, turns[1])
-        for inner, p, q, turns in zip(length.tolist(), first.tolist(), second.tolist(), turning.tolist(), strict=True)
-    ]
-    yield from sorted(found)
+    inner = along[second] - along[first]
+    rows = zip(first.tolist(), second.tolist(), inner.tolist(), loop_turning_numbers(drawn).tolist(), strict=True)
+    return sorted(
+        _Loop(length, p, q, turning[0]) if length <= whole - length else _Loop(whole - length, q, p, turning[1])
+        for p, q, length, turning in rows
+    )
 
 
 def _places_along(drawn: Arrangement) -> tuple[Floats, float]:
@@ -96,8 +128,9 @@ def _places_along(drawn: Arrangement) -> tuple[Floats, float]:
     return np.concatenate([[0.0], ends[:-1]]), float(ends[-1])
 
 
-def _kink(drawn: Arrangement, first: int, last: int) -> Kink:
-    return Kink(_crossing(drawn, first), _between(drawn, first, last), _between(drawn, last, first))
+def _without(drawn: Arrangement, loop: _Loop) -> Kink:
+    rest = _between(drawn, loop.last, loop.first)
+    return Kink((_crossing(drawn, loop.first),), (_between(drawn, loop.first, loop.last),), rest)
 
 
 def _between(drawn: Arrangement, start: int, end: int) -> Floats:

@@ -14,7 +14,7 @@ from plyfold.draw.places import label_circle
 from plyfold.immersion import blank_word, count_immersions, find_immersion
 from plyfold.obstruction import Obstruction
 from plyfold.sketch.drawings import arranged
-from plyfold.sketch.kinks import find_kink, place_of_turning
+from plyfold.sketch.kinks import Kink, find_kink, place_of_turning
 from plyfold.sketch.schema import VERSION, Look
 
 __all__ = ["in_words", "look"]
@@ -119,14 +119,22 @@ def _verdict(drawn: Arrangement) -> dict[str, Any]:
 
 def _no_disk(drawn: Arrangement, obstruction: Obstruction) -> dict[str, Any]:
     kink = find_kink(drawn)
-    where = obstruction.where or ((kink.where,) if kink else place_of_turning(drawn))
+    where = obstruction.where or (kink.places if kink else place_of_turning(drawn))
     return {
         "immersible": False,
         "immersions": "0",
         "reason": obstruction.reason,
         "sentence": f"No disk. {obstruction.sentence}",
         "where": [list(place) for place in where],
-        "kink": kink and {"where": list(kink.where), "loop": kink.loop.tolist(), "points": kink.rest.tolist()},
+        "kink": kink and _kink(kink),
+    }
+
+
+def _kink(kink: Kink) -> dict[str, Any]:
+    return {
+        "where": [list(place) for place in kink.places],
+        "loops": [loop.tolist() for loop in kink.loops],
+        "points": kink.rest.tolist(),
     }
 
 

@@ -1,0 +1,207 @@
+"""What the page is told of a loop, against the definitions."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+import shapely
+
+import plyfold as pf
+from plyfold.errors import CurveError, StrokeError
+from plyfold.gallery import CURVES, chain
+from plyfold.sketch.kinks import find_kink
+from plyfold.sketch.look import in_words, look
+from plyfold.sketch.schema import Look, Stroke
+from reference import crossings, gluings
+from reference.random_curves import MILNOR_LIKE, random_polygon
+
+
+def closed(points):
+    return (Stroke(tuple((float(x), float(y)) for x, y in points), closed=True),)
+
+
+def asked(points):
+    return look(Look(closed(points)))
+
+
+def area(points):
+    x, y = np.array(points, dtype=float).T
+    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+
+
+def bounds_disk(points):
+    """Whether the polygon bounds an immersed disk, by gluing all sheets in all ways."""
+    if abs(crossings.turning_number(points)) != 1:
+        return False
+    upright = points if crossings.turning_number(points) == 1 else points[::-1]
+    return bool(gluings.immersions(*crossings.crossings(upright)[0]))
+
+
+@pytest.fixture(params=CURVES, scope="module")
+def named(request):
+    return CURVES[request.param], asked(CURVES[request.param].curve.points.tolist())
+
+
+def test_the_figures_of_the_gallery(named):
+    curve, answer = named
+    assert answer["turning_number"] == curve.turning_number
+    assert len(answer["crossings"]) == curve.crossings
+    assert answer["verdict"]["immersions"] == str(curve.immersions)
+    assert answer["verdict"]["immersible"] == (curve.immersions > 0)
+    assert answer["repairs"] == []
+
+
+def test_cells_cover_what_the_loop_goes_round(named):
+    _, answer = named
+    covered = sum(cell["winding"] * area(cell["outline"]) for cell in answer["cells"])
+    assert covered == pytest.approx(area(answer["points"]))
+    assert all(area(cell["outline"]) > 0 for cell in answer["cells"])
+
+
+def test_labels_lie_in_their_cells(named):
+    _, answer = named
+    for cell in answer["cells"]:
+        assert crossings.winding_number(answer["points"], cell["label"]) == cell["winding"]
+        room = shapely.Point(cell["label"]).distance(shapely.LineString([*answer["points"], answer["points"][0]]))
+        assert 0 < cell["radius"] <= 1.01 * room
+
+
+def test_borders_run_once_round_the_loop_from_crossing_to_crossing(named):
+    curve, answer = named
+    borders = answer["borders"]
+    assert len(borders) == max(2 * curve.crossings, 1)
+    assert [border[-1] for border in borders] == [border[0] for border in borders[1:] + borders[:1]]
+    around = [p for border in borders for p in border[:-1]]
+    assert shapely.LinearRing(around).length == pytest.approx(shapely.LinearRing(answer["points"]).length)
+    assert {tuple(p) for p in answer["points"]} <= {tuple(p) for p in around}
+
+
+def test_cells_and_borders_know_each_other(named):
+    _, answer = named
+    for cell in answer["cells"]:
+        outline = {tuple(p) for p in cell["outline"]}
+        beside = {i for i, border in enumerate(answer["borders"]) if {tuple(p) for p in border} <= outline}
+        assert set(cell["borders"]) <= beside
+
+
+def test_asking_again_about_the_answer_changes_nothing(named):
+    _, answer = named
+    again = asked(answer["points"])
+    assert not again["reversed"]
+    for key in ("points", "repairs", "turning_number", "crossings", "borders", "cells", "gauss", "word", "verdict"):
+        assert again[key] == answer[key]
+
+
+def test_a_clockwise_loop_is_turned_round():
+    forward, backward = asked([(0, 0), (4, 0), (0, 3)]), asked([(0, 0), (0, 3), (4, 0)])
+    assert (forward["reversed"], backward["reversed"]) == (False, True)
+    assert forward["points"] == backward["points"]
+
+
+def test_strokes_in_any_order_and_direction_make_one_loop():
+    points = [tuple(map(float, p)) for p in MILNOR_LIKE]
+    pieces = [points[0:4], points[3:8], points[7:12], [points[11], points[0]]]
+    strokes = [pieces[2][::-1], pieces[0], pieces[3], pieces[1][::-1]]
+    answer = look(Look(tuple(Stroke(tuple(stroke)) for stroke in strokes)))
+    assert answer["verdict"]["immersions"] == "2"
+    assert {tuple(p) for p in answer["points"]} == set(points)
+
+
+def test_bridged_gaps_are_told():
+    answer = look(Look((Stroke(((0, 0), (4, 0))), Stroke(((4, 0.25), (0, 3), (0, 0))))))
+    assert answer["repairs"] == [{"kind": "gap bridged", "where": [4, 0.125], "size": 0.25}]
+
+
+@pytest.mark.parametrize(
+    ("strokes", "words"),
+    [
+        ((), "no stroke"),
+        ((Stroke(((0, 0), (1, 0), (1, 1)), True), Stroke(((0, 0), (1, 0)))), "other strokes beside it"),
+        ((Stroke(((0, 0), (1, 0), (1, 1)), True),) * 2, "several closed loops"),
+    ],
+)
+def test_what_is_not_one_loop_is_unfinished(strokes, words):
+    with pytest.raises(StrokeError, match=words):
+        look(Look(strokes))
+
+
+def test_a_loop_that_crosses_itself_too_often_is_refused():
+    points = np.random.default_rng(0).random((500, 2)).tolist()
+    with pytest.raises(CurveError, match="crosses itself"):
+        asked(points)
+
+
+def test_long_counts_are_exact_and_their_sentence_is_short():
+    answer = asked(chain(MILNOR_LIKE, 60))
+    assert answer["verdict"]["immersions"] == str(2**60)
+    assert "1.15 · 10^18 ways" in answer["verdict"]["sentence"]
+
+
+@pytest.mark.parametrize("count", [10**12, 10**15 - 1, 123456789012345678, 2**400, 3**5000])
+def test_counts_in_words_never_exceed_the_count(count):
+    leading, exponent = in_words(count).removeprefix("about ").split(" · 10^")
+    assert 1 <= Fraction(leading) < 10
+    assert (
+        Fraction(leading) * 10 ** int(exponent) <= count < (Fraction(leading) + Fraction(1, 100)) * 10 ** int(exponent)
+    )
+
+
+# ---- kinks -----------------------------------------------------------------------------------------------------------
+
+
+def loops_without(points):
+    """Each crossing's shorter loop, shortest first: (its length, the crossing, the rest of the loop)."""
+    found = []
+    for meeting in crossings.meetings(crossings.exact(points)):
+        where = tuple(map(float, meeting.point))
+        inner = [where, *points[meeting.first + 1 : meeting.second + 1]]
+        outer = [where, *points[meeting.second + 1 :], *points[: meeting.first + 1]]
+        lengths = [sum(map(math.dist, loop, loop[1:] + loop[:1])) for loop in (inner, outer)]
+        found.append((min(lengths), where, outer if lengths[0] <= lengths[1] else inner))
+    return sorted(found)
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_the_kink_is_the_shortest_loop_that_leaves_a_disk(seed):
+    points = random_polygon(np.random.default_rng(seed), 7)
+    arranged = pf.arrangement(points)
+    if pf.bounds_disk(arranged):
+        return
+    expected = next((loop for loop in loops_without(points) if bounds_disk(loop[2])), None)
+    kink = find_kink(arranged)
+    if expected is None:
+        assert kink is None or len(kink.loops) == 2
+    else:
+        assert kink.places == (pytest.approx(expected[1]),)
+        assert sorted(map(tuple, kink.rest.tolist())) == [pytest.approx(p) for p in sorted(expected[2])]
+    if kink is not None:
+        assert bounds_disk(kink.rest.tolist())
+
+
+@pytest.mark.parametrize("name", ["figure-eight", "limacon", "kinked-circle"])
+def test_without_its_kink_the_loop_is_a_disk(name):
+    answer = asked(CURVES[name].curve.points.tolist())
+    kink = answer["verdict"]["kink"]
+    assert len(kink["where"]) == len(kink["loops"]) == (2 if name == "kinked-circle" else 1)
+    for where, loop in zip(kink["where"], kink["loops"], strict=True):
+        assert where in answer["crossings"]
+        assert loop[0] == where
+        assert where in kink["points"]
+    assert asked(kink["points"])["verdict"]["immersible"]
+    kept = {tuple(p) for p in kink["points"]} | {tuple(p) for loop in kink["loops"] for p in loop}
+    assert {tuple(p) for p in answer["points"]} <= kept
+
+
+def test_a_wrong_turning_number_has_a_place(named):
+    curve, answer = named
+    if curve.turning_number != 1:
+        assert answer["verdict"]["reason"] == "turning number"
+        assert answer["verdict"]["where"][0] in answer["crossings"]
+
+
+def test_negative_cells_are_the_place():
+    answer = asked(CURVES["kinked-circle"].curve.points.tolist())
+    assert answer["verdict"]["reason"] == "negative winding"
+    (place,) = answer["verdict"]["where"]
+    assert crossings.winding_number(answer["points"], place) < 0
