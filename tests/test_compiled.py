@@ -50,13 +50,22 @@ def test_results_are_arrays():
 def test_numba_is_loaded_when_there_was_much_to_do(monkeypatch):
     monkeypatch.setattr(compiled, "_steps_so_far", 0)
     monkeypatch.setattr(compiled, "STEPS_BEFORE_NUMBA", 100)
-    monkeypatch.setattr(compiled, "_is_installed", lambda: True)
+    monkeypatch.setattr(compiled, "_can_be_imported", lambda: True)
     monkeypatch.delitem(sys.modules, "numba", raising=False)
     assert [compiled._machine_code_pays(60) for _ in range(3)] == [False, True, True]
-    monkeypatch.setattr(compiled, "_is_installed", lambda: False)
+    monkeypatch.setattr(compiled, "_can_be_imported", lambda: False)
     assert not compiled._machine_code_pays(60)
-    monkeypatch.setitem(sys.modules, "numba", None)
+    monkeypatch.setitem(sys.modules, "numba", compiled)
     assert compiled._machine_code_pays(1)
+
+
+def test_numba_that_cannot_be_imported_is_left_alone(monkeypatch):
+    """It refuses versions of numpy that are too new for it."""
+    monkeypatch.setitem(sys.modules, "numba", None)
+    monkeypatch.setattr(compiled, "_steps_so_far", compiled.STEPS_BEFORE_NUMBA)
+    compiled._can_be_imported.cache_clear()
+    assert not compiled._machine_code_pays(60)
+    compiled._can_be_imported.cache_clear()
 
 
 def test_small_drawings_do_not_load_numba():

@@ -15,7 +15,6 @@ import sys
 from collections.abc import Callable, Iterable
 from functools import cache
 from importlib import import_module
-from importlib.util import find_spec
 from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
@@ -88,12 +87,17 @@ def _regrouped(group: _Results, members: Iterable[Any]) -> _Results:
 def _machine_code_pays(steps: int) -> bool:
     global _steps_so_far  # noqa: PLW0603
     _steps_so_far += steps
-    return "numba" in sys.modules or (_steps_so_far > STEPS_BEFORE_NUMBA and _is_installed())
+    return sys.modules.get("numba") is not None or (_steps_so_far > STEPS_BEFORE_NUMBA and _can_be_imported())
 
 
 @cache
-def _is_installed() -> bool:
-    return find_spec("numba") is not None
+def _can_be_imported() -> bool:
+    """Import numba. It refuses versions of numpy newer than it knows; then it is as if it were not installed."""
+    try:
+        import_module("numba")
+    except ImportError:
+        return False
+    return True
 
 
 @cache
@@ -101,5 +105,9 @@ def _machine_code(loop: Callable[..., Any]) -> Callable[..., Any]:
     translate_with_loops = import_module("numba.extending").register_jitable(**_OPTIONS)
     while _called:
         translate_with_loops(_called.pop())
-    translated: Callable[..., Any] = import_module("numba").njit(cache=True, **_OPTIONS)(loop)
+    translate = import_module("numba").njit
+    try:
+        translated: Callable[..., Any] = translate(cache=True, **_OPTIONS)(loop)
+    except RuntimeError:  # no folder may be written to: it is translated anew in every process
+        translated = translate(**_OPTIONS)(loop)
     return translated

@@ -272,6 +272,9 @@ def _without_closing_point(points: npt.NDArray[np.float64]) -> npt.NDArray[np.fl
 
 def _without_repetitions(points: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.float64], list[Repair]]:
     """Keep the first of each run of equal points; a run across the end belongs to the first point."""
+    x, y = points.T
+    if not ((x[1:] == x[:-1]) & (y[1:] == y[:-1])).any() and not np.array_equal(points[:1], points[-1:]):
+        return points, []
     fresh = (points != np.roll(points, 1, axis=0)).any(axis=1)
     fresh[:1] = True
     last = np.flatnonzero(fresh)[-1:]
@@ -294,9 +297,11 @@ def _refuse_degenerate(points: npt.NDArray[np.float64]) -> None:
 
 
 def _has_a_corner(points: npt.NDArray[np.float64]) -> bool:
-    """Tell whether the point that seems farthest from the line through the first two is off it, as is usual."""
+    """Tell whether one of the first points, or the one that seems farthest, is off the line through the first two."""
     if len(points) < 3:
         return False
+    if orient(points[0], points[1], points[2:6]).any():
+        return True
     x, y = (points - points[0]).T
     farthest = int(np.abs(x[1] * y - y[1] * x).argmax())
     return bool(orient(points[0], points[1], points[farthest]))

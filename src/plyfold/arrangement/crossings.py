@@ -92,7 +92,9 @@ def find_contacts(points: Floats) -> Contacts:
 
 def edge_ends(points: Floats) -> Floats:
     """Return start and end of each edge of a closed polyline, shape (n, 2, 2)."""
-    return np.stack([points, np.concatenate([points[1:], points[:1]])], axis=1)
+    ends = np.empty((len(points), 2, 2))
+    ends[:, 0], ends[:-1, 1], ends[-1, 1] = points, points[1:], points[0]
+    return ends
 
 
 def _meetings(ends: Floats, first: Ints, second: Ints) -> Contacts:

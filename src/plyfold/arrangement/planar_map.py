@@ -6,12 +6,13 @@ CONVENTIONS.md. The cells are the orbits of *turn left at every crossing*.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrays import Bools, Ints
+from plyfold.compiled import run_loop
 from plyfold.errors import GaussCodeError
 
 __all__ = ["cell_boundaries", "checked_code", "left_windings", "next_darts", "reversed_code", "whitney_turning_number"]
@@ -82,34 +83,49 @@ def cell_boundaries(following: Ints, outer: int) -> tuple[Ints, Ints]:
     -----
     O(darts).
     """
-    from scipy.sparse.csgraph import breadth_first_order, connected_components
-
-    dart = np.arange(len(following))
-    count, label = connected_components(_graph(following), connection="strong")
-    lowest = np.empty(count, dtype=np.int64)
-    lowest[label[::-1]] = dart[::-1]  # of several values the last one stays
-    is_first = np.zeros(len(dart), dtype=np.bool_)
-    is_first[lowest] = True
-    unbounded = lowest[label[outer]]
-    first = np.concatenate([[unbounded], np.flatnonzero(is_first & (dart != unbounded))])
-    darts = breadth_first_order(_graph(_joined(following, first)), unbounded, return_predecessors=False)
-    return np.append(np.flatnonzero(is_first[darts]), len(dart)), darts.astype(np.int64)
+    darts, start, walked = np.zeros((3, len(following)), dtype=np.int64)
+    room = _Cells(darts, start, walked, counted=np.zeros(1, dtype=np.int64))
+    cells = run_loop(_walked, len(following), (_Map(following, np.array([outer])),), room)
+    return np.append(cells.start[: cells.counted[0]], len(following)), cells.darts
 
 
-def _joined(following: Ints, first: Ints) -> Ints:
-    """Cut every boundary before its first dart and lead it on to the next one: a single loop through all darts."""
-    before = np.empty_like(following)
-    before[following] = np.arange(len(following))
-    joined = following.copy()
-    joined[before[first]] = np.concatenate([first[1:], first[:1]])
-    return joined
+class _Map(NamedTuple):
+    """The dart after each dart, and one of the unbounded cell."""
+
+    following: Ints
+    outer: Ints
 
 
-def _graph(following: Ints) -> Any:
-    from scipy.sparse import csr_array
+class _Cells(NamedTuple):
+    """The darts cell by cell, where each cell starts, which darts have been walked, and the number of cells."""
 
-    n = len(following)
-    return csr_array((np.ones(n), following, np.arange(n + 1)), shape=(n, n))
+    darts: Ints
+    start: Ints
+    walked: Ints
+    counted: Ints
+
+
+def _walked(given: tuple[_Map], cells: _Cells) -> int:
+    """Walk round every cell from its lowest dart, round the unbounded one first; return how many there are."""
+    following, outer = given[0].following, given[0].outer[0]
+    darts, start, walked = cells.darts, cells.start, cells.walked
+    lowest, dart = outer, following[outer]
+    while dart != outer:
+        lowest = min(lowest, dart)
+        dart = following[dart]
+    size = count = 0
+    for place in range(-1, len(following)):
+        dart = lowest if place < 0 else place
+        if walked[dart] == 0:
+            start[count] = size
+            count += 1
+            while walked[dart] == 0:
+                walked[dart] = 1
+                darts[size] = dart
+                size += 1
+                dart = following[dart]
+    cells.counted[0] = count
+    return count
 
 
 def left_windings(ccw: Bools, outer: int) -> Ints:
