@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 
+from plyfold import find_layering, immersions
 from plyfold.errors import InputError, PrecisionError
 from plyfold.gallery import CURVES
 from plyfold.surface import lift
@@ -230,6 +231,15 @@ def test_the_same_surface_gives_the_same_files(surface, tmp_path):
         surface.export(tmp_path / f"one{suffix}")
         surface.export(tmp_path / f"two{suffix}")
         assert (tmp_path / f"one{suffix}").read_bytes() == (tmp_path / f"two{suffix}").read_bytes()
+
+
+@pytest.mark.parametrize("suffix", ENDINGS)
+def test_surfaces_that_pass_through_themselves(suffix, tmp_path):
+    immersion = next(immersion for immersion in immersions(CURVES["bennequin"].curve) if not find_layering(immersion))
+    surface = lift(immersion, allow_intersections=True, triangles=100)
+    assert surface.intersections
+    surface.export(tmp_path / f"out{suffix}")
+    assert triangles_read(tmp_path / f"out{suffix}").shape == (len(surface.faces), 3, 3)
 
 
 def test_unknown_colouring(surface, tmp_path):

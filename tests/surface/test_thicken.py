@@ -46,6 +46,16 @@ def test_no_triangles_meet(name, share):
     assert meeting_pairs(solid.vertices, solid.faces) == []
 
 
+@pytest.mark.parametrize("name", ["exit-ramp", "milnor"])
+def test_no_triangles_meet_in_an_stl(name, tmp_path):
+    """Rounded to 32 bits, as printers read it."""
+    surface = lift(CURVES[name].curve, triangles=60)
+    surface.thicken(0.9 * surface.gap).export(tmp_path / "out.stl")
+    body = trimesh.load(tmp_path / "out.stl")
+    assert body.is_watertight
+    assert meeting_pairs(body.vertices, body.faces) == []
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_random_ribbons(seed):
     outline = random_curves.ribbon_outline(np.random.default_rng(seed), 30)

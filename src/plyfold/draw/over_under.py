@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import groupby
 from typing import Literal, TypeAlias, get_args
 
 import numpy as np
@@ -93,8 +93,7 @@ class OverUnder:
     @property
     def layers(self) -> tuple[tuple[Piece, ...], ...]:
         """The pieces of each level, from below."""
-        levels = self.pieces[-1].level
-        return tuple(tuple(piece for piece in self.pieces if piece.level == level + 1) for level in range(levels))
+        return tuple(tuple(pieces) for _, pieces in groupby(self.pieces, key=lambda piece: piece.level))
 
 
 def over_under(layering: Layering, *, colours: ClothColours = "cloth", hidden: Hidden = "removed") -> OverUnder:
@@ -157,21 +156,28 @@ def _refuse_options(layering: Layering, colours: str, hidden: str) -> None:
 
 def _pieces(layering: Layering, frame: Frame, colours: ClothColours) -> Iterator[Piece]:
     """Yield the pieces, from the lowest level on."""
+    arrangement, cell = layering.immersion.arrangement, layering.immersion.sheet_cell
     part = np.arange(len(layering.level)) if colours == "sheets" else _glued_on_one_level(layering)
-    order = np.lexsort((part, layering.level))
-    starts = np.flatnonzero(np.diff(part[order], prepend=-1))
     levels = int(layering.level.max())
-    for start, end in pairwise([*starts.tolist(), len(order)]):
-        sheets = order[start:end]
-        level = int(layering.level[sheets[0]])
-        colour = {
-            "cloth": mix(CLOTH_HIGH, PAPER, 0.45),
-            "layers": layer_colour(level, levels),
-            "sheets": sheet_colour(int(sheets[0])),
-        }[colours]
-        cells = layering.immersion.sheet_cell[sheets]
-        rings = tuple(frame(ring) for ring in _rings(layering.immersion.arrangement, cells))
-        yield Piece(level, tuple(sheets.tolist()), rings, colour)
+    for level in range(1, levels + 1):
+        here = np.flatnonzero(layering.level == level)
+        owner = np.full(arrangement.n_cells, -1)
+        owner[cell[here]] = part[here]
+        sheets: dict[int, list[int]] = {}
+        rings: dict[int, list[Floats]] = {}
+        for sheet in here.tolist():
+            sheets.setdefault(int(part[sheet]), []).append(sheet)
+        for piece, ring in _rings(arrangement, owner):
+            rings.setdefault(piece, []).append(frame(ring))
+        for piece, members in sheets.items():
+            colour = _colour(colours, members[0], level, levels)
+            yield Piece(level, tuple(members), tuple(rings[piece]), colour)
+
+
+def _colour(colours: ClothColours, sheet: int, level: int, levels: int) -> str:
+    if colours == "cloth":
+        return mix(CLOTH_HIGH, PAPER, 0.45)
+    return layer_colour(level, levels) if colours == "layers" else sheet_colour(sheet)
 
 
 def _glued_on_one_level(layering: Layering) -> Ints:
@@ -186,19 +192,18 @@ def _glued_on_one_level(layering: Layering) -> Ints:
     return np.asarray(connected_components(links, directed=False)[1])
 
 
-def _rings(arrangement: Arrangement, cells: Ints) -> Iterator[Floats]:
-    """Yield the polygons around a union of cells: darts with a cell of it on the left and none on the right."""
-    inside = np.zeros(arrangement.n_cells, dtype=bool)
-    inside[cells] = True
-    dart = np.arange(len(arrangement.cell_of_dart))
-    around = inside[arrangement.cell_of_dart] & ~inside[arrangement.cell_of_dart[dart ^ 1]]
-    left = dict.fromkeys(dart[around].tolist())
-    while left:
-        ring = [next(iter(left))]
-        while ring[-1] in left:
-            del left[ring[-1]]
+def _rings(arrangement: Arrangement, owner: Ints) -> Iterator[tuple[int, Floats]]:
+    """Yield the polygons around the unions of cells with the same owner, each with the owner; −1 is none."""
+    left, right = owner[arrangement.cell_of_dart.reshape(-1, 2).T]
+    around = np.stack([(left >= 0) & (left != right), (right >= 0) & (left != right)], axis=1).ravel()
+    waiting = dict.fromkeys(np.flatnonzero(around).tolist())
+    while waiting:
+        ring = [next(iter(waiting))]
+        while ring[-1] in waiting:
+            del waiting[ring[-1]]
             ring.append(_following(arrangement, around, ring[-1]))
-        yield np.concatenate([_dart_points(arrangement, one) for one in ring[:-1]])
+        points = np.concatenate([_dart_points(arrangement, dart) for dart in ring[:-1]])
+        yield int(owner[arrangement.cell_of_dart[ring[0]]]), points
 
 
 def _following(arrangement: Arrangement, around: Bools, dart: int) -> int:
