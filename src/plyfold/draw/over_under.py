@@ -16,6 +16,7 @@ import numpy as np
 
 from plyfold.arrangement import Arrangement
 from plyfold.arrays import Bools, Floats, Ints
+from plyfold.draw.casing_gaps import cut_strands, strand_with_gaps
 from plyfold.draw.colours import CLOTH_HIGH, PAPER, layer_colour, mix, sheet_colour
 from plyfold.draw.places import Frame, line_weight
 from plyfold.errors import InputError
@@ -29,9 +30,6 @@ Hidden: TypeAlias = Literal["removed", "dashed"]
 # The width of lines, as a fraction of the larger side, and of gaps from the middle of the strand above, in widths.
 _STROKE = 0.005
 _GAP = 2.0
-# At shallow crossings, gaps become longer, but not longer than so many times, nor than this part of their border.
-_LONGEST_GAP = 4.0
-_MOST_OF_BORDER = 1 / 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -231,33 +229,9 @@ def _strands(layering: Layering, frame: Frame, gap: float) -> Iterator[Strand]:
     arrangement = layering.immersion.arrangement
     assert arrangement.curve is not None
     hidden = layering.border_level < arrangement.winding[arrangement.left_cell]
-    changes = np.flatnonzero(hidden != np.roll(hidden, 1)).tolist()
-    if not changes:
+    changes = hidden != np.roll(hidden, 1)
+    if not changes.any():
         yield Strand(frame(arrangement.curve.points), False, True)
-    for start, end in zip(changes, changes[1:] + changes[:1], strict=True):
-        borders = [(start + i) % len(hidden) for i in range((end - start - 1) % len(hidden) + 1)]
-        lines = [frame(arrangement.border_points(border)) for border in borders]
-        if not hidden[start]:
-            lines[0] = _shortened(lines[0], _gap_at(arrangement, start, gap))
-            lines[-1] = _shortened(lines[-1][::-1], _gap_at(arrangement, end, gap))[::-1]
-        yield Strand(np.concatenate([*(line[:-1] for line in lines), lines[-1][-1:]]), bool(hidden[start]), False)
-
-
-def _gap_at(arrangement: Arrangement, visit: int, gap: float) -> float:
-    """Return how much of a strand to leave out at a visit, so that the gap is as wide as asked for, seen across."""
-    assert arrangement.curve is not None
-    points = arrangement.curve.points
-    start = arrangement.visit_edge[[visit, arrangement.partner[visit]]]
-    (ax, ay), (bx, by) = points[(start + 1) % len(points)] - points[start]
-    sine = abs(ax * by - ay * bx) / (np.hypot(ax, ay) * np.hypot(bx, by))
-    return float(gap / max(sine, 1 / _LONGEST_GAP))
-
-
-def _shortened(points: Floats, length: float) -> Floats:
-    """Return a polyline without its beginning, but most of it."""
-    steps = np.hypot(*np.diff(points, axis=0).T)
-    travelled = np.concatenate([[0.0], np.cumsum(steps)])
-    cut = min(length, _MOST_OF_BORDER * travelled[-1])
-    edge = int(np.searchsorted(travelled, cut, side="right")) - 1
-    share = (cut - travelled[edge]) / steps[edge]
-    return np.concatenate([points[edge : edge + 1] + share * (points[edge + 1] - points[edge]), points[edge + 1 :]])
+    for borders in cut_strands(arrangement, changes):
+        covered = bool(hidden[borders[0]])
+        yield Strand(strand_with_gaps(arrangement, borders, frame, 0.0 if covered else gap), covered, False)
