@@ -1,0 +1,48 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { toDrawing, toScreen } from "../../../src/plyfold/sketch/static/camera.js";
+import { windingColour } from "../../../src/plyfold/sketch/static/colours.js";
+import { gridStep, paint, snapped } from "../../../src/plyfold/sketch/static/painting.js";
+
+/** A canvas that writes down what it is told. */
+function recorder() {
+  const calls = [];
+  const target = {};
+  const record = (name) => (...values) => calls.push([name, ...values]);
+  return [new Proxy(target, { get: (own, name) => own[name] ?? record(name) }), calls];
+}
+
+const THEME = { ink: "ink", paper: "paper", dot: "dot", accent: "accent", wrong: "wrong", hover: "hover", changed: "changed", cellOpacity: 1 };
+const CAMERA = { scale: 2, x: 100, y: 100 };
+const BLANK = {
+  size: { width: 200, height: 200 }, camera: CAMERA, theme: THEME, document: { strokes: [], image: null }, joins: [], openEnds: [],
+  answer: null, lie: null, tool: "draw", path: [], next: null, selected: null, cursor: null, hover: null, snap: false, image: null,
+};
+
+test("the grid has lines of round numbers, far enough apart", () => {
+  for (const scale of [1e-6, 0.03, 1, 2, 77, 1e6]) {
+    const step = gridStep({ scale });
+    assert.ok(step * scale >= 22 && step * scale <= 56);
+    assert.match(step.toExponential(3), /^[125]\.000e/);
+    assert.deepEqual(snapped({ scale }, [2.2 * step, -0.8 * step]).map((value) => Math.round(value / step)), [2, -1]);
+  }
+});
+
+test("y is up in the drawing and down on the screen", () => {
+  assert.deepEqual(toScreen(CAMERA, [10, 20]), [120, 60]);
+  assert.deepEqual(toDrawing(CAMERA, [120, 60]), [10, 20]);
+});
+
+test("every stroke, cell, number and cross is painted in its place", () => {
+  const [context, calls] = recorder();
+  const strokes = [{ points: [[0, 0], [40, 0], [40, 40]], closed: true }];
+  const cell = { cell: 1, winding: -1, outline: strokes[0].points, label: [30, 10], radius: 10 };
+  const verdict = { where: [[20, 20]], kink: null };
+  paint(context, { ...BLANK, document: { strokes, image: null }, answer: { crossings: [], cells: [cell], verdict } });
+  assert.ok(calls.some(([name, ...values]) => name === "moveTo" && `${values}` === `${toScreen(CAMERA, [0, 0])}`));
+  assert.deepEqual(calls.find(([name]) => name === "fillText"), ["fillText", "−1", 160, 80]);
+  const [x, y] = toScreen(CAMERA, [20, 20]);
+  assert.ok(calls.some(([name, ...values]) => name === "moveTo" && `${values}` === `${[x - 9, y - 9]}`));
+  assert.equal(windingColour(0), null);
+});
