@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from plyfold.certify import CertificateError, check_ball_mesh, check_solid
+from plyfold.certify.solid import _require_volume
 
 SQUARE = [(0, 0), (2, 0), (2, 2), (0, 2)]
 
@@ -110,6 +111,25 @@ def fin():
 
 def test_walls_elsewhere_than_along_the_rim():
     refused(*fin())
+
+
+def test_walls_that_span_several_edges():
+    """A peak on a straight side: walls from the side's one end to its other end would pass through each other."""
+    points = [(0, 0), (1, 0), (2, 0), (2, 2), (0, 2)]
+    vertices, faces = prism(points, [[1, 2, 3], [1, 3, 4], [0, 1, 4]], 0.5)
+    vertices[[1, 6], 2] += 10.0
+    check_solid(vertices, faces, 0.5)
+    kept = [face for face in faces.tolist() if not {*face} <= {0, 1, 5, 6} and not {*face} <= {1, 2, 6, 7}]
+    refused(vertices, np.array([*kept, [5, 6, 7], [5, 7, 2], [5, 2, 0], [0, 2, 1]]), match="wall")
+
+
+@pytest.mark.parametrize("thickness", [0.4, 0.5 + 1e-9, -0.5])
+def test_volume(thickness):
+    """The other checks leave nothing for this one to find; so it is tried alone."""
+    vertices, faces = tile()
+    _require_volume(vertices, faces, faces[:2], 0.5)
+    with pytest.raises(CertificateError, match="volume"):
+        _require_volume(vertices, faces, faces[:2], thickness)
 
 
 def test_errors_name_the_place():

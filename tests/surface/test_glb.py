@@ -98,6 +98,7 @@ def test_one_material_with_colours_of_layers(surface, tmp_path):
     assert all(len(of_layer) == 1 for of_layer in colours)
     low, middle, high = (next(iter(of_layer)) for of_layer in colours)
     assert low < middle < high
+    assert low == pytest.approx((0.010960, 0.078187, 0.313989), abs=1e-6)  # 27, 79, 152 of 255 in sRGB
     assert np.allclose(glb.corners(), surface.vertices[surface.faces], atol=1e-5)
 
 
@@ -139,6 +140,9 @@ def test_morph_targets(surface, colours, tmp_path):
     flat, disk = glb.corners("flat"), glb.corners("disk")
     assert np.allclose(flat, surface.vertices[faces] * (1, 1, 0), atol=1e-5)
     assert np.allclose(disk[..., 2], 0, atol=1e-5)
+    for primitive in glb.primitives:
+        normal = glb.array(primitive["attributes"]["NORMAL"])
+        assert all(np.allclose(normal + glb.array(target["NORMAL"]), (0, 1, 0)) for target in primitive["targets"])
     plane = surface.vertices[:, :2]
     radius = np.hypot(*np.moveaxis(disk[..., :2] - (plane.min(axis=0) + plane.max(axis=0)) / 2, -1, 0))
     rim = faces < len(surface.boundary)
@@ -180,9 +184,16 @@ def test_solid(solid, colours, tmp_path):
     assert np.allclose(corners, solid.vertices[solid.faces[order]], atol=1e-5)
     for primitive in glb.primitives:
         normal = glb.array(primitive["attributes"]["NORMAL"])[glb.array(primitive["indices"]).reshape(-1, 3)]
-        x, y, z = np.moveaxis(normal.mean(axis=1), -1, 0)
+        normal = np.stack([normal[..., 0], -normal[..., 2], normal[..., 1]], axis=-1)
         a, b, c = np.moveaxis(glb.places(primitive), 1, 0)
-        assert (np.stack([x, -z, y], axis=1) * np.cross(b - a, c - a)).sum(axis=1).min() > 0
+        outside = np.cross(b - a, c - a)
+        assert (normal * outside[:, None]).sum(axis=2).min() > 0
+        wall = np.abs(outside[:, 2]) < 1e-4 * np.linalg.norm(outside, axis=1)
+        across = outside[wall] / np.linalg.norm(outside[wall], axis=1, keepdims=True)
+        assert np.allclose(normal[wall], across[:, None], atol=1e-3)
+    flat = solid.vertices * (1, 1, 0)
+    flat[:, 2] = np.repeat([0.5, -0.5], len(flat) // 2) * solid.thickness
+    assert np.allclose(glb.corners("flat"), flat[solid.faces[order]], atol=1e-5)
     body = trimesh.load(tmp_path / "out.glb", force="mesh")
     body.merge_vertices(merge_tex=True, merge_norm=True)
     assert body.is_watertight
