@@ -301,7 +301,7 @@ def test_a_reader_that_goes_away_is_no_error():
 @pytest.mark.skipif(os.name == "nt", reason="signals")
 def test_interrupted_runs_leave_nothing(tmp_path):
     out = tmp_path / "big.glb"
-    words = [sys.executable, "-m", "plyfold", "lift", "gallery:bennequin", "--triangles", "150000", "-o", str(out)]
+    words = [sys.executable, "-m", "plyfold", "lift", "gallery:bennequin", "--triangles", "1500000", "-o", str(out)]
     with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         time.sleep(5)
         process.send_signal(signal.SIGINT)
