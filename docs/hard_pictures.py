@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import plyfold as pf
+from plyfold.draw import plot_arrangement
 from plyfold.draw.figures import save
-from plyfold.draw.plots import plot_arrangement
 from plyfold.hard import PALEY, flap_disk, search_symmetric
 
 IMAGES = Path(__file__).parent / "images"

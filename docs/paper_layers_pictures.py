@@ -19,10 +19,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import plyfold as pf
-from plyfold.draw.collapsed_plot import plot_collapsed_graph, plot_marked_cell
+from plyfold.draw import plot_arrangement, plot_collapsed_graph, plot_layout, plot_marked_cell, plot_obstruction
 from plyfold.draw.figures import save
-from plyfold.draw.obstruction_plot import plot_obstruction
-from plyfold.draw.plots import plot_arrangement, plot_disk_layout
 from plyfold.gallery import CURVES
 from plyfold.hard import PALEY, flap_disk, formula_disk
 from plyfold.layering.collapsed import (
@@ -74,7 +72,7 @@ def collapse() -> None:
     ):
         cell = int(immersion.arrangement.winding.argmax())
         plot_marked_cell(immersion.arrangement, cell, row[0])
-        plot_disk_layout(immersion, row[1])
+        plot_layout(immersion, row[1])
         draw_graph(row[2], immersion, cell)
         path = edge_collapsed_graph(immersion, cell).has_linear_spanning_subtree
         titles = (
@@ -109,7 +107,7 @@ def counterexample() -> None:
     plot_arrangement(refused.arrangement, drawing, borders=True)
     drawing.set_title("eight crossings, two immersions")
     for axes, immersion, words in ((first, refused, "does not lift"), (second, lifted, "lifts")):
-        plot_disk_layout(immersion, axes)
+        plot_layout(immersion, axes)
         axes.set_title(f"the immersion that {words}")
     save(figure, IMAGES / "paper-layers-counterexample.png", force=True)
     graphs_of_every_cell(refused, lifted)
@@ -142,7 +140,7 @@ def another_way() -> None:
     drawing, layout, graph = figure.subplots(1, 3)
     plot_arrangement(immersion.arrangement, drawing, borders=True)
     drawing.set_title("eight crossings, one immersion")
-    plot_disk_layout(immersion, layout)
+    plot_layout(immersion, layout)
     layout.set_title("its disk layout")
     plot_collapsed_graph(immersion, cell, graph, layering=pf.find_layering(immersion))
     graph.set_title("the graph of the deepest cell, and levels")

@@ -12,11 +12,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 import plyfold as pf
+from plyfold.draw import plot_arrangement
 from plyfold.draw.colours import ACCENT, INK, mix, sheet_colour
 from plyfold.draw.figures import save
 from plyfold.draw.hyperbolic import BorderCircle
 from plyfold.draw.places import border_middle
-from plyfold.draw.plots import plot_arrangement
 from plyfold.gallery import chain
 from plyfold.immersion.paper import PaperRun, Reading, paper_immersion, run_paper
 

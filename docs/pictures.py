@@ -8,9 +8,9 @@ from textwrap import fill
 from matplotlib.figure import Figure
 
 import plyfold as pf
+from plyfold.draw import plot_arrangement, plot_surface
 from plyfold.draw.colours import OBSTRUCTION
 from plyfold.draw.figures import save, summary
-from plyfold.draw.plots import plot_arrangement, plot_surface
 from plyfold.gallery import CURVES
 
 HERE = Path(__file__).parent

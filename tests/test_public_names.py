@@ -57,6 +57,6 @@ def test_public_names():
 
 def test_arrangement_is_the_function_whatever_was_imported():
     import plyfold.arrangement.core
-    import plyfold.draw.plots  # noqa: F401
+    import plyfold.draw.surface_plot  # noqa: F401
 
     assert callable(pf.arrangement)

@@ -345,7 +345,7 @@ def _furthest(arranged: Arrangement, options: argparse.Namespace, watch: Stopwat
 
 
 def _figure(value: Any, obstruction: Any, what: str) -> Any:
-    from plyfold.draw import plots
+    from plyfold import draw
     from plyfold.draw.figures import overview
 
     if what == "all":
@@ -353,10 +353,10 @@ def _figure(value: Any, obstruction: Any, what: str) -> Any:
     layering = getattr(value, "layering", None)
     immersion = getattr(layering, "immersion", value)
     panels: dict[str, tuple[Any, Callable[..., Any]]] = {
-        "arrangement": (getattr(immersion, "arrangement", immersion), plots.plot_arrangement),
-        "layout": (immersion if hasattr(immersion, "disk_layout") else None, plots.plot_disk_layout),
-        "layers": (layering, plots.plot_layers),
-        "surface": (value if layering is not None else None, plots.plot_surface),
+        "arrangement": (getattr(immersion, "arrangement", immersion), draw.plot_arrangement),
+        "layout": (immersion if hasattr(immersion, "disk_layout") else None, draw.plot_layout),
+        "layers": (layering, draw.plot_layers),
+        "surface": (value if layering is not None else None, draw.plot_surface),
     }
     subject, plot = panels[what]
     if subject is None:

@@ -8,8 +8,8 @@ from matplotlib.colors import to_hex
 from matplotlib.patches import FancyArrowPatch, Polygon
 
 import plyfold as pf
+from plyfold.draw import plot_obstruction
 from plyfold.draw.colours import OBSTRUCTION, sheet_colour
-from plyfold.draw.obstruction_plot import plot_obstruction
 from plyfold.gallery import CURVES
 from plyfold.layering import embed_cased
 from plyfold.obstruction import Obstruction

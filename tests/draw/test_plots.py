@@ -7,8 +7,8 @@ import shapely
 from matplotlib.colors import to_hex
 
 from plyfold import Arrangement, arrangement, find_immersion, find_layering
+from plyfold.draw import plot_arrangement, plot_layers, plot_layout, plot_surface
 from plyfold.draw.colours import INK, OBSTRUCTION, mix, sheet_colour, winding_colour
-from plyfold.draw.plots import plot_arrangement, plot_disk_layout, plot_layers, plot_surface
 from plyfold.errors import PlyfoldError
 from plyfold.obstruction import Obstruction
 
@@ -19,7 +19,8 @@ EIGHT = np.array([(0, 0), (2, 2), (2, 0), (0, 2)], float)
 def flat_surface(heights=(0.0, 0.0, 0.0, 0.0)):
     corners = np.column_stack([[(0, 0), (4, 0), (4, 3), (0, 3)], heights])
     faces = np.array([(0, 1, 2), (0, 2, 3)])
-    return SimpleNamespace(vertices=corners, faces=faces, boundary=np.arange(4), intersections=())
+    layering = SimpleNamespace(immersion=SimpleNamespace(arrangement=SimpleNamespace(n_crossings=0)))
+    return SimpleNamespace(vertices=corners, faces=faces, boundary=np.arange(4), intersections=(), layering=layering)
 
 
 def areas_by_colour(ax):
@@ -79,7 +80,7 @@ def test_code_without_a_drawing_is_refused():
 
 def test_disk_layout_has_a_region_for_every_group_and_arcs_that_do_not_cross():
     immersion = find_immersion(RAMP)
-    ax = plot_disk_layout(immersion)
+    ax = plot_layout(immersion)
     assert len(ax.patches) == 1 + len(immersion.disk_layout())
     rim = [line for line in ax.lines if line.get_linewidth() == 5.0]
     arcs = [shapely.LineString(line.get_xydata()) for line in ax.lines if line.get_linewidth() != 5.0]
@@ -89,7 +90,7 @@ def test_disk_layout_has_a_region_for_every_group_and_arcs_that_do_not_cross():
 
 
 def test_disk_layout_numbers_the_borders_counter_clockwise():
-    places = [t.get_position() for t in plot_disk_layout(find_immersion(RAMP)).texts]
+    places = [t.get_position() for t in plot_layout(find_immersion(RAMP)).texts]
     angles = np.unwrap([np.arctan2(y, x) for x, y in places])
     assert (np.diff(angles) > 0).all()
     assert angles[-1] - angles[0] < 2 * np.pi
@@ -156,6 +157,6 @@ def test_given_axes_are_used_and_pyplot_is_left_alone():
 
     ax = Figure().subplots()
     assert plot_arrangement(arrangement(RAMP), ax) is ax
-    assert plot_disk_layout(find_immersion(RAMP), ax) is ax
+    assert plot_layout(find_immersion(RAMP), ax) is ax
     plot_arrangement(arrangement(RAMP))
     assert pyplot.get_fignums() == []

@@ -8,11 +8,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plyfold.arrays import Floats
+from plyfold.draw.arrangement_plot import drawn_points, plot_arrangement
+from plyfold.draw.canvas import blank, dots, grid, line, note_below, polygon, write
 from plyfold.draw.colours import INK, OBSTRUCTION, PAPER, mix, sheet_colour, text_colour
 from plyfold.draw.hyperbolic import BorderCircle
-from plyfold.draw.places import middle_and_size
-from plyfold.draw.plots import _blank, _dots, _line, _polygon, _text, plot_arrangement
-from plyfold.layering.collapsed import CollapsedGraph, Edge, edge_collapsed_graph
+from plyfold.draw.places import Frame
+from plyfold.layering.collapsed import (
+    CollapsedGraph,
+    Edge,
+    edge_collapsed_graph,
+    edge_collapsed_graphs,
+    linear_spanning_subtrees,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,7 +28,7 @@ if TYPE_CHECKING:
     from plyfold.immersion import Immersion
     from plyfold.layering import Layering
 
-__all__ = ["plot_collapsed_graph", "plot_marked_cell"]
+__all__ = ["plot_collapsed_graph", "plot_collapsed_graphs", "plot_marked_cell"]
 
 
 def plot_collapsed_graph(
@@ -35,7 +42,7 @@ def plot_collapsed_graph(
     """Draw the edge-collapsed graph of a cell: one node for each sheet with own borders (§3.1 of [MGR11]_).
 
     Round it stand the cell's own borders in order, numbered; pale lines show which node each has collapsed into.
-    Sheets have the colours of :func:`~plyfold.draw.plots.plot_disk_layout`.
+    Sheets have the colours of :func:`~plyfold.draw.plot_layout`.
 
     Parameters
     ----------
@@ -64,21 +71,63 @@ def plot_collapsed_graph(
     >>> [text.get_text() for text in ax.texts]
     ['0', '0']
     """
-    axes = _blank(ax)
+    axes = blank(ax)
     graph = edge_collapsed_graph(immersion, cell)
     places = _places(graph)
-    _line(axes, BorderCircle(1).arc(0), mix(INK, PAPER, 0.8), 0.8)
+    line(axes, BorderCircle(1).arc(0), mix(INK, PAPER, 0.8), 0.8)
     _borders(axes, graph, places)
     for edge in graph.edges:
         chosen = edge in tree
         ends = np.stack([places[sheet] for sheet in edge])
-        _line(axes, ends, INK if chosen or not tree else mix(INK, PAPER, 0.6), 4.0 if chosen else 1.6, zorder=3)
+        line(axes, ends, INK if chosen or not tree else mix(INK, PAPER, 0.6), 4.0 if chosen else 1.6, zorder=3)
     for sheet, place in places.items():
         colour = sheet_colour(sheet)
-        _dots(axes, place[None], colour, 300, edgecolors=INK, linewidths=1.2, zorder=4)
+        dots(axes, place[None], colour, 300, edgecolors=INK, linewidths=1.2, zorder=4)
         label = f"{sheet if layering is None else layering.level[sheet]}"
-        _text(axes, place, label, 9.5, color=text_colour(colour), zorder=5)
+        write(axes, place, label, 9.5, color=text_colour(colour), zorder=5)
     axes.update_datalim([(-1.2, -1.2), (1.2, 1.2)])
+    return axes
+
+
+def plot_collapsed_graphs(
+    immersion: Immersion, ax: Axes | None = None, *, layering: Layering | None = None, most: int = 4
+) -> Axes:
+    """Draw the edge-collapsed graphs of the deepest cells, each under a drawing that marks the cell.
+
+    A linear spanning subtree is heavy, where there is one.
+
+    Parameters
+    ----------
+    immersion : Immersion
+        Of a drawing.
+    ax : matplotlib Axes, optional
+        Where to draw; by default on a new figure. Each picture gets axes of its own inside these (``ax.child_axes``).
+    layering : Layering, optional
+        Write the levels into the nodes instead of the sheets' numbers.
+    most : int
+        How many cells to draw; if more have a graph, a note says so.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Examples
+    --------
+    >>> from plyfold import find_immersion
+    >>> from plyfold.gallery import CURVES
+    >>> ax = plot_collapsed_graphs(find_immersion(CURVES["exit-ramp"].curve), most=2)
+    >>> len(ax.child_axes)
+    4
+    """
+    graphs = [graph for graph in edge_collapsed_graphs(immersion) if graph.nodes]
+    deepest = sorted(graphs, key=lambda graph: -len(graph.nodes))[:most]
+    axes = blank(ax, (3.2 * len(deepest), 6.4))
+    for above, below, graph in zip(*grid(axes, 2, len(deepest)), deepest, strict=True):
+        plot_marked_cell(immersion.arrangement, graph.cell, above)
+        tree = next(iter(linear_spanning_subtrees(graph)), ())
+        plot_collapsed_graph(immersion, graph.cell, below, layering=layering, tree=tree)
+    if len(graphs) > len(deepest):
+        note_below(axes, f"the {len(deepest)} deepest of {len(graphs)} cells")
     return axes
 
 
@@ -106,10 +155,8 @@ def plot_marked_cell(arrangement: Arrangement, cell: int, ax: Axes | None = None
     True
     """
     axes = plot_arrangement(arrangement, ax)
-    assert arrangement.curve is not None, "plot_arrangement has refused it"
-    middle, size = middle_and_size(arrangement.curve.points)
-    outline = (arrangement.cell_outline(cell) - middle) / size
-    _polygon(axes, outline, OBSTRUCTION, alpha=0.45, zorder=1.5)
+    frame = Frame(drawn_points(arrangement))
+    polygon(axes, frame(arrangement.cell_outline(cell)), OBSTRUCTION, alpha=0.45, zorder=1.5)
     return axes
 
 
@@ -135,6 +182,6 @@ def _borders(axes: Axes, graph: CollapsedGraph, places: dict[int, Floats]) -> No
         colour = sheet_colour(node.sheet)
         for border in node.borders:
             spoke = np.stack([places[node.sheet], circle.middle(number[border])])
-            _line(axes, spoke, mix(colour, PAPER, 0.55), 1.6, zorder=2)
-            _line(axes, circle.arc(number[border]), colour, 5.0)
-            _text(axes, circle.middle(number[border], 1.14), str(border), 8.5)
+            line(axes, spoke, mix(colour, PAPER, 0.55), 1.6, zorder=2)
+            line(axes, circle.arc(number[border]), colour, 5.0)
+            write(axes, circle.middle(number[border], 1.14), str(border), 8.5)

@@ -9,8 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from plyfold.arrangement import Arrangement
+from plyfold.draw.arrangement_plot import plot_arrangement
 from plyfold.draw.colours import INK
-from plyfold.draw.plots import plot_arrangement, plot_disk_layout, plot_layers, plot_surface
+from plyfold.draw.layers_plot import plot_layers
+from plyfold.draw.layout_plot import plot_layout
+from plyfold.draw.surface_plot import plot_surface
 from plyfold.immersion import Immersion
 from plyfold.io.saving import refuse_existing, save_bytes
 from plyfold.layering import Layering
@@ -100,15 +103,15 @@ def _panels(
     if isinstance(value, Layering | IntersectingLayering):
         return [*_panels(value.immersion, obstruction), ("The layers", partial(plot_layers, value))]
     if isinstance(value, Immersion):
-        return [*_panels(value.arrangement, obstruction), ("The disk layout", partial(plot_disk_layout, value))]
+        return [*_panels(value.arrangement, obstruction), ("The disk layout", partial(plot_layout, value))]
     picture = partial(plot_arrangement, value, obstruction=obstruction, borders=True)
     return [("The curve, its winding numbers and borders", picture)]
 
 
 def _views(surface: Surface) -> Panels:
     return [
-        ("The lifted surface", partial(plot_surface, surface, view="above")),
-        ("The same from the side", partial(plot_surface, surface, view="side")),
+        ("The lifted surface", partial(plot_surface, surface, view="above", colours="sheets")),
+        ("The same from the side", partial(plot_surface, surface, view="side", colours="sheets")),
     ]
 
 

@@ -10,16 +10,20 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from plyfold.arrangement import Arrangement
+from plyfold.arrangement import arrangement as arrangement_of
+from plyfold.arrangement.core import CurveLike
 from plyfold.arrays import Floats
+from plyfold.draw.arrangement_plot import drawn_points, plot_arrangement
+from plyfold.draw.canvas import polygon, write, write_below
 from plyfold.draw.colours import OBSTRUCTION, PAPER, mix, sheet_colour, text_colour, winding_colour
 from plyfold.draw.places import Frame, border_middle, label_circle
-from plyfold.draw.plots import plot_arrangement, write_below
+from plyfold.errors import InputError
+from plyfold.immersion import Immersion, find_immersion
+from plyfold.layering import find_layering
+from plyfold.obstruction import Obstruction
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from plyfold.immersion import Immersion
-    from plyfold.obstruction import Obstruction
 
 __all__ = ["plot_obstruction"]
 
@@ -33,18 +37,21 @@ _NUMBER: dict[str, Any] = {"ha": "center", "va": "center", "color": OBSTRUCTION,
 _BACK = {"above": -1, "below": 1}
 
 
-def plot_obstruction(subject: Immersion | Arrangement, obstruction: Obstruction, ax: Axes | None = None) -> Axes:
+def plot_obstruction(
+    subject: CurveLike | Immersion, obstruction: Obstruction | None = None, ax: Axes | None = None
+) -> Axes:
     """Draw why there is no immersion or no layering, on the drawing.
 
     Parameters
     ----------
-    subject : Immersion or Arrangement
+    subject : Curve, array_like of shape (n, 2), shapely geometry, Arrangement or Immersion
         What the obstruction is about; an immersion for obstructions to a layering.
-    obstruction : Obstruction
-        Of a pair of sheets that returns reversed, the cells are numbered in order, arrows cross the borders from one
-        to the next, and below the drawing the two sheets are shown at every step, the upper one above. Of sheets in a
-        circle and of fixed orders, the cells are numbered and the sheets shown likewise. Of cells with a negative
-        winding number, the cells. Other places are marked by crosses.
+    obstruction : Obstruction, optional
+        By default that of ``find_immersion(curve)`` or ``find_layering(immersion)``. Of a pair of sheets that returns
+        reversed, the cells are numbered in order, arrows cross the borders from one to the next, and below the drawing
+        the two sheets are shown at every step, the upper one above. Of sheets in a circle and of fixed orders, the
+        cells are numbered and the sheets shown likewise. Of cells with a negative winding number, the cells. Other
+        places are marked by crosses.
     ax : matplotlib Axes, optional
         Where to draw; by default on a new figure.
 
@@ -52,26 +59,41 @@ def plot_obstruction(subject: Immersion | Arrangement, obstruction: Obstruction,
     -------
     matplotlib Axes
 
+    Raises
+    ------
+    InputError
+        If nothing is in the way.
+
     Examples
     --------
-    >>> from plyfold import arrangement, find_immersion
-    >>> eight = [(0, 0), (2, 2), (2, 0), (0, 2)]
-    >>> ax = plot_obstruction(arrangement(eight), find_immersion(eight))
+    >>> ax = plot_obstruction([(0, 0), (2, 2), (2, 0), (0, 2)])
     >>> ax.texts[-1].get_text()
     'The curve turns 0 times, and the outline of a disk turns once.'
     """
-    if isinstance(subject, Arrangement):
-        return _plot_places(subject, obstruction, ax)
+    why = _found(subject) if obstruction is None else obstruction
+    if isinstance(subject, Immersion):
+        return _plot_steps(subject, why, ax)
+    return _plot_places(arrangement_of(subject), why, ax)
+
+
+def _found(subject: CurveLike | Immersion) -> Obstruction:
+    found = find_layering(subject) if isinstance(subject, Immersion) else find_immersion(subject)
+    if not isinstance(found, Obstruction):
+        raise InputError(f"nothing is in the way: {found!r}", hint="give an immersion to see why it has no layering")
+    return found
+
+
+def _plot_steps(subject: Immersion, obstruction: Obstruction, ax: Axes | None) -> Axes:
     steps = _steps(obstruction)
     if not steps:
         return _plot_places(subject.arrangement, obstruction, ax)
     axes = plot_arrangement(subject.arrangement, ax)
-    assert subject.arrangement.curve is not None
-    frame = Frame(subject.arrangement.curve.points)
+    points = drawn_points(subject.arrangement)
+    frame = Frame(points)
     _number_cells(axes, subject.arrangement, [cell for cell, _ in steps], frame)
     if obstruction.reason == "reversed pair":
         _arrows_between(axes, subject, steps, frame)
-    _chips(axes, steps, float(frame(subject.arrangement.curve.points)[:, 1].min()))
+    _chips(axes, steps, float(frame(points)[:, 1].min()))
     write_below(axes, str(obstruction))
     return axes
 
@@ -89,8 +111,8 @@ def _steps(obstruction: Obstruction) -> list[Step]:
 
 def _plot_places(arrangement: Arrangement, obstruction: Obstruction, ax: Axes | None) -> Axes:
     axes = plot_arrangement(arrangement, ax, obstruction=obstruction)
-    if obstruction.reason == "negative winding" and arrangement.curve is not None:
-        frame = Frame(arrangement.curve.points)
+    if obstruction.reason == "negative winding":
+        frame = Frame(drawn_points(arrangement))
         for cell in np.flatnonzero(arrangement.winding < 0).tolist():
             _highlight(axes, arrangement, cell, frame)
     return axes
@@ -99,7 +121,7 @@ def _plot_places(arrangement: Arrangement, obstruction: Obstruction, ax: Axes | 
 def _highlight(axes: Axes, arrangement: Arrangement, cell: int, frame: Frame) -> None:
     outline = frame(arrangement.cell_outline(cell))
     colour = mix(winding_colour(int(arrangement.winding[cell])), OBSTRUCTION, 0.25)
-    axes.fill(outline[:, 0], outline[:, 1], facecolor=colour, edgecolor=OBSTRUCTION, linewidth=1.2, zorder=1.5)
+    polygon(axes, outline, colour, edgecolor=OBSTRUCTION, linewidth=1.2, zorder=1.5)
 
 
 def _number_cells(axes: Axes, arrangement: Arrangement, cells: Sequence[int], frame: Frame) -> None:
@@ -111,8 +133,8 @@ def _number_cells(axes: Axes, arrangement: Arrangement, cells: Sequence[int], fr
     for cell, numbers in visits.items():
         _highlight(axes, arrangement, cell, frame)
         rows = [" ".join(numbers[i : i + 4]) for i in range(0, len(numbers), 4)]
-        x, y = frame(label_circle(arrangement, cell)[:2])[0].tolist()
-        axes.text(x, y, "\n".join(rows), fontsize=6.0, bbox=box, **_NUMBER)
+        (place,) = frame(label_circle(arrangement, cell)[:2])
+        write(axes, place, "\n".join(rows), 6.0, bbox=box, **_NUMBER)
 
 
 def _arrows_between(axes: Axes, immersion: Immersion, steps: Sequence[Step], frame: Frame) -> None:
@@ -162,7 +184,5 @@ def _pile(axes: Axes, sheets: Sequence[int], foot: tuple[float, float]) -> None:
     for level, sheet in enumerate(sheets):
         colour = sheet_colour(sheet)
         corners: Floats = (half + np.array([0.0, level])) * _CHIP + np.array([x, floor])
-        axes.fill(corners[:, 0], corners[:, 1], facecolor=colour, edgecolor="none", zorder=3)
-        middle = floor + (level + 0.5) * _CHIP
-        style: dict[str, Any] = {"ha": "center", "va": "center_baseline", "color": text_colour(colour), "zorder": 4}
-        axes.text(x, middle, str(sheet), fontsize=6.5, **style)
+        polygon(axes, corners, colour, zorder=3)
+        write(axes, (x, floor + (level + 0.5) * _CHIP), str(sheet), 6.5, color=text_colour(colour), zorder=4)

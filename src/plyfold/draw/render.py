@@ -17,9 +17,17 @@ __all__ = ["Image", "Mesh", "shade"]
 _LIGHTS = 16
 _LAMP_WIDTH = 0.12
 _SHADOW_PIXELS = 500
+_SKY_LIGHTS = 20
+_SKY_PIXELS = 220
+_SKY_RADIUS = 0.85
+_GOLDEN_ANGLE = 2.399963
 _TO_LIGHT = np.array([-0.42, 0.30, 1.0])
 _FLOOR_DARKNESS = 0.18
+_FLOOR_STEP = 3
 _FLATTEST = 0.05
+_RIM = 0.0045
+_RIM_STRENGTH = 0.85
+_STEEPEST = 12.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,45 +68,62 @@ class Mesh:
         return plane.min(axis=0), plane.max(axis=0)
 
     @cached_property
-    def lamp(self) -> Lamp:
-        """The lamp that shines on it."""
-        looks = []
-        for view in (_light_view(i) for i in range(_LIGHTS)):
-            grid = Pixels.over(*self.box(view), _SHADOW_PIXELS)
-            looks.append((view, look(view.project(self.vertices), self.faces, grid)))
-        return Lamp(tuple(looks))
+    def lamp(self) -> Lights:
+        """The lamp that shines on it: a small disk of lights."""
+        return self._lights(
+            [_towards(_TO_LIGHT + _spread(i, _LIGHTS, _LAMP_WIDTH)) for i in range(_LIGHTS)], _SHADOW_PIXELS
+        )
+
+    @cached_property
+    def sky(self) -> Lights:
+        """The sky above it: lights in all directions, the higher the brighter."""
+        rings = [_spread(i, _SKY_LIGHTS, _SKY_RADIUS) for i in range(_SKY_LIGHTS)]
+        return self._lights(
+            [_towards(ring + np.array([0, 0, np.sqrt(1 - ring @ ring)])) for ring in rings], _SKY_PIXELS
+        )
+
+    def _lights(self, views: list[View], pixels: int) -> Lights:
+        grids = [Pixels.over(*self.box(view), pixels) for view in views]
+        return Lights(
+            tuple(look(view.project(self.vertices), self.faces, grid) for view, grid in zip(views, grids, strict=True)),
+            tuple(views),
+        )
 
 
 @dataclass(frozen=True, eq=False)
-class Lamp:
-    """A soft lamp: several lights close together, each with the depth buffer of what it sees."""
+class Lights:
+    """Distant lights, each with the depth buffer of what it sees."""
 
-    looks: tuple[tuple[View, Seen], ...]
+    looks: tuple[Seen, ...]
+    views: tuple[View, ...]
 
-    @property
-    def _slack(self) -> float:
-        return 2.5 * self.looks[0][1].pixels.size
-
-    def brightness(self, where: Floats, facing: Floats) -> Floats:
-        """Return the brightness of points with unit normals: the sky, and the lamp unless in its shadow."""
-        lamp = (facing @ self.looks[0][0].axes[2]).clip(0)
-        sky = 0.5 + 0.5 * facing[:, 2]
-        return np.asarray(0.32 + 0.30 * sky + 0.48 * lamp * (1 - self.shadow(where + self._slack * facing)))
-
-    def shadow(self, where: Floats) -> Floats:
-        """Return the share of the lights that each point does not see."""
+    def shadow(self, where: Floats, facing: Floats | None = None) -> Floats:
+        """Return the share of the lights that each point does not see; it may face a direction."""
+        slack = 2.5 * max(seen.pixels.size for seen in self.looks)
+        above = where if facing is None else where + slack * facing
         share = np.zeros(len(where))
-        for view, seen in self.looks:
-            projected = view.project(where)
-            share += seen.depth_at(projected) > projected[:, 2] + self._slack
+        for view, seen in zip(self.views, self.looks, strict=True):
+            projected = view.project(above)
+            share += seen.depth_at(projected) > projected[:, 2] + slack
         return share / len(self.looks)
 
 
-def _light_view(index: int) -> View:
-    """Spread the lights over a small disk by the golden angle."""
-    angle, radius = 2.399963 * index, _LAMP_WIDTH * np.sqrt(index / _LIGHTS)
-    x, y, z = _TO_LIGHT + radius * np.array([np.cos(angle), np.sin(angle), 0.0])
+def _spread(index: int, number: int, radius: float) -> Floats:
+    """Return one of some places spread evenly over a level disk, by the golden angle."""
+    angle = _GOLDEN_ANGLE * index
+    return np.asarray(radius * np.sqrt((index + 0.5) / number) * np.array([np.cos(angle), np.sin(angle), 0.0]))
+
+
+def _towards(direction: Floats) -> View:
+    x, y, z = direction
     return View.of(np.degrees(np.arctan2(y, x)), np.degrees(np.arctan2(z, np.hypot(x, y))))
+
+
+def _brightness(mesh: Mesh, where: Floats, facing: Floats) -> Floats:
+    """Return the brightness of points with unit normals: the sky as far as it is open, and the lamp unless hidden."""
+    lamp = (facing @ _towards(_TO_LIGHT).axes[2]).clip(0) * (1 - mesh.lamp.shadow(where, facing))
+    sky = (0.5 + 0.5 * facing[:, 2]) * (1 - 0.75 * mesh.sky.shadow(where, facing))
+    return np.asarray(0.34 + 0.36 * sky + 0.40 * lamp)
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,8 +156,8 @@ class Image:
         return np.asarray(nearest > projected[:, 2] + 4 * size)
 
 
-def shade(mesh: Mesh, view: View, pixels: int = 900) -> Image:
-    """Return a shaded image: blue above, warm below, lighter where higher, with soft shadows on itself and a floor.
+def shade(mesh: Mesh, view: View, pixels: int = 900, paint: Floats | None = None) -> Image:
+    """Return a shaded image, with soft shadows on itself and a floor, and a pale rim where it passes behind itself.
 
     Parameters
     ----------
@@ -141,6 +166,9 @@ def shade(mesh: Mesh, view: View, pixels: int = 900) -> Image:
         Where from.
     pixels : int
         Pixels along the longer side; each is the mean of four samples.
+    paint : (m, 3) float, optional
+        Colour of the upper side of each triangle; the lower one is paler. By default blue above, lighter where it is
+        higher, and warm below.
 
     Returns
     -------
@@ -155,7 +183,8 @@ def shade(mesh: Mesh, view: View, pixels: int = 900) -> Image:
     ((40, 40, 4), True)
     """
     seen = look(view.project(mesh.vertices), mesh.faces, _canvas(mesh, view, 2 * pixels))
-    return Image(_over(_average(_body(mesh, view, seen)), _floor(mesh, view, seen.pixels.halved())), view, seen)
+    body = _rimmed(_average(_body(mesh, view, seen, paint)), seen)
+    return Image(_over(body, _floor(mesh, view, seen.pixels.halved())), view, seen)
 
 
 def _canvas(mesh: Mesh, view: View, pixels: int) -> Pixels:
@@ -169,18 +198,49 @@ def _canvas(mesh: Mesh, view: View, pixels: int) -> Pixels:
     return Pixels.over(low - margin, high + margin, pixels)
 
 
-def _body(mesh: Mesh, view: View, seen: Seen) -> Floats:
+def _body(mesh: Mesh, view: View, seen: Seen, paint: Floats | None) -> Floats:
     """Return the lit surface, premultiplied by its opacity (0 or 1)."""
-    hit = seen.triangle >= 0
-    projected = np.concatenate([seen.pixels.centres()[hit], seen.depth[hit][:, None]], axis=1)
+    hit = np.flatnonzero(seen.triangle >= 0)
+    sample, which = _one_of_each_four(seen, hit)
+    triangle = seen.triangle.ravel()[sample]
+    projected = np.column_stack([seen.pixels.centres().reshape(-1, 2)[sample], seen.depth.ravel()[sample]])
     where = projected @ view.axes
-    normal = _smooth_normals(mesh, view, seen.triangle[hit], projected)
+    normal = _smooth_normals(mesh, view, triangle, projected)
     front = normal @ view.axes[2] > 0
     facing = np.where(front[:, None], normal, -normal)
-    lit = _cloth(mesh, where[:, 2], front) * mesh.lamp.brightness(where, facing)[:, None]
-    out = np.zeros((*hit.shape, 4))
-    out[hit] = np.concatenate([lit.clip(0, 1), np.ones((len(lit), 1))], axis=1)
-    return out
+    colour = _cloth(mesh, where[:, 2], front) if paint is None else _painted(paint[triangle], front)
+    lit = colour * _brightness(mesh, where, facing)[:, None]
+    out = np.zeros((seen.triangle.size, 4))
+    out[hit] = np.column_stack([lit.clip(0, 1), np.ones(len(lit))])[which]
+    return out.reshape(*seen.triangle.shape, 4)
+
+
+def _one_of_each_four(seen: Seen, hit: Ints) -> tuple[Ints, Ints]:
+    """Return one sample for each pixel and triangle seen in it, and which of them stands for each sample.
+
+    Light changes slowly along a triangle: samples of one pixel need not be lit one by one.
+    """
+    row, column = np.divmod(hit, seen.pixels.columns)
+    block = (row // 2) * ((seen.pixels.columns + 1) // 2) + column // 2
+    keys = block * (int(seen.triangle.max(initial=0)) + 1) + seen.triangle.ravel()[hit]
+    _, first, which = np.unique(keys, return_index=True, return_inverse=True)
+    return hit[first], which
+
+
+def _rimmed(body: Floats, seen: Seen) -> Floats:
+    """Pale the surface just behind the edges of what lies well before it, so that the two stand apart."""
+    from scipy.ndimage import gaussian_filter, maximum_filter, minimum_filter
+
+    depth, size = seen.depth[::2, ::2], 2 * seen.pixels.size
+    solid = np.isfinite(depth)
+    behind = minimum_filter(np.where(solid, depth, np.inf), 3)
+    edge = np.where(solid & (depth > behind + _STEEPEST * size), depth, -np.inf)
+    reach = max(round(_RIM * max(depth.shape)), 1)
+    y, x = np.mgrid[-reach : reach + 1, -reach : reach + 1]
+    nearest = maximum_filter(edge, footprint=x**2 + y**2 <= (reach + 0.5) ** 2)
+    far = solid & (nearest > np.where(solid, depth, np.inf) + _STEEPEST * reach * size / 2)
+    rim = _RIM_STRENGTH * gaussian_filter(far.astype(float), 0.6)[..., None]
+    return np.asarray(body * (1 - rim) + body[..., 3:] * rim)
 
 
 def _smooth_normals(mesh: Mesh, view: View, triangle: Ints, projected: Floats) -> Floats:
@@ -211,6 +271,10 @@ def _cloth(mesh: Mesh, height: Floats, front: Bools) -> Floats:
     return np.where(front[:, None], upper, np.array(rgb(BACK)))
 
 
+def _painted(colour: Floats, front: Bools) -> Floats:
+    return np.where(front[:, None], colour, 0.5 * colour + 0.5)
+
+
 def _average(image: Floats) -> Floats:
     """Average blocks of two by two."""
     rows, columns = image.shape[:2]
@@ -219,13 +283,28 @@ def _average(image: Floats) -> Floats:
 
 
 def _floor(mesh: Mesh, view: View, pixels: Pixels) -> Floats:
-    """Return the opacity of the shadow on a floor a little below the surface, as seen in each pixel."""
+    """Return the opacity of the shadow on a floor a little below the surface, as seen in each pixel.
+
+    The shadow is soft: one place in every few pixels is enough, with straight transitions between them.
+    """
     if view.axes[2, 2] < _FLATTEST:
         return np.zeros((pixels.rows, pixels.columns))
-    flat = pixels.centres().reshape(-1, 2) @ view.axes[:2]
+    coarse = Pixels(
+        pixels.origin, _FLOOR_STEP * pixels.size, *(n // _FLOOR_STEP + 2 for n in (pixels.columns, pixels.rows))
+    )
+    flat = coarse.centres().reshape(-1, 2) @ view.axes[:2]
     towards_eye = (mesh.floor - flat[:, 2]) / view.axes[2, 2]
     where = flat + towards_eye[:, None] * view.axes[2]
-    return _FLOOR_DARKNESS * mesh.lamp.shadow(where).reshape(pixels.rows, pixels.columns)
+    dark = mesh.lamp.shadow(where)
+    return _FLOOR_DARKNESS * _enlarged(dark.reshape(coarse.rows, coarse.columns), pixels)
+
+
+def _enlarged(coarse: Floats, pixels: Pixels) -> Floats:
+    """Return values at every pixel from those at every few, by straight interpolation each way."""
+    from scipy.ndimage import map_coordinates
+
+    rows, columns = (((np.arange(n) + 0.5) / _FLOOR_STEP - 0.5) for n in (pixels.rows, pixels.columns))
+    return np.asarray(map_coordinates(coarse, np.meshgrid(rows, columns, indexing="ij"), order=1, mode="nearest"))
 
 
 def _over(body: Floats, shadow: Floats) -> Floats:

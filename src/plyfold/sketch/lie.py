@@ -108,7 +108,7 @@ def _own_borders(disk: Immersion) -> list[list[int]]:
 
 
 def _layout(disk: Immersion) -> dict[str, Any]:
-    """Return the disk layout in the unit disk, as :func:`plyfold.draw.plots.plot_disk_layout` draws it."""
+    """Return the disk layout in the unit disk, as :func:`plyfold.draw.plot_layout` draws it."""
     circle = BorderCircle(disk.arrangement.n_borders)
     return {
         "borders": [_rounded(circle.arc(border)) for border in range(disk.arrangement.n_borders)],

@@ -1,0 +1,119 @@
+"""The curve with its crossings, borders and cells, shaded by winding number."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from plyfold.arrangement import Arrangement
+from plyfold.arrangement import arrangement as arrangement_of
+from plyfold.arrangement.core import CurveLike
+from plyfold.arrays import Floats
+from plyfold.draw.canvas import blank, closed, dots, line, note_below, polygon, write, write_below
+from plyfold.draw.colours import ACCENT, INK, OBSTRUCTION, mix, text_colour, winding_colour
+from plyfold.draw.places import Frame, arrows, border_middle, label_circle, line_weight
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from plyfold.obstruction import Obstruction
+
+__all__ = ["drawn_points", "plot_arrangement"]
+
+Places = tuple[tuple[float, float], ...]
+
+MOST_NUMBERS = 60
+
+
+def plot_arrangement(
+    curve: CurveLike,
+    ax: Axes | None = None,
+    *,
+    obstruction: Obstruction | None = None,
+    borders: bool = False,
+) -> Axes:
+    """Draw the curve with its cells shaded by winding number.
+
+    Parameters
+    ----------
+    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    ax : matplotlib Axes, optional
+        Where to draw; by default on a new figure.
+    obstruction : Obstruction, optional
+        Mark its places by red crosses and put its sentence below.
+    borders : bool
+        Number the borders, up to 60 of them; a note says if there are more.
+
+    Returns
+    -------
+    matplotlib Axes
+        Winding numbers are left out where a cell has no room for them.
+
+    Examples
+    --------
+    >>> ax = plot_arrangement([(0, 0), (2, 2), (2, 0), (0, 2)])
+    >>> sorted(text.get_text() for text in ax.texts)
+    ['1', '−1']
+    """
+    arrangement = arrangement_of(curve)
+    axes, points = blank(ax), drawn_points(arrangement)
+    frame = Frame(points)
+    _fill_cells(axes, arrangement, frame)
+    weight = line_weight(arrangement.n_crossings)
+    line(axes, closed(frame(points)), INK, 1.6 * weight)
+    _arrowheads(axes, arrangement, frame)
+    rim = {"edgecolors": "white", "linewidths": 0.6 * weight, "zorder": 4}
+    dots(axes, frame(arrangement.crossings), ACCENT, 16 * weight**2, **rim)
+    _winding_numbers(axes, arrangement, frame, () if obstruction is None else obstruction.where)
+    if borders:
+        _border_numbers(axes, arrangement, frame)
+    if obstruction is not None:
+        _mark(axes, obstruction, frame)
+    return axes
+
+
+def drawn_points(arrangement: Arrangement) -> Floats:
+    """Return the points of the curve; raises the arrangement's own error if there is no drawing."""
+    return arrangement.border_points(0) if arrangement.curve is None else arrangement.curve.points
+
+
+def _fill_cells(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
+    for cell in range(1, arrangement.n_cells):
+        winding = int(arrangement.winding[cell])
+        if winding:
+            polygon(axes, frame(arrangement.cell_outline(cell)), winding_colour(winding))
+
+
+def _arrowheads(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
+    for place, (dx, dy) in arrows(arrangement):
+        (tip,) = frame(place)
+        head = np.array([(0.018, 0), (-0.012, 0.0135), (-0.012, -0.0135)]) @ np.array([(dx, dy), (-dy, dx)])
+        polygon(axes, tip + head, INK, zorder=3)
+
+
+def _winding_numbers(axes: Axes, arrangement: Arrangement, frame: Frame, marked: Places) -> None:
+    """Write the winding number into every cell that has room for it, unless a marked place takes the room."""
+    for cell in range(1, arrangement.n_cells):
+        x, y, radius = label_circle(arrangement, cell)
+        size = min(12.0, 260 * radius / frame.size)
+        if size >= 4 and not any(np.hypot(x - a, y - b) < radius for a, b in marked):
+            winding = int(arrangement.winding[cell])
+            colour = text_colour(winding_colour(winding))
+            write(axes, frame((x, y))[0], f"{winding}".replace("-", "−"), size, color=colour)
+
+
+def _border_numbers(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
+    if arrangement.n_borders > MOST_NUMBERS:
+        note_below(axes, f"{arrangement.n_borders} borders, too many to number")
+    for border in range(arrangement.n_borders if arrangement.n_borders <= MOST_NUMBERS else 0):
+        place, (dx, dy) = border_middle(arrangement.border_points(border))
+        x, y = frame(place)[0] + 0.026 * np.array([dy, -dx])
+        write(axes, (x, y), str(border), 6.5, color=mix(INK, "#ffffff", 0.25))
+
+
+def _mark(axes: Axes, obstruction: Obstruction, frame: Frame) -> None:
+    places = frame(obstruction.where)
+    for width, colour in ((5.5, "white"), (2.6, OBSTRUCTION)):
+        dots(axes, places, colour, 130, marker="x", linewidths=width, zorder=6)
+    write_below(axes, str(obstruction))

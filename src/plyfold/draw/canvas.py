@@ -1,0 +1,83 @@
+"""The canvas of all pictures with matplotlib: empty axes, lines, fills, dots, words, and small axes inside large ones.
+
+New figures are not registered with pyplot: nothing pops up, and nothing has to be closed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from plyfold.arrays import Floats
+from plyfold.draw.colours import INK, OBSTRUCTION
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["blank", "closed", "dots", "grid", "line", "note_below", "polygon", "write", "write_below"]
+
+T = TypeVar("T", bound=np.generic)
+
+
+def blank(ax: Axes | None, size: tuple[float, float] = (5.0, 5.0)) -> Axes:
+    """Return empty axes of equal scale without a frame: the given ones, or those of a new figure of some size."""
+    if ax is None:
+        from matplotlib.figure import Figure
+
+        ax = Figure(figsize=size, layout="constrained").subplots()
+    ax.set_aspect("equal", adjustable="datalim")
+    ax.set_axis_off()
+    return ax
+
+
+def closed(points: npt.NDArray[T]) -> npt.NDArray[T]:
+    """Return points with the first one repeated at the end."""
+    return np.concatenate([points, points[:1]])
+
+
+def polygon(axes: Axes, points: Floats, colour: str, **style: Any) -> None:
+    """Fill a polygon."""
+    axes.fill(points[:, 0], points[:, 1], **{"facecolor": colour, "edgecolor": "none", "zorder": 1, **style})
+
+
+def line(axes: Axes, points: Floats, colour: str, width: float, **style: Any) -> None:
+    """Draw a polyline of some width in points."""
+    joined = {"solid_joinstyle": "round", "solid_capstyle": "butt", "zorder": 2}
+    axes.plot(points[:, 0], points[:, 1], color=colour, linewidth=width, **{**joined, **style})
+
+
+def dots(axes: Axes, points: Floats, colour: str, size: float, **style: Any) -> None:
+    """Draw dots, or other markers, of some area in square points."""
+    axes.scatter(points[:, 0], points[:, 1], s=size, color=colour, **style)
+
+
+def write(axes: Axes, place: Iterable[float], text: str, size: float, **style: Any) -> None:
+    """Write words of some size in points."""
+    x, y = place
+    middle = {"color": INK, "ha": "center", "va": "center_baseline", "zorder": 5}
+    axes.text(x, y, text, fontsize=size, **{**middle, **style})
+
+
+def write_below(axes: Axes, sentence: str) -> None:
+    """Write why something does not exist below the drawing."""
+    note_below(axes, sentence, 9.5, OBSTRUCTION)
+
+
+def note_below(axes: Axes, sentence: str, size: float = 8.0, colour: str = INK) -> None:
+    """Write a sentence below the drawing, for example what it leaves out."""
+    write(axes, (0.5, -0.02), sentence, size, transform=axes.transAxes, color=colour, va="top", wrap=True)
+
+
+def grid(axes: Axes, rows: int, columns: int, gap: float = 0.04) -> list[list[Axes]]:
+    """Return small axes in rows inside large ones, the upper row first."""
+    width, height = 1 / columns, 1 / rows
+    return [
+        [
+            axes.inset_axes((column * width, 1 - (row + 1) * height, (1 - gap) * width, (1 - 2 * gap) * height))
+            for column in range(columns)
+        ]
+        for row in range(rows)
+    ]
