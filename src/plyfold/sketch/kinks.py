@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import islice
+from itertools import combinations, islice
 from typing import NamedTuple
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement, arrangement
+from plyfold.arrangement import Arrangement
 from plyfold.arrangement.loops import loop_turning_numbers
-from plyfold.arrays import Floats
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.curve import Curve
 from plyfold.errors import PlyfoldError
 from plyfold.immersion import bounds_disk
 
 __all__ = ["Kink", "find_kink", "place_of_turning"]
 
-_MOST_TRIED = 24
-_MOST_TRIED_IN_PAIRS = 5
+# How many of the shortest loops are looked at, and how many are left out in earnest, one or two at a time.
+_MOST_LOOPS = 64
+_MOST_IN_PAIRS = 24
+_MOST_TRIED = 16
 _MOST_CROSSINGS_DECIDED = 4000  # by all tries together
 
 
@@ -52,8 +55,13 @@ def find_kink(drawn: Arrangement) -> Kink | None:
     Returns
     -------
     Kink or None
-        What is left has been decided anew. The 24 shortest loops are tried that leave a curve which turns once, and, if
-        none of them will do, pairs of the five shortest ones; fewer where the curve has hundreds of crossings.
+        What is left has been decided anew. Of the 64 shortest loops, and then of pairs of the 24 shortest, those come
+        in question that leave a curve which turns once and has no negative winding number. The first sixteen of them
+        are tried, fewer where the curve has hundreds of crossings.
+
+    Notes
+    -----
+    A few milliseconds for 30 crossings.
 
     Examples
     --------
@@ -62,32 +70,30 @@ def find_kink(drawn: Arrangement) -> Kink | None:
     >>> curl.turning_number, find_kink(curl).places
     (2, ((5.0, 0.0),))
     """
-    return _single(drawn, _MOST_TRIED) or _pair(drawn)
+    loops = _loops(drawn)[:_MOST_LOOPS]
+    inside = np.array([_is_inside(drawn, loop) for loop in loops]).reshape(len(loops), drawn.n_borders)
+    winding = _windings(drawn, inside)
+    kinks = (
+        _without(drawn, [loops[i] for i in chosen], np.logical_not(inside[chosen].any(axis=0)))
+        for chosen in _choices(loops, inside)
+        if _may_leave_disk(drawn, sum(loops[i].turning for i in chosen), winding[chosen].sum(axis=0))
+    )
+    tried = islice(kinks, min(_MOST_TRIED, _MOST_CROSSINGS_DECIDED // max(drawn.n_crossings, 1)))
+    return next((kink for kink in tried if _is_disk(kink.rest)), None)
 
 
-def _single(drawn: Arrangement, most: int) -> Kink | None:
-    tried = min(most, _MOST_CROSSINGS_DECIDED // max(drawn.n_crossings, 1))
-    loops = (loop for loop in _loops(drawn) if abs(drawn.turning_number - loop.turning) == 1)
-    kinks = (_without(drawn, loop) for loop in islice(loops, tried))
-    return next((kink for kink in kinks if _is_disk(kink.rest)), None)
+def _choices(loops: list[_Loop], inside: Bools) -> Iterator[list[int]]:
+    """Yield the numbers of what may be left out: each loop, then pairs without a common border, the shortest first."""
+    yield from ([i] for i in range(len(loops)))
+    pairs = [list(pair) for pair in combinations(range(len(loops))[:_MOST_IN_PAIRS], 2)]
+    apart = [pair for pair in pairs if not inside[pair].all(axis=0).any()]
+    yield from sorted(apart, key=lambda pair: sum(loops[i].length for i in pair))
 
 
-def _pair(drawn: Arrangement) -> Kink | None:
-    """Leave out one of the shortest loops, whatever is left, and look for another one."""
-    tried = min(_MOST_TRIED_IN_PAIRS, _MOST_CROSSINGS_DECIDED // (5 * max(drawn.n_crossings, 1)))
-    for loop in islice(_loops(drawn), tried):
-        first = _without(drawn, loop)
-        second = _single_of(first.rest)
-        if second is not None:
-            return Kink(first.places + second.places, first.loops + second.loops, second.rest)
-    return None
-
-
-def _single_of(points: Floats) -> Kink | None:
-    try:
-        return _single(arrangement(Curve(points)), _MOST_TRIED_IN_PAIRS)
-    except PlyfoldError:  # what is left is no curve at all
-        return None
+def _may_leave_disk(drawn: Arrangement, turning: int, winding: Ints) -> bool:
+    """Tell whether the curve without loops, given how often these turn and wind, turns once and winds one way only."""
+    left = drawn.turning_number - turning
+    return abs(left) == 1 and bool((left * (drawn.winding - winding) >= 0).all())
 
 
 def place_of_turning(drawn: Arrangement) -> tuple[tuple[float, float], ...]:
@@ -128,17 +134,47 @@ def _places_along(drawn: Arrangement) -> tuple[Floats, float]:
     return np.concatenate([[0.0], ends[:-1]]), float(ends[-1])
 
 
-def _without(drawn: Arrangement, loop: _Loop) -> Kink:
-    rest = _between(drawn, loop.last, loop.first)
-    return Kink((_crossing(drawn, loop.first),), (_between(drawn, loop.first, loop.last),), rest)
+def _is_inside(drawn: Arrangement, loop: _Loop) -> Bools:
+    """Tell of each border whether the loop has it."""
+    along = (np.arange(drawn.n_borders) - loop.first) % drawn.n_borders
+    return np.asarray(along < (loop.last - loop.first) % drawn.n_borders)
 
 
-def _between(drawn: Arrangement, start: int, end: int) -> Floats:
-    """Return the curve from one visit to a crossing to the other, which closes there."""
-    count = (end - start) % drawn.n_borders
-    borders = [drawn.border_points((start + i) % drawn.n_borders) for i in range(count)]
-    # Of the crossings on the way only the first stays: the others are rounded, and would bend the edges they lie on.
-    return np.concatenate([borders[0][:1], *(border[1:-1] for border in borders)])
+def _windings(drawn: Arrangement, inside: Bools) -> Ints:
+    """Return how often loops wind around each cell, shape (loops, cells): left of their borders once more."""
+    winding = np.zeros((len(inside), drawn.n_cells), dtype=np.int64)
+    reached, waiting = {0}, [0]
+    cell_of = drawn.cell_of_dart.tolist()
+    while waiting:
+        cell = waiting.pop()
+        for dart in drawn.cells[cell]:
+            beyond = cell_of[dart ^ 1]
+            if beyond not in reached:
+                reached.add(beyond)
+                waiting.append(beyond)
+                winding[:, beyond] = winding[:, cell] + (1 if dart % 2 else -1) * inside[:, dart // 2]
+    return winding
+
+
+def _without(drawn: Arrangement, loops: list[_Loop], kept: Bools) -> Kink:
+    places = tuple(_crossing(drawn, loop.first) for loop in loops)
+    left_out = tuple(
+        _along(drawn, (loop.first + np.arange(drawn.n_borders)), _is_inside(drawn, loop)) for loop in loops
+    )
+    return Kink(places, left_out, _along(drawn, np.arange(drawn.n_borders), kept))
+
+
+def _along(drawn: Arrangement, order: Ints, kept: Bools) -> Floats:
+    """Return the curve along the borders that are kept, with corners where others are left out.
+
+    Of the crossings only these corners stay: the others are rounded, and would bend the edges they lie on.
+    """
+    pieces = []
+    for border in (order % drawn.n_borders).tolist():
+        if kept[border]:
+            points = drawn.border_points(border)
+            pieces.append(points[1 if kept[border - 1] else 0 : -1])
+    return np.concatenate(pieces)
 
 
 def _crossing(drawn: Arrangement, visit: int) -> tuple[float, float]:
