@@ -124,7 +124,7 @@ function paintDirection({ context, theme, at }, points, closed) {
 function paintAnswer(scene) {
   const { answer, lie, theme } = scene;
   const { kink, where } = answer.verdict;
-  if (kink) line(scene, kink.loop, { closed: true, colour: theme.wrong, width: 4 });
+  kink?.loops.forEach((loop) => line(scene, loop, { closed: true, colour: theme.wrong, width: 4 }));
   answer.crossings.forEach((place) => paintDot(scene, place, 3, theme.accent));
   answer.cells.forEach((cell) => paintNumber(scene, cell));
   [...where, ...(lie?.obstruction?.where ?? [])].forEach((place) => paintCross(scene, place));
