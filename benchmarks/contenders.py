@@ -1,4 +1,6 @@
-"""What is timed, each in a process of its own: ``python contenders.py NAME POINTS.npy`` prints one JSON line per stage.
+"""What is timed, each in a process of its own: ``python contenders.py NAME POINTS.npy [--plain]`` prints one JSON line per stage.
+
+If numba is installed, it is imported first, and plyfold's loops run in machine code; with ``--plain`` in plain Python.
 
 A line has "stage" and "seconds" (the best of the runs so far), facts about the curve, and "megabytes": how much the
 peak of memory has grown since a small curve was worked through, which loads all modules.
@@ -7,6 +9,7 @@ peak of memory has grown since a small curve was worked through, which loads all
 from __future__ import annotations
 
 import gc
+import importlib.util
 import json
 import resource
 import sys
@@ -113,6 +116,8 @@ def measure(steps: Callable[[Points], Iterator[Step]], points: Points) -> Iterat
     """Yield the stages as they finish, then again better times while repeats are cheap."""
     for _ in steps(np.array(SMALL_RAMP, dtype=np.float64)):
         pass
+    # The collector need not walk through all modules before every run, which would empty the processor's caches.
+    gc.freeze()
     best: dict[str, float] = {}
     idle, begun = peak_megabytes(), time.perf_counter()
     for _ in range(REPEATS):
@@ -125,7 +130,11 @@ def measure(steps: Callable[[Points], Iterator[Step]], points: Points) -> Iterat
 
 def main() -> None:
     """Print the lines; what a contender raises becomes its last line."""
-    name, file = sys.argv[1:]
+    name, file, *options = sys.argv[1:]
+    if "--plain" in options:
+        sys.modules["numba"] = None  # type: ignore[assignment]  # as if it were not installed
+    elif importlib.util.find_spec("numba"):
+        importlib.import_module("numba")
     try:
         for line in measure(CONTENDERS[name], np.load(file)):
             print(json.dumps(line), flush=True)

@@ -86,7 +86,8 @@ def measure(row: Row, options: argparse.Namespace, clock: Clock, tired: set[str]
                 row.add(contender.name, contender.measure(points.with_suffix(".txt"), clock.left()))
                 continue
             limit = min(clock.left(), SHARES.get(contender, 1.0) * options.budget)
-            for line in lines_of([str(HERE / "contenders.py"), contender, str(points)], limit):
+            words = [str(HERE / "contenders.py"), contender, str(points), *(["--plain"] if options.plain else [])]
+            for line in lines_of(words, limit):
                 row.add(contender, line)
     tired.update(row.failures)
 
@@ -134,6 +135,7 @@ def arguments() -> argparse.Namespace:
     )
     parser.add_argument("--reference-up-to", type=int, default=REFERENCE_UP_TO, metavar="N")
     parser.add_argument("--lift-up-to", type=int, default=LIFT_UP_TO, metavar="N")
+    parser.add_argument("--plain", action="store_true", help="without numba, as where it is not installed")
     parser.add_argument("--docs", action="store_true", help="write the tables and the plot into docs/")
     return parser.parse_args()
 

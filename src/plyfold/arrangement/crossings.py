@@ -144,17 +144,17 @@ def order_visits(points: Floats, contacts: Contacts) -> Visits:
         Exact: visits whose order rounding could change are sorted again with fractions.
         Cost: O(k log k).
     """
-    ends = edge_ends(points)
     k = len(contacts.edges)
     edge, other = contacts.edges.T.ravel(), contacts.edges[:, ::-1].T.ravel()
-    own, crossed = ends[edge], ends[other]
-    parameter, error = parameter_along_edge(own[:, 0], own[:, 1], crossed[:, 0], crossed[:, 1])
+    start, end = points[edge], points[(edge + 1) % len(points)]
+    across = np.arange(2 * k) - k  # the other visit to the same crossing
+    parameter, error = parameter_along_edge(start, end, start[across], end[across])
     order = np.argsort(_sorting_key(edge, parameter, len(points)))
     runs = _unsure_runs(edge[order], parameter[order], error[order])
-    triple = [three for run in runs for three in _sort_exactly(order[run], edge, other, ends)]
+    triple = [three for run in runs for three in _sort_exactly(points, order[run], edge, other)]
     rank = np.empty(2 * k, dtype=np.int64)
     rank[order] = np.arange(2 * k)
-    crossing = own[:k, 0] + parameter[:k, None] * (own[:k, 1] - own[:k, 0])
+    crossing = start[:k] + parameter[:k, None] * (end[:k] - start[:k])
     return Visits(
         edge=edge[order],
         partner=rank[np.where(order < k, order + k, order - k)],
@@ -190,9 +190,10 @@ def _runs(start: int, parameter: Floats, error: Floats) -> Iterator[slice]:
     return (slice(start + low, start + high) for low, high in pairwise(cuts) if high - low > 1)
 
 
-def _sort_exactly(visits: Ints, edge: Ints, other: Ints, ends: Floats) -> list[tuple[int, int, int]]:
+def _sort_exactly(points: Floats, visits: Ints, edge: Ints, other: Ints) -> list[tuple[int, int, int]]:
     """Sort some visits on one edge in place; return the triples of edges that meet."""
-    e = int(edge[visits[0]])
-    place = {v: exact_parameter(*ends[e], *ends[other[v]]) for v in visits.tolist()}
+    e, n = int(edge[visits[0]]), len(points)
+    own = points[e], points[(e + 1) % n]
+    place = {v: exact_parameter(*own, points[other[v]], points[(other[v] + 1) % n]) for v in visits.tolist()}
     visits[:] = sorted(place, key=lambda v: (place[v], other[v]))
     return [(e, int(other[v]), int(other[w])) for v, w in pairwise(visits.tolist()) if place[v] == place[w]]

@@ -17,6 +17,9 @@ import numpy as np
 from plyfold.arrays import Ints
 from plyfold.compiled import called_from_loops
 
+# Multiples of this, without their whole parts, are spread evenly.
+_GOLDEN = (5**0.5 - 1) / 2
+
 __all__ = ["SkipList", "empty_skip_list", "link_above", "unlink"]
 
 
@@ -31,7 +34,8 @@ class SkipList(NamedTuple):
 def empty_skip_list(nodes: int) -> SkipList:
     """Return a list without nodes that has room for some, numbered from 1 on."""
     levels = max(1, (nodes.bit_length() + 1) // 2)
-    height = np.minimum(np.random.default_rng(0).geometric(0.75, nodes + 1) - 1, levels - 1)
+    scattered = np.arange(1, nodes + 2) * _GOLDEN % 1
+    height = np.minimum(-np.log(scattered) / np.log(4), levels - 1).astype(np.int64)
     height[0] = levels - 1
     links = np.zeros((2, levels * (nodes + 1)), dtype=np.int64)
     return SkipList(links[0], links[1], height)

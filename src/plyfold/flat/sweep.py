@@ -131,8 +131,9 @@ def sweep_triangles(immersion: Immersion) -> Ints:
     assert immersion.arrangement.curve is not None
     points = immersion.arrangement.curve.points
     drawing = _drawing(immersion, points)
-    rank, n = drawing.rank, len(points)
-    starts = int(((np.roll(rank, 1) > rank) & (np.roll(rank, -1) > rank)).sum())
+    n = len(points)
+    ahead = np.diff(drawing.rank, append=drawing.rank[:1]) > 0
+    starts = int((ahead[1:] > ahead[:-1]).sum()) + int(ahead[0] > ahead[-1])
     places = as_places(points)
     given, output = (
         (places, drawing, *_room(n, starts)),

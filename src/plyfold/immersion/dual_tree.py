@@ -16,11 +16,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from plyfold.arrangement import Arrangement
 from plyfold.arrays import Ints
+from plyfold.compiled import called_from_loops, run_loop
 
 __all__ = ["DualTree", "around_cells", "grow_dual_tree"]
 
@@ -158,28 +160,48 @@ def _join_lakes(arrangement: Arrangement, pit: Ints) -> list[tuple[int, int, int
     left, right = arrangement.left_cell, arrangement.right_cell
     between = np.flatnonzero(pit[left] != pit[right])
     rising = between[np.argsort(arrangement.winding[left[between]], kind="stable")]
-    columns = (rising, left[rising], right[rising], pit[left[rising]], pit[right[rising]])
+    lakes = _Shores(pit[left[rising]], pit[right[rising]], np.arange(arrangement.n_cells))
+    kept = run_loop(_join, len(rising), (lakes,), _Joins(np.zeros(len(rising), dtype=np.int64))).joins
+    saddles = rising[np.flatnonzero(kept)]
+    columns = (saddles, left[saddles], right[saddles], pit[left[saddles]], pit[right[saddles]])
     shores: dict[int, list[tuple[int, int, int, int]]] = {}
-    for border, cell, other, lake, other_lake in _spanning(list(zip(*(c.tolist() for c in columns), strict=True))):
+    for border, cell, other, lake, other_lake in zip(*(column.tolist() for column in columns), strict=True):
         shores.setdefault(lake, []).append((border, cell, other, other_lake))
         shores.setdefault(other_lake, []).append((border, other, cell, lake))
     return list(_from_root(shores, int(pit[0])))
 
 
-def _spanning(borders: list[tuple[int, ...]]) -> Iterator[tuple[int, ...]]:
-    """Yield the borders, last entries two lakes, that join two lakes not joined before (Kruskal)."""
-    joined: dict[int, int] = {}
+class _Shores(NamedTuple):
+    """The lakes on both sides of some borders; and a lake that each lake has been joined to, at first itself."""
 
-    def representative(lake: int) -> int:
-        while (further := joined.get(lake, lake)) != lake:
-            joined[lake] = lake = joined.get(further, further)
-        return lake
+    lake: Ints
+    other: Ints
+    joined: Ints
 
-    for border in borders:
-        here, there = representative(border[-2]), representative(border[-1])
+
+class _Joins(NamedTuple):
+    """1 for each border that joins two lakes, else 0."""
+
+    joins: Ints
+
+
+def _join(given: tuple[_Shores], results: _Joins) -> int:
+    """Join the lakes on both sides of each border, one after another, unless they are joined already (Kruskal)."""
+    lake, other, joined = given[0]
+    for border in range(len(lake)):
+        here, there = _joined_lake(joined, lake[border]), _joined_lake(joined, other[border])
         if here != there:
             joined[here] = there
-            yield border
+            results.joins[border] = 1
+    return len(lake)
+
+
+@called_from_loops
+def _joined_lake(joined: Ints, lake: int) -> int:
+    """Return the lake that stands for all that were joined to a lake; the way there is halved for the next time."""
+    while joined[lake] != lake:
+        joined[lake] = lake = joined[joined[lake]]
+    return lake
 
 
 def _from_root(shores: dict[int, list[tuple[int, int, int, int]]], root: int) -> Iterator[tuple[int, int, int]]:
