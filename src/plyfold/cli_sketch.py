@@ -6,7 +6,6 @@ import argparse
 import signal
 import sys
 import threading
-import webbrowser
 from typing import Any, NoReturn
 
 from plyfold.errors import InputError
@@ -52,11 +51,17 @@ def _sketch(options: argparse.Namespace) -> int:
         server = _listening(options.host, options.port, workers, beginning)
         print(f"Drawing at {server.address}  (Ctrl-C ends it)", flush=True)
         if not options.no_browser:
-            threading.Thread(target=webbrowser.open, args=(server.address,), daemon=True).start()
+            threading.Thread(target=_open_browser, args=(server.address,), daemon=True).start()
         _serve(server)
     finally:
         workers.close()
     return 0
+
+
+def _open_browser(address: str) -> None:
+    import webbrowser
+
+    webbrowser.open(address)
 
 
 def _serve(server: Any) -> None:

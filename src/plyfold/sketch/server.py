@@ -10,6 +10,7 @@ import socket
 import sys
 from email.message import Message
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from socketserver import TCPServer
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -50,6 +51,7 @@ class SketchServer(ThreadingHTTPServer):
     """
 
     daemon_threads = True
+    allow_reuse_address = sys.platform != "win32"  # there it would let two servers share a port
 
     def __init__(self, host: str, port: int, workers: Workers, start: Answer) -> None:
         self.workers, self.start, self.name = workers, start, host
@@ -61,6 +63,11 @@ class SketchServer(ThreadingHTTPServer):
         """The page's address."""
         host = f"[{self.name}]" if ":" in self.name else self.name
         return f"http://{host}:{self.server_port}/"
+
+    def server_bind(self) -> None:
+        """Bind without asking the network what the host is called, as the parent class does."""
+        TCPServer.server_bind(self)
+        self.server_name, self.server_port = str(self.server_address[0]), int(self.server_address[1])
 
     def handle_error(self, request: Any, client_address: Any) -> None:
         """Say nothing of pages that went away in the middle of a sentence; tell the terminal of anything else."""

@@ -26,7 +26,7 @@ __all__ = ["Question", "Workers"]
 
 _WAITING = 2
 _MOST = 8
-_MOST_MEMORY = 4 * 2**30
+_MOST_MEMORY = 3 * 2**30
 _ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 _SUPERSEDED = error_answer("superseded", "a newer question took the place of this one")
