@@ -21,7 +21,7 @@ from plyfold.arrays import Floats, Ints
 from plyfold.errors import PrecisionError
 from plyfold.predicates import orient
 
-__all__ = ["boundary_angles", "round_map"]
+__all__ = ["boundary_angles", "cotangents", "round_map"]
 
 # Pieces of the boundary count as at least this share of it: with shorter ones, doubles would hold no circle.
 _SHORTEST_SHARE = 1e-7
@@ -68,7 +68,7 @@ def round_map(points: Floats, faces: Ints, boundary: Ints) -> Floats:
     disk[boundary] = np.column_stack([np.cos(angle), np.sin(angle)])
     inner = np.setdiff1d(np.arange(len(points)), boundary)
     flipped = np.empty(0, dtype=np.int64)
-    for weights in (_cotangents, _mean_values, _equal):
+    for weights in (cotangents, _mean_values, _equal):
         if len(inner):
             disk[inner] = _weighted_means(weights(unit[faces]), faces, disk, inner)
         flipped = np.flatnonzero(orient(*disk[faces].swapaxes(0, 1)) <= 0)
@@ -119,7 +119,7 @@ def _solved(matrix: Any, right: Floats) -> Floats:
     return np.asarray(solution + factors.solve(right - matrix @ solution))
 
 
-def _cotangents(corners: Floats) -> Floats:
+def cotangents(corners: Floats) -> Floats:
     """Return half the cotangent of each angle, both ways along the side opposite it."""
     following, preceding = _sides(corners)
     cotangent = (following * preceding).sum(axis=-1) / _cross(following, preceding)
