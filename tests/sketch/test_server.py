@@ -6,10 +6,14 @@ import signal
 import socket
 import threading
 import time
+from base64 import b64encode
+from hashlib import sha256
 from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
+
+from plyfold.sketch.pages import _policy
 
 RAMP = [[0, 0], [9, 0], [9, 6], [3, 6], [3, -3], [4, -3], [4, 5], [8, 5], [8, 1], [0, 1]]
 # Three million crossings: many seconds of work, whatever the machine.
@@ -71,6 +75,19 @@ def test_every_answer_has_the_headers_that_keep_the_page_to_itself(server, path)
     assert headers["X-Content-Type-Options"] == "nosniff"
     assert headers["Cross-Origin-Resource-Policy"] == "same-origin"
     assert "Access-Control-Allow-Origin" not in headers
+
+
+def test_inline_scripts_are_allowed_by_their_hashes_and_no_others():
+    page = b"<script src='a.js'></script><script>let a = 1;\n</script><p><script type='importmap'>{}</script>"
+    first, second = (b64encode(sha256(text).digest()).decode() for text in (b"let a = 1;\n", b"{}"))
+    assert f"script-src 'self' 'sha256-{first}' 'sha256-{second}';" in _policy(page)
+    assert "script-src 'self';" in _policy(b"<script src='a.js'></script>")
+
+
+def test_the_page_is_served_with_the_policy_for_its_own_scripts(server):
+    reply = server.get("/")
+    assert reply.headers["Content-Type"].startswith("text/html")
+    assert reply.headers["Content-Security-Policy"] == _policy(reply.body)
 
 
 # ---- who is refused --------------------------------------------------------------------------------------------------
