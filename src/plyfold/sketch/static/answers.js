@@ -1,0 +1,78 @@
+// What the server says of the drawing: three questions, each asked as soon as the one before is answered. The newest
+// drawing wins: whatever is still on its way for an older one is cancelled.
+
+import { isAnswered, shown } from "./store.js";
+
+const PAGE = crypto.getRandomValues(new Uint32Array(2)).join("-");
+const TRIANGLES = 3000;
+const AWAY = { kind: "away", where: [], hint: "start plyfold sketch again; the drawing is kept in this browser" };
+
+/** Ask the server. @returns its answer, or one with an error; null if the question was cancelled. */
+export async function ask(question, body, signal) {
+  try {
+    const headers = { "Content-Type": "application/json", "X-Plyfold-Page": PAGE };
+    const response = await fetch(`/api/v1/${question}`, { method: "POST", headers, body: JSON.stringify({ version: 1, ...body }), signal });
+    const answer = await response.json();
+    return answer.error?.kind === "superseded" ? null : answer;
+  } catch (error) {
+    if (error.name === "AbortError") return null;
+    return { error: { ...AWAY, sentence: "plyfold does not answer" } };
+  }
+}
+
+/** Keep the answers in the store up to date with the drawing and with what is asked about it. */
+export function followAnswers(store, question = ask) {
+  let running = new AbortController();
+  const restart = (start) => {
+    running.abort();
+    running = new AbortController();
+    start(store, question, running.signal).catch((error) => store.set({ notice: { text: String(error), actions: [] } }));
+  };
+  store.follow((state, before) => {
+    if (shown(state).strokes !== shown(before).strokes) restart(look);
+    else if (state.lie && state.lie === before.lie && asksOtherwise(state)) restart(isAnswered(state) ? lie : look);
+    else if (state.lie && state.gap !== before.gap) restart(isAnswered(state) ? lift : look);
+  });
+  if (shown(store.state).strokes.length) restart(look);
+}
+
+const asksOtherwise = ({ lie: known, immersion, layering }) => known.immersion !== immersion || known.layering !== layering;
+const NOTHING = { answer: null, answered: null, lie: null, mesh: null, unlifted: null, asking: false };
+
+async function look(store, question, signal) {
+  const document = shown(store.state);
+  if (!document.strokes.length) return store.set(NOTHING);
+  store.set({ asking: true });
+  const answer = await question("look", { strokes: document.strokes }, signal);
+  if (!answer || signal.aborted) return undefined;
+  const same = answer.gauss !== undefined && answer.gauss === store.state.answer?.gauss;
+  const disk = answer.verdict?.immersible;
+  const { immersion, layering } = same || !store.state.answer ? store.state : { immersion: "0", layering: "0" };
+  const gone = disk ? {} : { mesh: null, unlifted: null };
+  store.set({ answer, answered: document, lie: same ? store.state.lie : null, asking: Boolean(disk), immersion, layering, ...gone });
+  return disk ? lie(store, question, signal) : undefined;
+}
+
+async function lie(store, question, signal) {
+  const { answer, immersion, layering, lie: former } = store.state;
+  if (!answer?.points) return;
+  const before = former && former.immersion !== immersion ? former.immersion : null;
+  const found = await question("lie", { points: answer.points, immersion, layering, before }, signal);
+  if (!found || signal.aborted) return;
+  if (found.error) {
+    store.set({ lie: null, mesh: null, unlifted: found.error.sentence, asking: false });
+    return;
+  }
+  store.set({ lie: found, immersion: found.immersion ?? immersion, layering: found.layering ?? layering });
+  await lift(store, question, signal);
+}
+
+async function lift(store, question, signal) {
+  const { answer, lie: found, immersion, layering, gap } = store.state;
+  if (!found?.layout) return store.set({ asking: false });
+  const body = { points: answer.points, immersion, layering, gap, triangles: TRIANGLES, allow_intersections: found.layerable === false };
+  const lifted = await question("surface", body, signal);
+  if (!lifted || signal.aborted) return undefined;
+  const unlifted = (found.obstruction ?? lifted.obstruction ?? lifted.error)?.sentence ?? null;
+  return store.set({ mesh: lifted.mesh ?? null, unlifted, asking: false });
+}

@@ -1,0 +1,142 @@
+// The drawing area: its size, its painting, and the pointers on it. Fingers draw; two of them move and zoom the paper.
+
+import { panned, toDrawing, zoomed } from "./camera.js";
+import { joins } from "./document.js";
+import { distance, middle, minus } from "./geometry.js";
+import { hoverAt } from "./hover.js";
+import { paint } from "./painting.js";
+import { answerShown, errorShown, lieShown, shown } from "./store.js";
+import { TOOLS, cancel } from "./tools.js";
+
+const REACH = { mouse: 9, pen: 12, touch: 20 };
+const COLOURS = ["ink", "paper", "dot", "accent", "wrong", "changed", "hover"];
+
+export function createCanvas(page, canvas) {
+  const { store } = page;
+  const context = canvas.getContext("2d");
+  const images = loadedImages(() => request());
+  let waiting = false;
+
+  function request() {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(() => {
+      waiting = false;
+      const ratio = fitToScreen(canvas);
+      context.setTransform(ratio, 0, 0, ratio, 0, 0);
+      paint(context, pictureOf(page, themeOf(canvas), images(shown(store.state).image)));
+      canvas.dispatchEvent(new CustomEvent("painted"));
+    });
+  }
+
+  new ResizeObserver(request).observe(canvas);
+  store.follow((state, before) => {
+    request();
+    if (state.tool !== before.tool) canvas.dataset.tool = state.tool;
+  });
+  canvas.dataset.tool = store.state.tool;
+  listen(page, canvas);
+  request();
+  return { request };
+}
+
+/** What is to be seen. */
+function pictureOf({ store, size }, theme, image) {
+  const { state } = store;
+  const answer = answerShown(state);
+  const document = shown(state);
+  const { camera, tool, path, selected, cursor, pointer, hover, snap } = state;
+  return {
+    size: size(), camera, theme, document, image, tool, path, selected, cursor, hover, snap, answer, lie: lieShown(state),
+    joins: answer ? joins(document.strokes, answer.repairs) : [],
+    openEnds: errorShown(state)?.where ?? [],
+    next: tool === "points" ? (cursor ?? pointer) : null,
+  };
+}
+
+function fitToScreen(canvas) {
+  const ratio = Math.min(devicePixelRatio, 3);
+  const [width, height] = [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
+  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+  return ratio;
+}
+
+function themeOf(canvas) {
+  const style = getComputedStyle(canvas);
+  const theme = Object.fromEntries(COLOURS.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+  return { ...theme, cellOpacity: Number(style.getPropertyValue("--cell-opacity")) };
+}
+
+/** The picture to draw after, once it is there. */
+function loadedImages(onLoad) {
+  const image = new Image();
+  image.addEventListener("load", onLoad);
+  return (wanted) => {
+    if (!wanted) return null;
+    if (image.src !== wanted.href) image.src = wanted.href;
+    return image.complete && image.naturalWidth ? image : null;
+  };
+}
+
+// ---- pointers -----------------------------------------------------------------------------------------------------
+
+function listen(page, canvas) {
+  const fingers = new Map(); // where each pointer is, in pixels of the canvas
+  const place = (event) => [event.offsetX, event.offsetY];
+  const drawn = (event) => toDrawing(page.store.state.camera, place(event));
+  const reach = (event) => (REACH[event.pointerType] ?? REACH.mouse) / page.store.state.camera.scale;
+  let tool = null;
+
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    fingers.set(event.pointerId, place(event));
+    if (fingers.size > 1) {
+      cancel(page);
+      tool = null;
+    } else if (event.button !== 2) {
+      tool = event.button === 1 || page.spaceHeld ? TOOLS.hand : TOOLS[page.store.state.tool];
+      page.store.set({ busy: true, cursor: null, hover: null });
+      tool.down?.(page, drawn(event), reach(event));
+    }
+  });
+
+  canvas.addEventListener("pointermove", (event) => {
+    if (!fingers.has(event.pointerId)) return hover(page, drawn(event), reach(event));
+    if (fingers.size > 1) pinch(page, fingers, event.pointerId, place(event));
+    const before = fingers.get(event.pointerId);
+    fingers.set(event.pointerId, place(event));
+    page.pan = () => page.store.set({ camera: panned(page.store.state.camera, minus(place(event), before)) });
+    const events = event.getCoalescedEvents?.() ?? [];
+    return tool?.move?.(page, (events.length ? events : [event]).map(drawn));
+  });
+
+  const lift = (event) => {
+    if (!fingers.delete(event.pointerId)) return;
+    const ended = tool;
+    tool = null;
+    page.store.set({ busy: false });
+    if (event.type === "pointercancel") cancel(page);
+    else ended?.up?.(page);
+  };
+  canvas.addEventListener("pointerup", lift);
+  canvas.addEventListener("pointercancel", lift);
+  canvas.addEventListener("pointerleave", () => page.store.set({ hover: null, pointer: null }));
+  canvas.addEventListener("dblclick", (event) => TOOLS[page.store.state.tool].double?.(page, drawn(event), reach(event)));
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  canvas.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    page.store.set({ camera: zoomed(page.store.state.camera, Math.exp(-event.deltaY / 400), place(event)) });
+  }, { passive: false });
+}
+
+function hover({ store }, place, reach) {
+  store.set({ pointer: place, hover: store.state.path.length ? null : hoverAt(store.state, place, reach) });
+}
+
+/** Two fingers: what was between them stays between them. */
+function pinch({ store }, fingers, id, now) {
+  const still = [...fingers].find(([other]) => other !== id)[1];
+  const before = fingers.get(id);
+  const moved = panned(store.state.camera, minus(middle(still, now), middle(still, before)));
+  store.set({ camera: zoomed(moved, distance(still, now) / (distance(still, before) || 1), middle(still, now)) });
+}

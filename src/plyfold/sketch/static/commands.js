@@ -1,0 +1,167 @@
+// What can be done to the page: small steps that actions, tools and dialogs share. Each takes the page,
+// {store, ask, size(), former, id}, and changes its store.
+
+import { fitted } from "./camera.js";
+import { crossingCode } from "./crossings.js";
+import { EMPTY, addStroke, allPoints, ends, isEmpty, joins, paths, rounded, withImage } from "./document.js";
+import { begin, record, redo, undo } from "./history.js";
+import { LONGEST_LINK, encode } from "./link.js";
+import { answerShown, shown } from "./store.js";
+import { keep, newId, recall } from "./storage.js";
+
+export const tell = ({ store }, text, actions = []) => store.set({ notice: { text, actions } });
+
+// ---- editing ------------------------------------------------------------------------------------------------------
+
+export function edit({ store }, document) {
+  store.set({ history: record(store.state.history, document), preview: null });
+}
+
+/** The joins of the drawing as it is, as far as they are known. */
+export const currentJoins = ({ store }) => joins(shown(store.state).strokes, answerShown(store.state)?.repairs ?? []);
+
+const codeOf = (page, document) => crossingCode(paths(document, movedJoins(page, document)));
+
+/** The same joins, with the ends where they are in the changed document. */
+function movedJoins(page, document) {
+  const [before, after] = [ends(page.store.state.history.present.strokes), ends(document.strokes)];
+  const bridged = joins(page.store.state.history.present.strokes, page.store.state.answer?.repairs ?? []);
+  return before.length === after.length ? bridged.map((pair) => pair.map((end) => after[before.indexOf(end)])) : [];
+}
+
+/** Whether the lock allows a change: the crossing code stays as it is. */
+export function allowed(page, document) {
+  const { locked, history } = page.store.state;
+  return !locked || codeOf(page, document) === codeOf(page, history.present);
+}
+
+export function editIfAllowed(page, document) {
+  if (allowed(page, document)) edit(page, document);
+  else tell(page, "Locked: that would change the crossings.", ["lock"]);
+}
+
+/** Put the points in the making into the drawing. */
+export function finishPath(page, closed) {
+  const { path, history } = page.store.state;
+  page.store.set({ path: [] });
+  if (path.length > 1) edit(page, addStroke(history.present, { points: path, closed: closed && path.length > 2 }));
+}
+
+export function step(page, direction) {
+  const { store } = page;
+  const { path, busy, history } = store.state;
+  if (busy) return;
+  if (path.length && direction === undo) store.set({ path: path.slice(0, -1) });
+  else store.set({ history: direction(history), preview: null, selected: null, carried: null });
+}
+
+export const undoStep = (page) => step(page, undo);
+export const redoStep = (page) => step(page, redo);
+
+// ---- walking ------------------------------------------------------------------------------------------------------
+
+/** One further, or back; the server takes −1 for the last and starts again after it. */
+export function walk({ store }, kind, by) {
+  const { lie } = store.state;
+  const count = lie?.[`${kind}s`];
+  if (!lie || count === null || count === undefined || BigInt(count) < 2n) return;
+  const next = (BigInt(store.state[kind]) + BigInt(by) + BigInt(count)) % BigInt(count);
+  store.set(kind === "immersion" ? { immersion: String(next), layering: "0" } : { layering: String(next) });
+}
+
+// ---- opening ------------------------------------------------------------------------------------------------------
+
+/** The drawing with the settings that belong to it. */
+export function complete({ store }) {
+  const { history, immersion, layering, gap } = store.state;
+  const { immersion: _, layering: __, gap: ___, ...view } = history.present.view;
+  const settings = { ...(immersion === "0" ? {} : { immersion }), ...(layering === "0" ? {} : { layering }), ...(gap ? { gap } : {}) };
+  return { ...history.present, view: { ...view, ...settings } };
+}
+
+/** Show another drawing. The one before stays kept under its own name, and there is a way back. */
+export function openDrawing(page, document, name = null, id = newId()) {
+  const { store } = page;
+  const hadWork = !isEmpty(store.state.history.present);
+  if (hadWork) save(page);
+  page.former = hadWork ? page.id : null;
+  page.id = id;
+  const { immersion = "0", layering = "0", gap = null } = document.view ?? {};
+  store.set({
+    history: begin(document), name, preview: null, path: [], selected: null, carried: null, answer: null, answered: null, lie: null,
+    mesh: null, unlifted: null, immersion, layering, gap, hover: null, notice: null,
+  });
+  fit(page);
+  if (page.former) tell(page, `${name ?? "A new drawing"} is open. The drawing before is kept.`, ["back"]);
+}
+
+export function goBack(page) {
+  const former = page.former && recall(localStorage, page.former);
+  if (former) openDrawing(page, former.document, former.name, former.id);
+}
+
+export function save(page) {
+  const document = complete(page);
+  if (isEmpty(document)) return;
+  if (!keep(localStorage, page.id, document, page.store.state.name)) {
+    tell(page, "This browser has no room left to keep the drawing: save it as a file.", ["saveFile"]);
+  }
+}
+
+export function fit({ store, size }) {
+  const { width, height } = size();
+  store.set({ camera: fitted(allPoints(shown(store.state)), width, height) });
+}
+
+/** Open a file that was chosen or dropped. */
+export async function openFile(page, file) {
+  const headers = { "X-File-Name": encodeURIComponent(file.name), "X-Plyfold-Page": "open" };
+  const response = await fetch("/api/v1/open", { method: "POST", headers, body: file }).catch(() => null);
+  const answer = await response?.json();
+  if (!answer || answer.error) return tell(page, answer?.error.sentence ?? "plyfold does not answer");
+  const { document, name } = answer;
+  if (document.strokes.length) return openDrawing(page, { ...EMPTY, ...document }, name ?? file.name);
+  return edit(page, withImage(page.store.state.history.present, document.image));
+}
+
+// ---- giving away --------------------------------------------------------------------------------------------------
+
+export async function share(page) {
+  const fragment = await encode(rounded(complete(page)));
+  if (fragment.length > LONGEST_LINK) {
+    return tell(page, "This drawing is too long for a link. Save it as a file and send that instead.", ["saveFile"]);
+  }
+  history.replaceState(null, "", fragment);
+  const copied = await copy(location.href);
+  return tell(page, copied ? "The link is copied. It holds the whole drawing." : "The link is in the address bar. It holds the whole drawing.");
+}
+
+export const copy = (text) => navigator.clipboard.writeText(text).then(() => true, () => false);
+
+export async function exportAs(page, format) {
+  const { immersion, layering, gap } = page.store.state;
+  tell(page, `Writing ${format.toUpperCase()} …`);
+  const body = JSON.stringify({ version: 1, document: complete(page), format, immersion, layering, gap });
+  const response = await fetch("/api/v1/export", { method: "POST", headers: { "Content-Type": "application/json" }, body }).catch(() => null);
+  if (!response?.ok || response.headers.get("Content-Disposition") === null) {
+    const answer = await response?.json().catch(() => null);
+    return tell(page, answer?.error?.sentence ?? "plyfold does not answer");
+  }
+  download(await response.blob(), fileName(page.store.state.name, format));
+  return tell(page, `${fileName(page.store.state.name, format)} is saved.`);
+}
+
+/** JSON needs no server: what is drawn can always be saved. */
+export function saveFile(page) {
+  const text = JSON.stringify(rounded(complete(page)));
+  download(new Blob([text], { type: "application/json" }), fileName(page.store.state.name, "json"));
+}
+
+const fileName = (name, format) => `${(name ?? "drawing").replace(/\.[^.]*$/, "").replace(/[^\p{L}\p{N}-]+/gu, "-")}.${format === "tikz" ? "tex" : format}`;
+
+function download(blob, name) {
+  const anchor = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: name });
+  anchor.click();
+  setTimeout(() => URL.revokeObjectURL(anchor.href), 10000);
+}
+

@@ -1,0 +1,104 @@
+// What opens over the page: the gallery, drawings kept, formats to save in, and help. One dialog element serves all.
+
+import { toScreen, fitted } from "./camera.js";
+import { ACTIONS } from "./actions.js";
+import { button, bySort } from "./buttons.js";
+import { openDrawing } from "./commands.js";
+import { allPoints, loop } from "./document.js";
+import { CURSOR_KEYS } from "./keyboard.js";
+import { shownKey } from "./keys.js";
+import { discard, kept } from "./storage.js";
+
+const find = (id) => document.getElementById(id);
+const make = (tag, properties = {}, ...children) => {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+};
+
+function show(title, ...content) {
+  find("dialog-title").textContent = title;
+  find("dialog-body").replaceChildren(...content);
+  find("dialog").showModal();
+}
+
+export const closeDialog = () => find("dialog").close();
+
+export function listenToDialog() {
+  find("dialog-close").addEventListener("click", closeDialog);
+  find("dialog").addEventListener("click", (event) => {
+    if (event.target === find("dialog")) closeDialog();
+  });
+}
+
+/** A small picture of strokes. */
+function thumbnail(document_) {
+  const namespace = "http://www.w3.org/2000/svg";
+  const svg = document.createElementNS(namespace, "svg");
+  svg.setAttribute("viewBox", "0 0 120 90");
+  svg.setAttribute("aria-hidden", "true");
+  const camera = fitted(allPoints(document_), 120, 90);
+  for (const { points, closed } of document_.strokes) {
+    const path = svg.appendChild(document.createElementNS(namespace, "path"));
+    const places = points.map((point) => toScreen(camera, point).map((value) => value.toFixed(1)).join(" "));
+    path.setAttribute("d", `M${places.join("L")}${closed ? "Z" : ""}`);
+  }
+  return svg;
+}
+
+function card(document_, title, detail, onOpen) {
+  const open = make("button", { type: "button", className: "card" }, thumbnail(document_), make("strong", { textContent: title }), make("span", { textContent: detail }));
+  open.addEventListener("click", () => {
+    closeDialog();
+    onOpen();
+  });
+  return open;
+}
+
+export async function showGallery(page) {
+  const { curves } = await fetch("/api/v1/gallery").then((response) => response.json());
+  const cards = curves.map(({ name, title, points, crossings, immersions }) => {
+    const detail = `${crossings} crossing${crossings === "1" ? "" : "s"}, ${immersions === "0" ? "no disk" : `${immersions} immersion${immersions === "1" ? "" : "s"}`}`;
+    return card(loop(points), title, detail, () => openDrawing(page, loop(points), name));
+  });
+  show("Curves to begin with", make("div", { className: "cards" }, ...cards));
+}
+
+export function showDrawings(page) {
+  const others = kept(localStorage).filter(({ id }) => id !== page.id);
+  const cards = others.map(({ id, name, saved, document: drawing }) => {
+    const when = new Date(saved).toLocaleString([], { dateStyle: "medium", timeStyle: "short" });
+    const discardButton = make("button", { type: "button", className: "discard", textContent: "Discard" });
+    discardButton.setAttribute("aria-label", `Discard the drawing of ${when}`);
+    const item = make("div", { className: "kept" }, card(drawing, name ?? "Drawing", when, () => openDrawing(page, drawing, name, id)), discardButton);
+    discardButton.addEventListener("click", () => {
+      discard(localStorage, id);
+      item.remove();
+    });
+    return item;
+  });
+  const nothing = make("p", { textContent: "No other drawing is kept in this browser yet." });
+  show("Drawings kept in this browser", cards.length ? make("div", { className: "cards" }, ...cards) : nothing);
+}
+
+export function showExports(page) {
+  const buttons = bySort("exports").map((action) => button(page, action));
+  buttons.forEach((made) => made.addEventListener("click", closeDialog));
+  show("Save as", make("div", { className: "formats" }, ...buttons));
+}
+
+const GROUPS = { tools: "Tools", history: "History", change: "Change", view: "View", answers: "Answers", surface: "Surface", file: "File", exports: "Save" };
+
+export function showHelp() {
+  const tables = Object.entries(GROUPS).map(([group, title]) => {
+    const actions = ACTIONS.filter((action) => action.group === group && action.keys.length);
+    return keyTable(title, actions.map(({ keys, hint }) => [keys.map(shownKey).join("  "), hint]));
+  });
+  show("Keys", make("div", { className: "keys" }, ...tables, keyTable("With the keyboard cursor (K)", CURSOR_KEYS)));
+}
+
+function keyTable(title, rows) {
+  const list = make("dl", {}, ...rows.flatMap(([keys, hint]) => [
+    make("dt", {}, ...keys.split("  ").map((key) => make("kbd", { textContent: key }))), make("dd", { textContent: hint })]));
+  return make("section", {}, make("h3", { textContent: title }), list);
+}

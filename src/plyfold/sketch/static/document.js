@@ -1,0 +1,104 @@
+// The drawing: an immutable document, and edits that return a new one. What is undone, saved, shared and exported.
+//   {plyfold: 1, strokes: [{points: [[x, y]..], closed}..], image: null | {href, place, opacity}, view: {}}
+
+import { distance, distanceToSegment, edges, middle, nearestOnSegment } from "./geometry.js";
+
+export const EMPTY = Object.freeze({ plyfold: 1, strokes: [], image: null, view: {} });
+
+export const isEmpty = (document) => document.strokes.length === 0 && !document.image;
+export const allPoints = (document) => document.strokes.flatMap(({ points }) => points);
+export const loop = (points) => ({ ...EMPTY, strokes: [{ points, closed: true }] });
+export const withStrokes = (document, strokes) => ({ ...document, strokes: strokes.filter(({ points }) => points.length) });
+export const withImage = (document, image) => ({ ...document, image });
+export const addStroke = (document, stroke) => withStrokes(document, [...document.strokes, stroke]);
+export const lastStrokeOnly = (document) => withStrokes(document, document.strokes.slice(-1));
+
+export function changeStroke(document, index, change) {
+  return withStrokes(document, document.strokes.map((stroke, i) => (i === index ? change(stroke) : stroke)));
+}
+
+export const appendPoint = (document, index, point) =>
+  changeStroke(document, index, (stroke) => ({ ...stroke, points: [...stroke.points, point] }));
+
+export const movePoint = (document, { stroke, vertex }, point) =>
+  changeStroke(document, stroke, (old) => ({ ...old, points: old.points.with(vertex, point) }));
+
+export const insertPoint = (document, { stroke, vertex }, point) =>
+  changeStroke(document, stroke, (old) => ({ ...old, points: old.points.toSpliced(vertex, 0, point) }));
+
+export const deletePoint = (document, { stroke, vertex }) =>
+  changeStroke(document, stroke, (old) => withoutVertex(old, vertex));
+
+function withoutVertex({ points, closed }, vertex) {
+  const left = points.toSpliced(vertex, 1);
+  return { points: left, closed: closed && left.length > 2 };
+}
+
+/** The other direction, from the same first point. */
+export const reversed = (document) => withStrokes(document, document.strokes.toReversed().map(({ points, closed }) => (
+  { closed, points: closed ? [points[0], ...points.slice(1).toReversed()] : points.toReversed() })));
+
+/** Close the last open stroke, or open a single closed one. */
+export function toggleClosed(document) {
+  const index = document.strokes.findLastIndex(({ points, closed }) => !closed && points.length > 2);
+  const target = index < 0 ? document.strokes.length - 1 : index;
+  return changeStroke(document, target, (stroke) => ({ ...stroke, closed: !stroke.closed }));
+}
+
+/** Coordinates with two decimals more than a screen pixel can show, so that links and files stay short. */
+export const rounded = (document, digits = 3) => withStrokes(document, document.strokes.map(({ points, closed }) => (
+  { closed, points: points.map(([x, y]) => [Number(x.toFixed(digits)), Number(y.toFixed(digits))]) })));
+
+// ---- finding ------------------------------------------------------------------------------------------------------
+
+/** The vertex nearest to a place, within reach, as {stroke, vertex}, or null. */
+export function vertexAt(document, place, reach) {
+  let best = null;
+  document.strokes.forEach(({ points }, stroke) => points.forEach((point, vertex) => {
+    const far = distance(point, place);
+    if (far <= (best?.far ?? reach)) best = { stroke, vertex, far };
+  }));
+  return best && { stroke: best.stroke, vertex: best.vertex };
+}
+
+/** Where a vertex would be inserted, on the nearest edge within reach: {stroke, vertex, point}, or null. */
+export function edgeAt(document, place, reach) {
+  let best = null;
+  document.strokes.forEach((path, stroke) => edges(path).forEach(([a, b], i) => {
+    const far = distanceToSegment(place, a, b);
+    if (far <= (best?.far ?? reach)) best = { stroke, vertex: i + 1, point: nearestOnSegment(place, a, b), far };
+  }));
+  return best;
+}
+
+/** Ends of open strokes. */
+export const ends = (strokes) => strokes.flatMap(({ points, closed }) => (closed ? [] : [points[0], points.at(-1)]));
+
+/** The joins between strokes, as pairs of their ends, found from the middles that the server names. */
+export function joins(strokes, repairs) {
+  const free = ends(strokes);
+  return repairs.filter(({ kind }) => kind === "gap bridged").map(({ where }) => {
+    const pairs = free.flatMap((a, i) => free.slice(i + 1).map((b) => [a, b]));
+    return pairs.sort((one, other) => distance(middle(...one), where) - distance(middle(...other), where))[0];
+  }).filter(Boolean);
+}
+
+/** The paths of a drawing with its joins: what crossings are counted on. A stroke that joins itself is one closed path. */
+export function paths({ strokes }, bridged = []) {
+  if (strokes.length === 1 && bridged.length === 1) return [{ points: strokes[0].points, closed: true }];
+  return [...strokes, ...bridged.map((points) => ({ points, closed: false }))];
+}
+
+/** The grid's lines are 1, 2 or 5 times a power of ten apart, and at least 18 pixels. */
+export function gridStep(scale) {
+  const least = 18 / scale;
+  const power = 10 ** Math.floor(Math.log10(least));
+  return [1, 2, 5, 10].map((digit) => digit * power).find((step) => step >= least);
+}
+
+/** A place drawn to the end of a stroke nearby, or else to the grid. */
+export function snapped(document, place, scale) {
+  const near = ends(document.strokes).find((end) => distance(end, place) < 12 / scale);
+  const step = gridStep(scale);
+  return near ?? place.map((x) => Math.round(x / step) * step);
+}

@@ -1,0 +1,43 @@
+// A drawing in the fragment of an address: JSON, deflated, in the letters that addresses may have.
+
+const PREFIX = "#d=";
+
+/** Links beyond this length are cut by mail programs and chats: the drawing goes into a file instead. */
+export const LONGEST_LINK = 8000;
+
+export const hasDrawing = (fragment) => fragment.startsWith(PREFIX);
+
+export async function encode(document) {
+  const { strokes, view, image } = document;
+  const bytes = await through(new CompressionStream("deflate-raw"), new TextEncoder().encode(JSON.stringify({ plyfold: 1, strokes, image, view })));
+  return PREFIX + btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
+}
+
+/** @returns the document. @throws if the fragment is not a whole drawing. */
+export async function decode(fragment) {
+  const letters = fragment.slice(PREFIX.length).replaceAll("-", "+").replaceAll("_", "/");
+  const bytes = Uint8Array.from(atob(letters), (letter) => letter.charCodeAt(0));
+  const text = new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), bytes));
+  return checked(JSON.parse(text));
+}
+
+/** What comes from elsewhere is taken only if it is a drawing: finite points and nothing else. */
+export function checked(value) {
+  const isPoint = (point) => Array.isArray(point) && point.length === 2 && point.every(Number.isFinite);
+  const isStroke = (stroke) => Array.isArray(stroke?.points) && stroke.points.every(isPoint);
+  if (value?.plyfold !== 1 || !Array.isArray(value.strokes) || !value.strokes.every(isStroke)) {
+    throw new Error("this is no drawing");
+  }
+  const strokes = value.strokes.filter(({ points }) => points.length).map(({ points, closed }) => ({ points, closed: Boolean(closed) }));
+  return { plyfold: 1, strokes, image: checkedImage(value.image), view: { ...value.view } };
+}
+
+function checkedImage(image) {
+  if (!/^data:image\/(png|jpeg|gif|webp);/.test(image?.href ?? "")) return null;
+  return { href: image.href, place: image.place ?? null, opacity: Number(image.opacity ?? 0.5) };
+}
+
+async function through(transform, bytes) {
+  const stream = new Blob([bytes]).stream().pipeThrough(transform);
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}

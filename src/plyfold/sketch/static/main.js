@@ -1,0 +1,221 @@
+// The page put together: the store, the answers, the pictures, the keys, and the drawing that it begins with.
+
+import { actionNamed } from "./actions.js";
+import { followAnswers } from "./answers.js";
+import { button, fillButtons, listenToKeys } from "./buttons.js";
+import { createCanvas } from "./canvas.js";
+import { copy, finishPath, fit, openDrawing, openFile, save, tell } from "./commands.js";
+import * as dialogs from "./dialogs.js";
+import { EMPTY, isEmpty, withImage } from "./document.js";
+import { begin } from "./history.js";
+import { hoverOfSheet, sameHover } from "./hover.js";
+import { pressCursor, toggleCursor } from "./keyboard.js";
+import { lightLayout, paintLayout } from "./layout.js";
+import { decode, hasDrawing } from "./link.js";
+import { answersAsText, createPanel } from "./panel.js";
+import { kept, newId, recall } from "./storage.js";
+import { createStore, lieShown, shown } from "./store.js";
+import { followTheme } from "./theme.js";
+import { createView3d } from "./view3d.js";
+
+const find = (id) => document.getElementById(id);
+const canvas = find("drawing");
+const store = createStore();
+
+const page = {
+  store,
+  id: sessionStorage.getItem("plyfold.id") ?? newId(),
+  former: null,
+  spaceHeld: false,
+  size: () => ({ width: canvas.clientWidth, height: canvas.clientHeight }),
+  pan: () => {},
+  focusDrawing: () => canvas.focus(),
+  toggleCursor: () => toggleCursor(page),
+  chooseFile: () => find("file").click(),
+  showGallery: () => dialogs.showGallery(page),
+  showDrawings: () => dialogs.showDrawings(page),
+  showExports: () => dialogs.showExports(page),
+  showHelp: dialogs.showHelp,
+  copyAnswers: async () => tell(page, (await copy(answersAsText(store.state))) ? "The answers are copied." : "The browser does not let this page copy."),
+};
+
+// ---- keeping ------------------------------------------------------------------------------------------------------
+
+/** The drawing is kept after every change. A link in the address is no longer true then. */
+function followWork() {
+  store.follow((state, before) => {
+    const changed = state.history.present !== before.history.present;
+    if (!changed && state.immersion === before.immersion && state.layering === before.layering && state.gap === before.gap) return;
+    sessionStorage.setItem("plyfold.id", page.id);
+    save(page);
+    if (changed && hasDrawing(location.hash)) history.replaceState(null, "", location.pathname);
+  });
+  addEventListener("pagehide", () => finishPath(page, false));
+}
+
+/** Begin with the link in the address, the file that plyfold was started with, or what was drawn last. */
+async function restore() {
+  const last = recall(localStorage, page.id) ?? kept(localStorage)[0];
+  if (last) showKept(last);
+  if (hasDrawing(location.hash)) return openLink();
+  if (sessionStorage.getItem("plyfold.started")) return undefined;
+  sessionStorage.setItem("plyfold.started", "yes");
+  const { document: given, name } = await fetch("/api/v1/start").then((response) => response.json()).catch(() => ({}));
+  return given && openDrawing(page, { ...EMPTY, ...given }, name);
+}
+
+/** Another page's drawing is shown too, but goes on under a name of its own when it is changed. */
+function showKept({ document: drawing, name }) {
+  const { immersion = "0", layering = "0", gap = null } = drawing.view;
+  store.set({ history: begin(drawing), name, immersion, layering, gap });
+  fit(page);
+}
+
+async function openLink() {
+  const fragment = location.hash;
+  try {
+    const drawing = await decode(fragment);
+    if (JSON.stringify(drawing.strokes) !== JSON.stringify(store.state.history.present.strokes)) openDrawing(page, drawing, "The drawing of the link");
+    history.replaceState(null, "", fragment);
+  } catch {
+    tell(page, "The link is not complete: it holds no drawing.");
+  }
+}
+
+// ---- pictures beside the drawing ----------------------------------------------------------------------------------
+
+function followPictures() {
+  const onHover = (hover) => {
+    const whole = hover && hover.cell === undefined ? hoverOfSheet(store.state, hover.sheets[0] ?? null) : hover;
+    if (!sameHover(whole, store.state.hover)) store.set({ hover: whole });
+  };
+  page.surface = createView3d(find("surface"), onHover);
+  store.follow((state, before) => {
+    if (state.mesh !== before.mesh && state.mesh) page.surface.show(state.mesh).then(() => page.surface.set({ dark: isDark() }));
+    if (!state.mesh) page.surface.say(state.unlifted ?? "");
+    find("surface").classList.toggle("empty", !state.mesh);
+    if (lieShown(state) !== lieShown(before)) paintLayout(find("layout"), lieShown(state), onHover);
+    if (state.hover !== before.hover) {
+      lightLayout(find("layout"), state.hover);
+      page.surface.set({ highlightSheet: state.hover?.sheets[0] ?? null });
+    }
+    if (state.scene !== before.scene) showScene(state.scene);
+  });
+  showScene(store.state.scene);
+  for (const tab of document.querySelectorAll("[data-scene]")) {
+    tab.addEventListener("click", () => store.set({ scene: tab.dataset.scene }));
+    tab.addEventListener("keydown", ({ key }) => key.startsWith("Arrow") && tabByArrow());
+  }
+}
+
+const isDark = () => document.documentElement.dataset.theme === "dark";
+
+function tabByArrow() {
+  actionNamed("scene").perform(page);
+  document.querySelector("[role=tab][aria-selected=true]").focus();
+}
+
+function showScene(scene) {
+  for (const tab of document.querySelectorAll("[data-scene]")) {
+    const chosen = tab.dataset.scene === scene;
+    tab.setAttribute("aria-selected", String(chosen));
+    tab.tabIndex = chosen ? 0 : -1;
+    find(tab.dataset.scene).toggleAttribute("hidden", !chosen);
+  }
+}
+
+/** The gap is a share of the drawing's size: the middle of the slider is the gap that plyfold chooses. */
+function followGap() {
+  const slider = find("gap");
+  let waiting = 0;
+  slider.addEventListener("input", () => {
+    clearTimeout(waiting);
+    waiting = setTimeout(() => {
+      const xs = store.state.answer?.points ?? [];
+      const side = (axis) => Math.max(...xs.map((point) => point[axis])) - Math.min(...xs.map((point) => point[axis]));
+      if (xs.length) store.set({ gap: slider.valueAsNumber ? (2 ** slider.valueAsNumber * Math.max(side(0), side(1))) / 20 : null });
+    }, 60);
+    find("gap-value").textContent = slider.valueAsNumber ? `× ${(2 ** slider.valueAsNumber).toFixed(2)}` : "";
+  });
+}
+
+// ---- files --------------------------------------------------------------------------------------------------------
+
+function listenToFiles() {
+  find("file").addEventListener("change", ({ target }) => {
+    if (target.files[0]) openFile(page, target.files[0]);
+    target.value = "";
+  });
+  addEventListener("dragover", (event) => event.preventDefault());
+  addEventListener("drop", (event) => {
+    event.preventDefault();
+    if (event.dataTransfer.files[0]) openFile(page, event.dataTransfer.files[0]);
+  });
+}
+
+/** A picture to draw after that has no place yet fills most of the table, or the drawing's box. */
+function placeImage(state) {
+  const { image } = state.history.present;
+  if (!image || image.place) return;
+  const picture = new Image();
+  picture.addEventListener("load", () => {
+    const { width, height } = page.size();
+    const size = Math.min((0.8 * width) / picture.naturalWidth, (0.8 * height) / picture.naturalHeight) / store.state.camera.scale;
+    const [across, up] = [picture.naturalWidth * size, picture.naturalHeight * size];
+    const middle = [(width / 2 - store.state.camera.x) / store.state.camera.scale, (store.state.camera.y - height / 2) / store.state.camera.scale];
+    const { history: steps } = store.state;
+    const placedImage = withImage(steps.present, { ...image, place: [middle[0] - across / 2, middle[1] - up / 2, across, up] });
+    store.set({ history: { ...steps, present: placedImage } });
+    tell(page, "Draw after the picture; it stays in the background.", ["dropImage"]);
+  });
+  picture.src = image.href;
+}
+
+function followNotices() {
+  const box = find("notice");
+  let leaving = 0;
+  store.follow((state, before) => {
+    if (state.notice === before.notice) return;
+    clearTimeout(leaving);
+    box.hidden = !state.notice;
+    if (!state.notice) return;
+    box.replaceChildren(Object.assign(document.createElement("span"), { textContent: state.notice.text }));
+    box.append(...state.notice.actions.map((name) => button(page, actionNamed(name))));
+    leaving = setTimeout(() => store.set({ notice: null }), state.notice.actions.length ? 15000 : 5000);
+  });
+}
+
+function listenToSpace() {
+  const hold = (held) => ({ key, target }) => {
+    if (key === " " && (target === canvas || target === document.body)) page.spaceHeld = held;
+  };
+  addEventListener("keydown", hold(true));
+  addEventListener("keyup", hold(false));
+}
+
+function endPath(event) {
+  const { path, tool } = store.state;
+  if (tool !== "points" || !path.length || !["Enter", "Escape"].includes(event.key)) return false;
+  finishPath(page, event.key === "Enter");
+  return true;
+}
+
+fillButtons(page);
+dialogs.listenToDialog();
+createPanel(page);
+createCanvas(page, canvas);
+followTheme(page);
+followNotices();
+followPictures();
+followGap();
+listenToFiles();
+listenToSpace();
+listenToKeys(page, (event) => pressCursor(page, event) || endPath(event));
+store.follow((state, before) => state.history.present.image !== before.history.present.image && placeImage(state));
+fit(page);
+await restore();
+if (isEmpty(shown(store.state))) fit(page);
+followWork();
+followAnswers(store);
+addEventListener("hashchange", () => hasDrawing(location.hash) && openLink());
+document.documentElement.dataset.ready = "yes";

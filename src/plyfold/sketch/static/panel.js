@@ -1,0 +1,125 @@
+// The verdict in words, the figures, and the walks through immersions and layerings.
+
+import { actionNamed } from "./actions.js";
+import { button } from "./buttons.js";
+import { isEmpty } from "./document.js";
+import { answerShown, errorShown, lieShown, shown } from "./store.js";
+
+const REMEDIES = ["removeKink", "closeLoop", "lastOnly"];
+const find = (id) => document.getElementById(id);
+const grouped = (digits) => (digits.length > 24 ? `about 10^${digits.length - 1}` : digits.replace(/\B(?=(\d{3})+$)/g, "\u202f"));
+
+/** What is known, in one headline and one sentence. `state` colours it. */
+export function verdictOf(state) {
+  const error = errorShown(state);
+  if (isEmpty(shown(state))) return { kind: "empty", headline: "", sentence: "" };
+  if (error) return { kind: "unfinished", headline: error.kind === "unfinished" ? "Not a loop yet" : "Not a loop that can be used", sentence: `${error.sentence}${error.hint ? `: ${error.hint}` : ""}.` };
+  const answer = answerShown(state);
+  if (!answer) return null;
+  const { verdict } = answer;
+  if (!verdict.immersible) return { kind: "no", headline: "No disk", sentence: verdict.sentence };
+  return liftedVerdict(lieShown(state), verdict);
+}
+
+function liftedVerdict(lie, { immersions, sentence }) {
+  const ways = immersions === "1" ? "A disk of cloth" : `A disk of cloth, in ${grouped(immersions)} ways`;
+  if (lie?.obstruction) return { kind: "unlifted", headline: `${ways}; this one cannot be lifted`, sentence: lie.obstruction.sentence };
+  if (lie?.layerable === null) return { kind: "yes", headline: ways, sentence: "Whether it can be lifted was not decided in time." };
+  return { kind: "yes", headline: ways, sentence };
+}
+
+export function figuresOf(state) {
+  const answer = answerShown(state);
+  if (!answer) return [];
+  const lie = lieShown(state);
+  const rows = [
+    ["crossings", String(answer.crossings.length)],
+    ["turning number", `${answer.turning_number}${answer.reversed ? " (drawn clockwise)" : ""}`.replace("-", "−")],
+    ["cells by winding number", windings(answer.cells)],
+    ["immersions", grouped(answer.verdict.immersions)],
+  ];
+  if (lie?.levels) rows.push(["levels", String(Math.max(...lie.levels))]);
+  if (answer.gauss) rows.push(["Gauss code", answer.gauss]);
+  if (answer.word) rows.push(["Blank's word", answer.word]);
+  const repairs = answer.repairs.filter(({ kind }) => kind !== "gap bridged");
+  if (repairs.length) rows.push(["repairs", repairs.map(({ kind }) => kind).join(", ")]);
+  return rows;
+}
+
+function windings(cells) {
+  const counts = new Map();
+  for (const { winding } of cells) counts.set(winding, (counts.get(winding) ?? 0) + 1);
+  return [...counts].sort(([a], [b]) => a - b).map(([winding, count]) => `${count} with ${winding}`.replace("-", "−")).join(", ");
+}
+
+/** The answers as text, one to a line. */
+export function answersAsText(state) {
+  const verdict = verdictOf(state);
+  const lie = lieShown(state);
+  const walks = lie ? [["immersion", placeOf(lie, "immersion")], ["layering", placeOf(lie, "layering")]] : [];
+  const lines = [...figuresOf(state), ...walks].filter(([, value]) => value).map(([name, value]) => `${name}: ${value}`);
+  return [verdict?.headline, verdict?.sentence, ...lines].filter(Boolean).join("\n");
+}
+
+function placeOf(lie, kind) {
+  const count = lie[`${kind}s`];
+  if (kind === "layering" && !lie.layerable) return "";
+  return `${grouped(String(BigInt(lie[kind]) + 1n))} of ${count === null ? "more than could be counted" : grouped(count)}`;
+}
+
+// ---- the page -----------------------------------------------------------------------------------------------------
+
+export function createPanel(page) {
+  walkBar(page, "immersion", "previousImmersion", "nextImmersion");
+  walkBar(page, "layering", "layeringDown", "layeringUp");
+  const remedies = find("remedies");
+  remedies.append(...REMEDIES.map((name) => button(page, actionNamed(name))));
+  page.store.follow((state, before) => {
+    if (state !== before) refresh(state);
+  });
+  refresh(page.store.state);
+}
+
+function walkBar(page, kind, back, on) {
+  const bar = find(`walk-${kind}`);
+  const text = Object.assign(document.createElement("output"), { id: `${kind}-text` });
+  text.setAttribute("aria-live", "polite");
+  bar.append(button(page, actionNamed(back), { label: false }), text, button(page, actionNamed(on), { label: false }));
+  const arrows = kind === "immersion" ? ["←", "→"] : ["↓", "↑"];
+  [...bar.querySelectorAll("button")].forEach((made, i) => made.prepend(arrows[i]));
+}
+
+function refresh(state) {
+  const verdict = verdictOf(state);
+  if (verdict) {
+    find("verdict").parentElement.dataset.state = verdict.kind;
+    write(find("verdict"), verdict.headline);
+    write(find("sentence"), verdict.sentence);
+  }
+  document.body.classList.toggle("asking", state.asking);
+  find("invitation").hidden = !isEmpty(shown(state)) || state.path.length > 0 || state.cursor !== null;
+  write(find("name"), state.name ?? "");
+  const lie = lieShown(state);
+  for (const kind of ["immersion", "layering"]) {
+    const place = lie ? placeOf(lie, kind) : "";
+    write(find(`${kind}-text`), place ? `${kind} ${place}` : kind);
+  }
+  refreshFigures(figuresOf(state));
+}
+
+function write(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+let written = "";
+
+function refreshFigures(rows) {
+  const text = JSON.stringify(rows);
+  if (text === written) return;
+  written = text;
+  find("figures").replaceChildren(...rows.map(([name, value]) => {
+    const row = document.createElement("div");
+    row.append(Object.assign(document.createElement("dt"), { textContent: name }), Object.assign(document.createElement("dd"), { textContent: value }));
+    return row;
+  }));
+}

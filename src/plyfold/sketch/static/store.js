@@ -1,0 +1,68 @@
+// One value that holds everything the page shows; whoever follows it is told of each new one.
+
+import { START as CAMERA } from "./camera.js";
+import { EMPTY } from "./document.js";
+import { begin } from "./history.js";
+
+export const START = Object.freeze({
+  history: begin(EMPTY),
+  name: null, // of the file or curve that the drawing came from
+  preview: null, // the document while something is dragged
+  tool: "draw", // draw, points, edit, erase or hand
+  busy: false, // a stroke or drag is under way
+  path: [], // the points of the stroke or polyline in the making
+  cursor: null, // where the keyboard draws
+  carried: null, // the vertex that the keyboard moves, {stroke, vertex}
+  refused: false, // the lock held a move back
+  selected: null, // {stroke, vertex}
+  pointer: null, // where the mouse is, in units of the drawing
+  locked: false,
+  snap: false,
+  camera: CAMERA,
+  answer: null, // to `look`, or {error}
+  answered: null, // the document that the answer is about
+  lie: null, // the answer to `lie`
+  mesh: null, // the surface, or null
+  unlifted: null, // why there is no surface: a sentence
+  asking: false,
+  immersion: "0",
+  layering: "0",
+  gap: null,
+  morph: 1, // 0 disk, 0.5 immersion, 1 lifted surface
+  scene: "surface", // or "layout"
+  hover: null, // {cell, border, sheets}
+  notice: null, // {text, actions: [action names]}
+  theme: "system",
+});
+
+export function createStore(state = START) {
+  const followers = new Set();
+  return {
+    get state() {
+      return state;
+    },
+    set(patch) {
+      const before = state;
+      state = { ...state, ...patch };
+      followers.forEach((follow) => follow(state, before));
+    },
+    follow(follower) {
+      followers.add(follower);
+    },
+  };
+}
+
+/** The document as it is seen: while something is dragged, as it would become. */
+export const shown = (state) => state.preview ?? state.history.present;
+
+/** Whether the last answer is about what is seen. */
+export const isAnswered = (state) => state.answered?.strokes === shown(state).strokes;
+
+/** The answer, if it is about what is seen. */
+export const answerShown = (state) => (isAnswered(state) && !state.answer.error ? state.answer : null);
+
+/** What is wrong with the drawing that is seen, if it is no loop that can be used. */
+export const errorShown = (state) => (isAnswered(state) ? (state.answer.error ?? null) : null);
+
+/** How the cloth lies, if that is about what is seen. */
+export const lieShown = (state) => (answerShown(state) && state.lie?.layout ? state.lie : null);

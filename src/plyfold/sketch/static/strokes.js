@@ -1,0 +1,103 @@
+// From what the pen did to a stroke worth keeping: thinned, smoothed, simplified, with the crossings it was drawn with.
+
+import { mayStraighten } from "./crossings.js";
+import { add, cross, distance, distanceToSegment, meetingPlace, mix, scaled } from "./geometry.js";
+
+const SMOOTHINGS = 3;
+
+/** Leave out points that are nearer than `spacing` to the one kept before; the last one always stays. */
+export function thinned(points, spacing) {
+  const kept = points.slice(0, 1);
+  for (const point of points.slice(1)) {
+    if (distance(point, kept.at(-1)) >= spacing) kept.push(point);
+  }
+  const end = points.at(-1);
+  if (kept.length > 1 && kept.at(-1) !== end) kept.splice(distance(end, kept.at(-1)) < spacing / 2 ? -1 : kept.length, 1, end);
+  return kept;
+}
+
+/** Indices of the points with two neighbours. */
+const inner = (points, closed) => (closed ? [...points.keys()] : [...points.keys()].slice(1, -1));
+
+const neighbours = (points, i) => [points.at(i - 1), points[i], points[(i + 1) % points.length]];
+
+/**
+ * Move every point towards its neighbours, one after the other, and only where no crossing changes: the new place lies
+ * in the triangle of the three, so it is enough that the triangle may be straightened.
+ */
+export function smoothed({ points, closed }, obstacles = []) {
+  const moved = [...points];
+  const paths = [{ points: moved, closed }, ...obstacles];
+  for (const i of inner(moved, closed)) {
+    const [a, b, c] = neighbours(moved, i);
+    if (mayStraighten(a, b, c, paths)) moved[i] = add(scaled(b, 0.5), scaled(add(a, c), 0.25));
+  }
+  return { points: moved, closed };
+}
+
+/**
+ * Take out points one by one, as long as every point taken stays within `tolerance` of the line and no crossing is
+ * made, lost or moved past another (with the path itself, or with `obstacles`).
+ */
+export function simplified({ points, closed }, tolerance, obstacles = []) {
+  const kept = points.map((point) => ({ point, passed: [] })); // with the points left out after it
+  let before;
+  do {
+    before = kept.length;
+    for (let i = closed ? 0 : 1; i < kept.length - (closed ? 0 : 1) && kept.length > 3; i++) {
+      removeIfFree(kept, i, closed, tolerance, obstacles);
+    }
+  } while (kept.length < before);
+  return { points: kept.map(({ point }) => point), closed };
+}
+
+function removeIfFree(kept, i, closed, tolerance, obstacles) {
+  const [before, here, after] = neighbours(kept, i);
+  const passed = [...before.passed, here.point, ...here.passed];
+  if (passed.some((point) => distanceToSegment(point, before.point, after.point) > tolerance)) return;
+  const paths = [{ points: kept.map(({ point }) => point), closed }, ...obstacles];
+  if (!mayStraighten(before.point, here.point, after.point, paths)) return;
+  before.passed = passed;
+  kept.splice(i, 1);
+}
+
+/** Smooth and simplify, with the crossings of the path as it is. */
+export function tidied(path, tolerance, obstacles = []) {
+  let tidy = path;
+  for (let round = 0; round < SMOOTHINGS; round++) tidy = smoothed(tidy, obstacles);
+  return simplified(tidy, tolerance, obstacles);
+}
+
+/** What the pen did, as a stroke: `pixel` is the size of one. Where its end comes back to its beginning it is closed. */
+export function penStroke(raw, pixel, obstacles = []) {
+  const points = thinned(raw, 3 * pixel);
+  const loop = closedLoop(points, 22 * pixel);
+  return tidied({ points: loop ?? points, closed: loop !== null }, 0.5 * pixel, obstacles);
+}
+
+/** The stroke as a loop if its ends are near, or null. Ends that shoot past each other are cut at their crossing. */
+export function closedLoop(points, near) {
+  const length = points.slice(1).reduce((sum, point, i) => sum + distance(points[i], point), 0);
+  if (points.length < 4 || length < 3 * near || distance(points[0], points.at(-1)) > near) return null;
+  return cutAtCrossing(points, near) ?? cutBeside(points, near);
+}
+
+function cutAtCrossing(points, near) {
+  const head = points.findIndex((point) => distance(point, points[0]) > near);
+  const tail = points.findLastIndex((point) => distance(point, points.at(-1)) > near);
+  for (let i = head - 1; i >= 0; i--) {
+    for (let j = Math.max(tail, i + 2); j < points.length - 1; j++) {
+      const edges = [points[i], points[i + 1], points[j], points[j + 1]];
+      if (cross(...edges)) return [mix(points[i], points[i + 1], meetingPlace(...edges)), ...points.slice(i + 1, j + 1)];
+    }
+  }
+  return null;
+}
+
+/** An end that runs beside the beginning stops where it is nearest to the first point. */
+function cutBeside(points, near) {
+  const tail = points.findLastIndex((point) => distance(point, points.at(-1)) > near);
+  let nearest = points.length - 1;
+  for (let j = nearest; j > tail; j--) if (distance(points[j], points[0]) < distance(points[nearest], points[0])) nearest = j;
+  return points.slice(0, nearest);
+}
