@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from plyfold import __version__
 from plyfold.cli_gallery import add_gallery_command, named_curve
+from plyfold.cli_heights import add_height_options, height_options
 from plyfold.cli_progress import Stopwatch, clear_progress
 from plyfold.cli_sketch import add_sketch_command
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
@@ -136,6 +137,7 @@ def _parser() -> argparse.ArgumentParser:
         help="where no layered surface exists, lift one with the shortest self-intersections",
     )
     lift.add_argument("--triangles", type=int, default=4000, help="roughly how many triangles (default: %(default)s)")
+    add_height_options(lift)
     lift.add_argument(
         "--thicken",
         type=float,
@@ -268,6 +270,7 @@ def _lift(options: argparse.Namespace) -> int:
         time_limit=options.time_limit,
         progress=watch,
         allow_intersections=options.allow_intersections,
+        **height_options(options),
     )
     watch("writing")
     _export(surface, options)
