@@ -3,13 +3,16 @@ import json
 import shutil
 import subprocess
 from html.parser import HTMLParser
+from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+import plyfold as pf
 from plyfold.draw.viewer import frame, mesh_data, page
+from plyfold.errors import PrecisionError
 
 
 def small_surface(scale=1.0, shift=0.0):
@@ -22,8 +25,16 @@ def small_surface(scale=1.0, shift=0.0):
         boundary=np.array([0, 1, 2, 3]),
         gap=1.0,
         intersections=(),
-        layering=SimpleNamespace(level=np.array([1, 2])),
+        layering=SimpleNamespace(level=np.array([1, 2]), immersion=SimpleNamespace(sheet_cell=np.array([1, 2]))),
+        unwrap=no_disk,
     )
+
+
+def no_disk():
+    raise PrecisionError("doubles cannot hold the disk")
+
+
+RAMP = [(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)]
 
 
 class Page(HTMLParser):
@@ -66,10 +77,10 @@ def test_page_loads_nothing(written):
     assert "url(" not in written.split("</style>")[0]
 
 
-def test_page_closes_every_element_and_holds_four_scripts(written):
+def test_page_closes_every_element_and_holds_five_scripts(written):
     parsed = Page(written)
     assert parsed.open == []
-    assert set(parsed.scripts) == {"surface", "three", "plain", "module"}
+    assert set(parsed.scripts) == {"surface", "three", "cloth", "plain", "module"}
 
 
 def test_scripts_arrive_whole(written):
@@ -77,6 +88,7 @@ def test_scripts_arrive_whole(written):
     static = Path(__file__).parents[2] / "src/plyfold/draw/static"
     parsed = Page(written)
     assert parsed.scripts["three"] == (static / "three.min.js").read_text()
+    assert parsed.scripts["cloth"] == (static / "cloth.js").read_text()
     assert (static / "viewer.js").read_text() in parsed.scripts["module"]
 
 
@@ -106,6 +118,25 @@ def test_data_decode_to_the_mesh(scale, shift):
         assert np.abs(np.array(data["centre"]) + data["scale"] * places - polyline).max() < 1e-6 * 4 * scale
 
 
+@pytest.mark.parametrize(("scale", "shift"), [(1.0, 0.0), (1e-8, 0.0), (1.0, 1e6)])
+def test_frames_begin_with_the_round_disk_and_lead_to_the_drawing(scale, shift):
+    surface = pf.lift(np.array(RAMP) * scale + shift, triangles=300)
+    data = mesh_data(surface)
+    frames = [decoded({"frame": stored}, "frame", "<f4").reshape(-1, 2).astype(float) for stored in data["frames"]]
+    flat = (surface.vertices[:, :2] - data["centre"][:2]) / data["scale"]
+    rim = frames[0][surface.boundary]
+    assert np.ptp(np.hypot(*(rim - frames[0].mean(axis=0)).T)) < 0.5
+    assert np.ptp(np.hypot(*(rim - (rim.max(axis=0) + rim.min(axis=0)) / 2).T)) < 1e-2
+    steps = [np.abs(after - before).max() for before, after in pairwise([*frames, flat])]
+    assert len(frames) >= 8
+    assert max(steps) < 0.5 * np.abs(flat - frames[0]).max()
+    assert data["sheetCell"] == surface.layering.immersion.sheet_cell.tolist()
+
+
+def test_a_disk_that_doubles_cannot_hold_has_no_frames():
+    assert mesh_data(small_surface())["frames"] == []
+
+
 def test_there_is_a_colour_for_every_level():
     assert len(mesh_data(small_surface())["palette"]["layers"]) == 2
 
@@ -122,7 +153,7 @@ def test_frame_holds_the_page(written):
 
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="node checks the syntax")
-@pytest.mark.parametrize("script", ["three", "plain", "module"])
+@pytest.mark.parametrize("script", ["three", "cloth", "plain", "module"])
 def test_scripts_are_sound_javascript(written, script, tmp_path):
     file = tmp_path / "script.mjs"
     file.write_text(Page(written).scripts[script])
@@ -193,3 +224,56 @@ def test_see_through_lets_light_through(shown):
     solid = colour_at(shown, 350, 250)
     shown.get_by_role("button", name="See-through").click()
     assert sum(colour_at(shown, 350, 250)) > sum(solid) + 60
+
+
+def open_ramp(browser, tmp_path):
+    file = tmp_path / "ramp.html"
+    pf.lift(RAMP, triangles=800).export(file)
+    tab = browser.new_page(viewport={"width": 700, "height": 700})
+    tab.goto(file.as_uri())
+    tab.get_by_role("button", name="Top view").click()
+    return tab
+
+
+def covered(tab):
+    """The share of the upper part of the picture that is cloth."""
+    from io import BytesIO
+
+    from PIL import Image
+
+    tab.wait_for_timeout(400)
+    pixels = np.asarray(Image.open(BytesIO(tab.screenshot())).convert("RGB"), dtype=int)[80:560]
+    return float((pixels[..., 2] > pixels[..., 0] + 40).mean())
+
+
+def test_the_slider_unwinds_the_surface_to_a_round_disk(browser, tmp_path):
+    tab = open_ramp(browser, tmp_path)
+    lifted = covered(tab)
+    tab.get_by_label("Disk to surface").fill("0")
+    assert covered(tab) > 1.4 * lifted
+    tab.get_by_label("Disk to surface").fill("2")
+    assert covered(tab) == pytest.approx(lifted, abs=0.01)
+    tab.close()
+
+
+def test_the_sheet_under_the_pointer_lights_up_and_is_told(browser, tmp_path):
+    tab = open_ramp(browser, tmp_path)
+    tab.evaluate(
+        "document.querySelector('.viewer').addEventListener('plyfold-hover', e => { window.told = e.detail; })"
+    )
+    tab.mouse.move(*place_on_screen(tab, (8.5, 3)))
+    tab.wait_for_timeout(300)
+    told = tab.evaluate("window.told")
+    sheets = pf.find_immersion(RAMP)
+    assert told["cell"] == sheets.sheet_cell[told["sheet"]]
+    tab.mouse.move(3, 3)
+    tab.wait_for_timeout(300)
+    assert tab.evaluate("window.told") is None
+    tab.close()
+
+
+def place_on_screen(tab, point):
+    """Where the top view shows a point of the ramp, whose box is 9 wide and 9 tall."""
+    size = tab.viewport_size
+    pixels = min(0.78 * size["height"], 0.92 * size["width"]) / 9
+    return size["width"] / 2 + (point[0] - 4.5) * pixels, size["height"] / 2 - (point[1] - 1.5) * pixels

@@ -16,8 +16,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from plyfold.arrays import Floats
 from plyfold.draw import colours
 from plyfold.draw.places import middle_and_size, natural_stretch
+from plyfold.errors import PrecisionError
+from plyfold.surface.animation import Motion
 
 if TYPE_CHECKING:
     from plyfold.surface import Surface
@@ -25,6 +28,10 @@ if TYPE_CHECKING:
 __all__ = ["frame", "mesh_data", "page"]
 
 _PALE_INK = "#0b0f17"
+_PALE = "#b4bccb"
+# So many positions on the way from the disk to the drawing go into a page, and only two if it would grow too large.
+_FRAMES = 10
+_MANY_VERTICES = 50_000
 
 
 def page(surface: Surface, title: str = "plyfold", figures: Mapping[str, object] | None = None) -> str:
@@ -62,6 +69,7 @@ def page(surface: Surface, title: str = "plyfold", figures: Mapping[str, object]
             "css": _static("viewer.css"),
             "surface": json.dumps(mesh_data(surface), separators=(",", ":")),
             "three": _static("three.min.js"),
+            "cloth": _static("cloth.js"),
             "viewer": _static("viewer.js"),
         },
     )
@@ -94,18 +102,34 @@ def mesh_data(surface: Surface) -> dict[str, Any]:
         "faces": _base64(surface.faces, "<u4"),
         "sheet": _base64(surface.sheet, "<u4"),
         "level": _base64(level, "<u4"),
+        "sheetCell": np.asarray(surface.layering.immersion.sheet_cell).tolist(),
         "boundary": _base64(surface.boundary, "<u4"),
+        "frames": [_base64((frame - centre[:2]) / scale, "<f4") for frame in _frames(surface)],
         "intersections": [_base64((polyline - centre) / scale, "<f4") for polyline in surface.intersections],
         "palette": {
             "cloth": [colours.CLOTH_LOW, colours.CLOTH_HIGH],
             "back": colours.BACK,
             "ink": colours.INK,
             "paleInk": _PALE_INK,
+            "pale": _PALE,
             "intersection": colours.OBSTRUCTION,
             "layers": [colours.layer_colour(i + 1, levels) for i in range(levels)],
             "sheets": [colours.sheet_colour(i) for i in range(3 * len(colours.SHEETS))],
         },
     }
+
+
+def _frames(surface: Surface) -> list[Floats]:
+    """Return where the vertices are on their way from the round disk to the drawing, at equal times from 0 to 1.
+
+    None if doubles cannot hold the disk: then the page shows no way.
+    """
+    try:
+        motion = Motion(surface.unwrap())
+    except PrecisionError:
+        return []
+    count = _FRAMES if len(surface.vertices) < _MANY_VERTICES else 2
+    return [motion.at(number / count)[:, :2] for number in range(count)]
 
 
 def _base64(values: npt.ArrayLike, kind: str) -> str:

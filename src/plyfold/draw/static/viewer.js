@@ -1,10 +1,11 @@
 // The 3D page: shows one surface, given as compact arrays by viewer.py. `show` returns a handle that can take another
 // surface later. Units in the scene: the drawing is about 2 across, centred at the origin, z up.
 
+import { clothGeometry, decode, moveTo, paint, positionsAt } from "cloth";
 import {
-  BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Group, HemisphereLight, Line2, LineGeometry,
-  LineMaterial, Mesh, MeshStandardMaterial, OrbitControls, OrthographicCamera, PCFShadowMap, PerspectiveCamera,
-  PlaneGeometry, Scene, ShadowMaterial, Vector3, WebGLRenderer,
+  Color, DirectionalLight, DoubleSide, Group, HemisphereLight, Line2, LineGeometry, LineMaterial, Mesh,
+  MeshStandardMaterial, OrbitControls, OrthographicCamera, PCFShadowMap, PerspectiveCamera, PlaneGeometry, Raycaster,
+  Scene, ShadowMaterial, Vector2, Vector3, WebGLRenderer,
 } from "three";
 
 const FIELD_OF_VIEW = 32;
@@ -17,7 +18,8 @@ const ACTIONS = [
   { name: "Top view", key: "t", hint: "From straight above: equals the drawing", perform: (v) => v.lookFromAbove(), on: (v) => v.camera === v.flat },
   { name: "Perspective", key: "p", hint: "From the side, in perspective", perform: (v) => v.lookFromSide(), on: (v) => v.camera === v.deep },
   { name: "Fit", key: "f", hint: "Fit the surface to the window", perform: (v) => v.fit() },
-  { name: "See-through", key: "x", hint: "Make the surface transparent", perform: (v) => v.toggleSeeThrough(), on: (v) => v.seeThrough },
+  { name: "See-through", key: "x", hint: "Make the surface transparent", perform: (v) => v.set({ seeThrough: !v.options.seeThrough }), on: (v) => v.options.seeThrough },
+  { name: "Dark", key: "d", hint: "Dark or light", perform: (v) => v.set({ dark: !v.dark }), on: (v) => v.dark },
 ];
 
 const COLOURINGS = [
@@ -25,81 +27,6 @@ const COLOURINGS = [
   ["layer", "Layers"],
   ["sheet", "Sheets"],
 ];
-
-// ---- data ------------------------------------------------------------------------------------------------------
-
-function bytes(text) {
-  const raw = atob(text);
-  const out = new Uint8Array(raw.length);
-  for (let i = 0; i < raw.length; i++) out[i] = raw.charCodeAt(i);
-  return out.buffer;
-}
-
-/** Turn the base64 fields of the page's data into typed arrays. */
-export function decode(data) {
-  return {
-    ...data,
-    vertices: new Float32Array(bytes(data.vertices)),
-    faces: new Uint32Array(bytes(data.faces)),
-    sheet: new Uint32Array(bytes(data.sheet)),
-    level: new Uint32Array(bytes(data.level)),
-    boundary: new Uint32Array(bytes(data.boundary)),
-    intersections: data.intersections.map((polyline) => new Float32Array(bytes(polyline))),
-  };
-}
-
-// ---- geometry --------------------------------------------------------------------------------------------------
-
-/** Every triangle gets corners of its own, so that colours may change across an edge while normals stay smooth. */
-function clothGeometry(surface) {
-  const shared = new BufferGeometry();
-  shared.setAttribute("position", new BufferAttribute(surface.vertices, 3));
-  shared.setIndex(new BufferAttribute(surface.faces, 1));
-  shared.computeVertexNormals();
-  const geometry = shared.toNonIndexed();
-  geometry.setAttribute("color", new BufferAttribute(new Float32Array(3 * surface.faces.length), 3));
-  geometry.setIndex(new BufferAttribute(Uint32Array.from(surface.faces.keys()), 1));
-  return geometry;
-}
-
-function heights(positions) {
-  let low = Infinity;
-  let high = -Infinity;
-  for (let i = 2; i < positions.length; i += 3) {
-    low = Math.min(low, positions[i]);
-    high = Math.max(high, positions[i]);
-  }
-  return { low, high };
-}
-
-function clothColour(surface, positions) {
-  const { low, high } = heights(positions);
-  const [bottom, top] = surface.palette.cloth.map((c) => new Color(c));
-  const mixed = new Color();
-  return (corner) => mixed.lerpColors(bottom, top, (positions[3 * corner + 2] - low) / (high - low || 1));
-}
-
-function tableColour(names, indexOfTriangle) {
-  const colours = names.map((name) => new Color(name));
-  return (corner) => colours[indexOfTriangle(Math.floor(corner / 3))];
-}
-
-function colouring(kind, surface, positions) {
-  const { palette, sheet, level } = surface;
-  if (kind === "layer") return tableColour(palette.layers, (triangle) => level[sheet[triangle]] - 1);
-  if (kind === "sheet") return tableColour(palette.sheets, (triangle) => sheet[triangle] % palette.sheets.length);
-  return clothColour(surface, positions);
-}
-
-function paint(geometry, kind, surface) {
-  const attribute = geometry.getAttribute("color");
-  const colourOf = colouring(kind, surface, geometry.getAttribute("position").array);
-  for (let corner = 0; corner < attribute.count; corner++) {
-    const { r, g, b } = colourOf(corner);
-    attribute.setXYZ(corner, r, g, b);
-  }
-  attribute.needsUpdate = true;
-}
 
 /** Reorder the triangles from far to near along `direction`, so that transparent ones blend in the right order. */
 function sortTriangles(geometry, direction) {
@@ -132,12 +59,13 @@ function clothMaterial(backName) {
   return material;
 }
 
+/** The coordinates of the boundary's vertices, once round. */
+function around({ boundary }, positions) {
+  return [...boundary, boundary[0]].flatMap((vertex) => [...positions.subarray(3 * vertex, 3 * vertex + 3)]);
+}
+
 function boundaryLine(surface) {
-  const points = [];
-  for (const vertex of [...surface.boundary, surface.boundary[0]]) {
-    points.push(...surface.vertices.subarray(3 * vertex, 3 * vertex + 3));
-  }
-  return spaceLine(points, surface.palette.ink);
+  return spaceLine(around(surface, surface.vertices), surface.palette.ink);
 }
 
 /** Red lines where sheets pass through each other. */
@@ -181,10 +109,14 @@ function ground(radius) {
   return plane;
 }
 
+/** What `set` takes. A morph of 0 is the round disk, 1 laid flat over the drawing, 2 lifted. */
+const OPTIONS = { explode: 1, seeThrough: false, morph: 2, colouring: "cloth", dark: null, highlightSheet: null };
+
 class Viewer {
   constructor(element, data) {
     this.element = element;
     this.canvas = element.querySelector("canvas");
+    this.options = OPTIONS;
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true });
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
@@ -194,16 +126,56 @@ class Viewer {
     this.flat.up.set(0, 0, 1);
     this.deep.up.set(0, 0, 1);
     this.camera = this.deep;
-    this.colouring = "cloth";
-    this.seeThrough = false;
     this.scale = 1;
     this.controls = this.makeControls();
     this.setSurface(data);
-    this.followTheme();
     this.buildToolbar();
-    new ResizeObserver(() => this.resize()).observe(element);
+    this.followPage();
     this.resize();
     this.lookFromSide();
+  }
+
+  // ---- what the handle of `show` is for
+
+  /** Show another surface from the same direction. */
+  update(data) {
+    this.setSurface(data);
+    this.apply(this.options);
+    this.fit();
+  }
+
+  set(changes) {
+    const before = this.options;
+    this.options = { ...before, ...changes };
+    this.apply(Object.fromEntries(Object.entries(changes).filter(([name, value]) => before[name] !== value)));
+    this.refresh();
+  }
+
+  topView() {
+    this.lookFromAbove();
+    this.refresh();
+  }
+
+  dispose() {
+    this.leaving.abort();
+    this.watching.disconnect();
+    this.controls.dispose();
+    this.renderer.dispose();
+  }
+
+  // ---- the inside
+
+  apply(changes) {
+    const actions = {
+      explode: () => this.setScale(this.surface.stretch * this.options.explode),
+      seeThrough: () => this.setSeeThrough(),
+      morph: () => this.move(),
+      colouring: () => this.paint(),
+      highlightSheet: () => this.paint(),
+      dark: () => this.setDark(),
+    };
+    Object.keys(changes).forEach((name) => actions[name]?.());
+    this.requestFrame();
   }
 
   makeControls() {
@@ -222,10 +194,27 @@ class Viewer {
     this.cloth = new Mesh(this.geometry, clothMaterial(this.surface.palette.back));
     this.cloth.castShadow = this.cloth.receiveShadow = true;
     this.line = boundaryLine(this.surface);
-    this.body = new Group().add(this.cloth, this.line, ...intersectionLines(this.surface));
+    this.passing = intersectionLines(this.surface);
+    this.body = new Group().add(this.cloth, this.line, ...this.passing);
     this.scene.add(this.body, ...softLights());
-    this.setColouring(this.colouring);
-    this.setScale(this.surface.stretch);
+    this.move();
+    this.paint();
+    this.setScale(this.surface.stretch * this.options.explode);
+  }
+
+  /** Put the cloth where it is at the time of its way that is to be seen. */
+  move() {
+    this.positions = positionsAt(this.surface, this.options.morph);
+    moveTo(this.geometry, this.surface, this.positions);
+    this.line.geometry.setPositions(around(this.surface, this.positions));
+    this.passing.forEach((line) => Object.assign(line, { visible: this.options.morph === 2 }));
+    this.sortedAlong = null;
+    this.setScale(this.scale);
+  }
+
+  paint() {
+    const { colouring, highlightSheet } = this.options;
+    paint(this.geometry, colouring, this.surface, highlightSheet === null ? [] : [highlightSheet].flat());
   }
 
   /** Half the diagonal of the surface at the current vertical scale: everything fits in this sphere. */
@@ -237,7 +226,6 @@ class Viewer {
 
   setScale(scale) {
     this.scale = scale;
-    this.geometry.computeBoundingBox();
     this.body.scale.z = scale;
     this.scene.remove(this.key, this.ground);
     this.key = keyLight(this.radius);
@@ -248,26 +236,19 @@ class Viewer {
     this.requestFrame();
   }
 
-  setColouring(kind) {
-    this.colouring = kind;
-    paint(this.geometry, kind, this.surface);
-    this.requestFrame();
-  }
-
-  toggleSeeThrough() {
-    this.seeThrough = !this.seeThrough;
+  setSeeThrough() {
+    const { seeThrough } = this.options;
     const { material } = this.cloth;
-    material.transparent = this.seeThrough;
-    material.opacity = this.seeThrough ? SEE_THROUGH : 1;
-    material.depthWrite = !this.seeThrough;
+    material.transparent = seeThrough;
+    material.opacity = seeThrough ? SEE_THROUGH : 1;
+    material.depthWrite = !seeThrough;
     material.needsUpdate = true;
-    this.cloth.castShadow = !this.seeThrough;
+    this.cloth.castShadow = !seeThrough;
     this.sortIfSeeThrough();
-    this.requestFrame();
   }
 
   sortIfSeeThrough() {
-    if (!this.seeThrough) return;
+    if (!this.options.seeThrough) return;
     const direction = this.camera.getWorldDirection(new Vector3());
     direction.z *= this.scale;
     if (this.sortedAlong && direction.distanceTo(this.sortedAlong) < 0.02) return;
@@ -310,11 +291,10 @@ class Viewer {
     const tangent = Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180));
     const right = new Vector3().crossVectors(this.camera.up, direction).normalize();
     const up = new Vector3().crossVectors(direction, right);
-    const { vertices, boundary } = this.surface;
     const point = new Vector3();
     let distance = 0;
-    for (const vertex of boundary) {
-      point.fromArray(vertices, 3 * vertex).multiply(this.body.scale);
+    for (const vertex of this.surface.boundary) {
+      point.fromArray(this.positions, 3 * vertex).multiply(this.body.scale);
       const reach = Math.max(Math.abs(up.dot(point)) / 0.78, Math.abs(right.dot(point)) / (0.92 * this.aspect));
       distance = Math.max(distance, direction.dot(point) + reach / tangent);
     }
@@ -352,25 +332,57 @@ class Viewer {
 
   // ---- page around the picture
 
-  followTheme() {
-    const dark = matchMedia("(prefers-color-scheme: dark)");
-    const apply = () => {
-      this.line.material.color.set(dark.matches ? this.surface.palette.paleInk : this.surface.palette.ink);
-      this.requestFrame();
-    };
-    dark.addEventListener("change", apply);
-    apply();
+  get dark() {
+    return this.options.dark ?? this.night.matches;
   }
 
+  setDark() {
+    if (this.options.dark !== null) this.element.dataset.theme = this.options.dark ? "dark" : "light";
+    this.line.material.color.set(this.dark ? this.surface.palette.paleInk : this.surface.palette.ink);
+    this.requestFrame();
+  }
+
+  /** The size and the theme of the page, and the pointer over the cloth. */
+  followPage() {
+    this.night = matchMedia("(prefers-color-scheme: dark)");
+    this.leaving = new AbortController();
+    const { signal } = this.leaving;
+    this.night.addEventListener("change", () => this.setDark(), { signal });
+    this.canvas.addEventListener("pointermove", (event) => event.buttons === 0 && this.tell(this.sheetUnder(event)), { signal });
+    this.canvas.addEventListener("pointerleave", () => this.tell(null), { signal });
+    this.watching = new ResizeObserver(() => this.resize());
+    this.watching.observe(this.element);
+    this.setDark();
+  }
+
+  sheetUnder({ offsetX, offsetY }) {
+    const { clientWidth, clientHeight } = this.canvas;
+    const place = new Vector2((2 * offsetX) / clientWidth - 1, 1 - (2 * offsetY) / clientHeight);
+    const ray = new Raycaster();
+    ray.setFromCamera(place, this.camera);
+    const [hit] = ray.intersectObject(this.cloth);
+    return hit ? this.surface.sheet[this.geometry.getIndex().array[3 * hit.faceIndex] / 3 | 0] : null;
+  }
+
+  /** Light up the sheet under the pointer, and say so to the page. */
+  tell(sheet) {
+    if (sheet === this.hovered) return;
+    this.hovered = sheet;
+    this.set({ highlightSheet: sheet });
+    const detail = sheet === null ? null : { sheet, cell: this.surface.sheetCell[sheet], border: null };
+    this.element.dispatchEvent(new CustomEvent("plyfold-hover", { detail }));
+  }
+
+  /** Buttons and sliders, where the page has a place for them; keys in any case. */
   buildToolbar() {
     const bar = this.element.querySelector("[role=toolbar]");
-    const buttons = ACTIONS.map((action) => bar.appendChild(this.button(action)));
-    bar.append(this.colourChoice(), this.explodeSlider());
+    const buttons = bar ? ACTIONS.map((action) => bar.appendChild(this.button(action))) : [];
+    bar?.append(this.colourChoice(), this.motionSlider(), this.explodeSlider());
     this.refresh = () => buttons.forEach((button, i) => {
       if (ACTIONS[i].on) button.setAttribute("aria-pressed", ACTIONS[i].on(this));
     });
     this.element.addEventListener("keydown", (event) => this.press(event));
-    this.canvas.addEventListener("dblclick", () => this.perform(ACTIONS[2]));
+    this.canvas.addEventListener("dblclick", () => this.fit());
     queueMicrotask(this.refresh);
   }
 
@@ -387,15 +399,23 @@ class Viewer {
   colourChoice() {
     const select = document.createElement("select");
     COLOURINGS.forEach(([value, name]) => select.add(new Option(name, value)));
-    select.addEventListener("change", () => this.setColouring(select.value));
+    select.addEventListener("change", () => this.set({ colouring: select.value }));
     return labelled("Colour", select);
   }
 
-  explodeSlider() {
-    const slider = document.createElement("input");
-    Object.assign(slider, { type: "range", min: -1, max: 1, step: 0.02, value: 0, title: "Vertical scale of the heights" });
+  motionSlider() {
+    const slider = range({ min: 0, max: 2, value: 2, title: "From the round disk over the flat drawing to the lifted surface" });
     slider.addEventListener("input", () => {
-      this.setScale(this.surface.stretch * 6 ** slider.valueAsNumber);
+      this.set({ morph: slider.valueAsNumber });
+      this.fit();
+    });
+    return labelled("Disk to surface", slider);
+  }
+
+  explodeSlider() {
+    const slider = range({ min: -1, max: 1, value: 0, title: "Vertical scale of the heights" });
+    slider.addEventListener("input", () => {
+      this.set({ explode: 6 ** slider.valueAsNumber });
       this.fit();
     });
     return labelled("Explode", slider);
@@ -429,6 +449,10 @@ class Viewer {
     this.requestFrame();
     return true;
   }
+}
+
+function range(attributes) {
+  return Object.assign(document.createElement("input"), { type: "range", step: 0.02, ...attributes });
 }
 
 function labelled(text, control) {
