@@ -1,6 +1,7 @@
-"""What is timed, each in a process of its own: ``python contenders.py NAME POINTS.npy [--plain]`` prints one JSON line per stage.
+"""What is timed, each in a process of its own: ``python contenders.py NAME POINTS.npy [--plain]``.
 
-If numba is installed, it is imported first, and plyfold's loops run in machine code; with ``--plain`` in plain Python.
+It prints one JSON line per stage. If numba is installed, it is imported first, and plyfold's loops run in machine code;
+with ``--plain`` they run in plain Python.
 
 A line has "stage" and "seconds" (the best of the runs so far), facts about the curve, and "megabytes": how much the
 peak of memory has grown since a small curve was worked through, which loads all modules.
@@ -45,7 +46,8 @@ def plyfold_steps(points: Points) -> Iterator[Step]:
     facts = {"k": drawn.n_crossings, "w": int(drawn.winding.max()), "moved": len(drawn.curve.repairs)}
     yield "arrangement", seconds, facts
     seconds, verdict = timed(lambda: pf.find_immersion(drawn))
-    yield "sheets", seconds, {"disk": bool(verdict), "reason": getattr(verdict, "reason", "")}
+    glued = len(verdict.gluing) if isinstance(verdict, pf.Immersion) else None
+    yield "sheets", seconds, {"disk": bool(verdict), "reason": getattr(verdict, "reason", ""), "glued": glued}
     fresh = pf.arrangement(points)
     seconds, count = timed(lambda: pf.count_immersions(fresh))
     yield "count", seconds, {"immersions": str(count)}

@@ -146,12 +146,20 @@ def on_the_page(page: Any, points: Points, runs: int) -> dict[str, list[float]]:
         page.wait_for_selector("#drawing")
         page.wait_for_timeout(300)
         _draw(page, points)
-        page.wait_for_function("seen.verdict > 0", timeout=20_000)
-        taken["verdict"].append(page.evaluate("seen.verdict - seen.up"))
+        taken["verdict"].append(_waited_for(page, "verdict"))
         if is_disk:
-            page.wait_for_function("seen.painted > 0", timeout=20_000)
-            taken["painted"].append(page.evaluate("seen.painted - seen.up"))
+            taken["painted"].append(_waited_for(page, "painted"))
     return taken
+
+
+def _waited_for(page: Any, name: str) -> float:
+    """Return the milliseconds from pointer-up to what is noted under a name, once it is."""
+    end = time.monotonic() + 20
+    while time.monotonic() < end:
+        if page.evaluate(f"seen.{name}"):
+            return float(page.evaluate(f"seen.{name} - seen.up"))
+        time.sleep(0.02)
+    raise TimeoutError(f"the page shows no {name}")
 
 
 def _draw(page: Any, points: Points) -> None:

@@ -9,6 +9,7 @@ import platform
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from importlib.metadata import version
+from importlib.util import find_spec
 from pathlib import Path
 from statistics import linear_regression
 from typing import Any
@@ -68,13 +69,22 @@ def exponent(rows: Sequence[Row], stages: Iterable[str]) -> float | None:
     step takes longer than its work.
     """
     stages = tuple(stages)
-    measured = [(row.size, row.total(stages)) for row in rows]
-    points = [(size, seconds) for size, seconds in measured if size and seconds]
+    return growth([(row.size, row.total(stages)) for row in rows])
+
+
+def growth_of_answer(rows: Sequence[Row]) -> float | None:
+    """Return the power with which vertices and glued pairs of sheets grow, as if they were seconds."""
+    return growth([(row.size, row.vertices + row.facts["glued"] if row.facts.get("glued") else None) for row in rows])
+
+
+def growth(measured: Iterable[tuple[int | None, float | None]]) -> float | None:
+    """Return the power of a size with which a measurement grows; see :func:`exponent`."""
+    points = [(size, value) for size, value in measured if size and value]
     largest = max((size for size, _ in points), default=0)
     points = [(size, seconds) for size, seconds in points if size >= largest / 100]
     if len(points) < 3 or largest < max(LARGE, 10 * min(size for size, _ in points)):
         return None
-    return linear_regression([math.log(size) for size, _ in points], [math.log(time) for _, time in points]).slope
+    return linear_regression([math.log(size) for size, _ in points], [math.log(value) for _, value in points]).slope
 
 
 def number(value: float | None, digits: int = 2) -> str:
@@ -123,11 +133,12 @@ def by_family(rows: Sequence[Row]) -> dict[str, list[Row]]:
 
 
 def growth_table(rows: Sequence[Row]) -> str:
-    """Return the growth exponent of every family: arrangement, verdict with all sheets, triangulation, GEOS."""
-    heads = ["family", "arrangement", "with all sheets", "with triangles", "GEOS"]
+    """Return the growth exponents of every family: of the times by stage, and of what there is to compute."""
+    heads = ["family", "arrangement", "with all sheets", "with triangles", "GEOS", "size of the answer"]
     choices = (("arrangement",), VERDICT, TRIANGULATED, ("GEOS",))
     lines = [
-        [family, *(number(exponent(own, stages), 3) for stages in choices)] for family, own in by_family(rows).items()
+        [family, *(number(exponent(own, stages), 3) for stages in choices), number(growth_of_answer(own), 3)]
+        for family, own in by_family(rows).items()
     ]
     return markdown(heads, lines)
 
@@ -192,7 +203,7 @@ def machine(rows: Sequence[Row]) -> str:
         *(f"{size:.0f} GB" for size in memory),
         platform.system(),
         f"Python {platform.python_version()}",
-        *(f"{name} {version(name)}" for name in ("plyfold", "numpy", "shapely")),
+        *(f"{name} {version(name)}" for name in ("plyfold", "numpy", "shapely", "numba") if find_spec(name)),
         f"GEOS {geos}",
         datetime.date.today().isoformat(),
     ]

@@ -68,6 +68,17 @@ def test_numba_that_cannot_be_imported_is_left_alone(monkeypatch):
     compiled._can_be_imported.cache_clear()
 
 
+def test_translations_are_named_after_all_sources():
+    """numba itself would run an old translation after a change in a file that the loop only calls into."""
+    from plyfold.flat import sweep, turns
+
+    parts = compiled._reached(sweep._swept)
+    assert turns.turn in parts
+    assert turns._add in parts
+    names = {compiled._named_after_sources(sweep._swept, some).__qualname__ for some in (parts, parts, set())}
+    assert len(names) == 2
+
+
 def test_small_drawings_do_not_load_numba():
     program = (
         "import sys, plyfold as pf; pf.triangulate(pf.gallery.CURVES['ten-gon'].curve); print('numba' in sys.modules)"

@@ -14,7 +14,11 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterable
 from functools import cache
+from hashlib import sha256
 from importlib import import_module
+from pathlib import Path
+from threading import Lock
+from types import FunctionType
 from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
@@ -32,13 +36,17 @@ STEPS_BEFORE_NUMBA = 300_000
 # Nothing is allocated in a loop, so no references need be counted, which takes longer than all the rest.
 _OPTIONS = {"_nrt": False}
 
+_lock = Lock()
 _steps_so_far = 0
-_called: list[Callable[..., Any]] = []
+# Functions called from loops, and those of them that numba does not know yet.
+_called: set[Callable[..., Any]] = set()
+_waiting: set[Callable[..., Any]] = set()
 
 
 def called_from_loops(function: _Function) -> _Function:
     """Mark a function that loops call, to be translated together with them; it stays as it is."""
-    _called.append(function)
+    _called.add(function)
+    _waiting.add(function)
     return function
 
 
@@ -102,12 +110,41 @@ def _can_be_imported() -> bool:
 
 @cache
 def _machine_code(loop: Callable[..., Any]) -> Callable[..., Any]:
-    translate_with_loops = import_module("numba.extending").register_jitable(**_OPTIONS)
-    while _called:
-        translate_with_loops(_called.pop())
+    register = import_module("numba.extending").register_jitable(**_OPTIONS)
+    with _lock:
+        parts = _reached(loop)
+        for function in parts & _waiting:
+            register(function)
+        _waiting.difference_update(parts)
     translate = import_module("numba").njit
     try:
-        translated: Callable[..., Any] = translate(cache=True, **_OPTIONS)(loop)
-    except RuntimeError:  # no folder may be written to: it is translated anew in every process
+        translated: Callable[..., Any] = translate(cache=True, **_OPTIONS)(_named_after_sources(loop, parts))
+    except (OSError, RuntimeError):  # nowhere to keep a translation: it is made anew in every process
         translated = translate(**_OPTIONS)(loop)
     return translated
+
+
+def _reached(loop: Callable[..., Any]) -> set[FunctionType]:
+    """Return the marked functions that a loop calls, by way of others too."""
+    found: set[FunctionType] = set()
+    waiting: list[Any] = [loop]
+    while waiting:
+        function = waiting.pop()
+        named = [function.__globals__.get(name) for name in function.__code__.co_names]
+        fresh = {other for other in named if isinstance(other, FunctionType) and other in _called} - found
+        found |= fresh
+        waiting += fresh
+    return found
+
+
+def _named_after_sources(loop: Callable[..., Any], parts: set[FunctionType]) -> FunctionType:
+    """Return a copy of a loop whose name changes with all files that it comes from.
+
+    numba looks for its translation by this name, and at the loop's own file alone.
+    """
+    code, names = loop.__code__, loop.__globals__
+    sources = sorted({code.co_filename, *(function.__code__.co_filename for function in parts)})
+    digest = sha256(b"".join(Path(source).read_bytes() for source in sources)).hexdigest()
+    copy = FunctionType(code, names, loop.__name__)
+    copy.__qualname__ = f"{loop.__name__}_{digest[:16]}"
+    return copy
