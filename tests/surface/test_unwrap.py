@@ -264,6 +264,12 @@ def test_other_weights_take_the_place_of_those_that_flip(monkeypatch):
     assert all(positive(*disk[face]) for face in faces)
 
 
+def test_a_disk_that_cotangents_flip():
+    """Found among random ones: two triangles are flipped by cotangents, none by mean values."""
+    rng = np.random.default_rng(1028)
+    assert_one_to_one(pf.unwrap(random_curves.glued_disk(rng, 33), triangles=1))
+
+
 def test_what_doubles_cannot_hold_is_refused_with_the_place(monkeypatch):
     points, faces, boundary = flat_triangles()
     monkeypatch.setattr(round_map, "_weighted_means", lambda *_: np.zeros((2, 2)))

@@ -70,7 +70,7 @@ def round_map(points: Floats, faces: Ints, boundary: Ints) -> Floats:
     flipped = np.empty(0, dtype=np.int64)
     for weights in (cotangents, _mean_values, _equal):
         if len(inner):
-            disk[inner] = _weighted_means(weights(unit[faces]), faces, disk, inner)
+            disk[inner] = _weighted_means(weights(unit[faces]), faces, disk, inner, boundary)
         flipped = np.flatnonzero(orient(*disk[faces].swapaxes(0, 1)) <= 0)
         if len(flipped) == 0:
             return disk
@@ -94,8 +94,8 @@ def _in_unit_square(points: Floats) -> Floats:
     return np.asarray((points - low) / (points - low).max())
 
 
-def _weighted_means(weights: Floats, faces: Ints, disk: Floats, inner: Ints) -> Floats:
-    """Return the places of the inner vertices, given those of the others.
+def _weighted_means(weights: Floats, faces: Ints, disk: Floats, inner: Ints, boundary: Ints) -> Floats:
+    """Return the places of the inner vertices, given those of the boundary.
 
     ``weights[t, i]`` has what triangle t adds to the weight of the side opposite its corner i: from the corner that
     follows to the last one, and back.
@@ -107,7 +107,7 @@ def _weighted_means(weights: Floats, faces: Ints, disk: Floats, inner: Ints) -> 
     row, column = np.concatenate([start, end]), np.concatenate([end, start])
     whole = csr_array((np.concatenate([there, back]), (row, column)), shape=(len(disk), len(disk)))[inner]
     total = diags_array(whole.sum(axis=1))
-    return _solved(total - whole[:, inner], whole @ disk)
+    return _solved(total - whole[:, inner], whole[:, boundary] @ disk[boundary])
 
 
 def _solved(matrix: Any, right: Floats) -> Floats:
