@@ -45,10 +45,10 @@ def natural_stretch(vertices: Floats) -> float:
     return max(1.0, 0.25 * width / height) if height > 0 else 1.0
 
 
-def label_circle(arrangement: Arrangement, cell: int) -> tuple[float, float, float]:
+def label_circle(arrangement: Arrangement, cell: int, tolerance: float = 0.005) -> tuple[float, float, float]:
     """Return the middle and radius of a large circle inside a bounded cell: the room for its label.
 
-    It is the largest inscribed circle to about one part in a hundred, found in coordinates of the cell's own size.
+    It is the largest inscribed circle to a tolerance, in parts of the cell's size; 0.02 takes a third of the time.
     """
     import shapely
 
@@ -56,7 +56,7 @@ def label_circle(arrangement: Arrangement, cell: int) -> tuple[float, float, flo
     middle, size = middle_and_size(outline)
     polygon = shapely.Polygon((outline - middle) / size)
     try:
-        radius = shapely.maximum_inscribed_circle(polygon, tolerance=0.005)
+        radius = shapely.maximum_inscribed_circle(polygon, tolerance=tolerance)
     except shapely.GEOSException:
         return (*arrangement.cell_point(cell), 0.0)
     x, y = middle + size * np.array(radius.coords[0])

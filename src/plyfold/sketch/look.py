@@ -21,6 +21,7 @@ __all__ = ["in_words", "look"]
 
 _LONGEST_WORD = 60
 _LONGEST_NUMBER = 12
+_LABEL_TOLERANCE = 0.02
 
 
 def look(question: Look) -> dict[str, Any]:
@@ -89,7 +90,7 @@ def _border(drawn: Arrangement, border: int) -> list[list[float]]:
 
 
 def _cell(drawn: Arrangement, cell: int) -> dict[str, Any]:
-    x, y, radius = label_circle(drawn, cell)
+    x, y, radius = label_circle(drawn, cell, _LABEL_TOLERANCE)
     return {
         "cell": cell,
         "winding": int(drawn.winding[cell]),
