@@ -127,7 +127,7 @@ def _parser() -> argparse.ArgumentParser:
     check.epilog, check.formatter_class = _JSON_GUIDE, argparse.RawDescriptionHelpFormatter
     lift = _command(commands, "lift", _lift, "lift a curve to a layered surface that does not cut itself")
     _time_limit(lift)
-    _outputs(lift, ".glb .obj .ply .stl .3mf .html")
+    _outputs(lift, ".glb .obj .ply .stl .3mf .html .gif .mp4")
     lift.add_argument(
         "--gap", type=float, help="least distance of sheets, in units of the drawing (default: 1/20 of its larger side)"
     )
@@ -261,7 +261,7 @@ def _lift(options: argparse.Namespace) -> int:
     from plyfold.surface import lift
 
     watch = Stopwatch()
-    endings = (".glb", ".obj", ".ply", ".stl", ".3mf", *([] if options.thicken is not None else [".html"]))
+    endings = (".glb", ".obj", ".ply", ".stl", ".3mf", *([] if options.thicken is not None else [".html", ".gif", ".mp4"]))
     arranged = _prepared(options, endings, watch)
     surface = lift(
         arranged,

@@ -176,7 +176,8 @@ class Surface:
         ----------
         path : path
             The ending chooses the format: ``.glb``, ``.obj``, ``.ply``, ``.stl``, ``.3mf``, or ``.html`` for a 3D page
-            that works in any browser with no network.
+            that works in any browser with no network; or ``.gif``, or ``.mp4`` where ffmpeg is installed, for a film of
+            the round disk that unwinds onto the drawing and rises to the surface.
         force : bool
             Replace an existing file.
         title : str, optional
@@ -198,8 +199,13 @@ class Surface:
         PrecisionError
             If the numbers of the format cannot hold the surface, or doubles cannot hold the disk that is asked for.
         """
-        if refuse_ending(path, (".html",)) == ".html":
+        suffix = refuse_ending(path, (".html", ".gif", ".mp4"))
+        if suffix == ".html":
             save_bytes(path, self._page(title or Path(path).stem), force)
+        elif suffix in (".gif", ".mp4"):
+            from plyfold.draw.film import save_film
+
+            save_film(self, path, force)
         else:
             save_model(lambda: model_of_surface(self, colours, unwrapped), path, force)
 
