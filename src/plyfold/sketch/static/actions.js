@@ -101,7 +101,7 @@ export const ACTIONS = [
   { name: "share", label: "Link", keys: ["Shift+S"], group: "file", hint: "Copy a link that holds the whole drawing", perform: commands.share, enabled: drawn },
   { name: "exports", label: "Save as", keys: ["Ctrl+E"], group: "file", hint: "Save as a picture, a mesh or a page", perform: (page) => page.showExports(), enabled: drawn },
   { name: "help", label: "Help", keys: ["?"], group: "file", hint: "All keys", perform: (page) => page.showHelp() },
-  { name: "theme", label: "Light or dark", keys: ["Shift+D"], group: "file", hint: "Change between light and dark", perform: (page) => page.changeTheme() },
+  { name: "theme", label: "Theme", keys: ["Shift+D"], group: "file", hint: "Change between light and dark", perform: (page) => page.changeTheme() },
   { name: "saveFile", label: "Save the drawing", keys: ["Ctrl+S"], group: "exports", hint: "Save as JSON; no server is needed", perform: commands.saveFile, enabled: drawn },
   { name: "back", label: "Back to the drawing before", keys: ["Shift+B"], group: "exports", hidden: true, hint: "Open the drawing before again",
     perform: commands.goBack },

@@ -94,7 +94,7 @@ function refresh(state) {
   if (verdict) {
     find("verdict").parentElement.dataset.state = verdict.kind;
     write(find("verdict"), verdict.headline);
-    write(find("sentence"), verdict.sentence);
+    write(find("sentence"), sentenceCase(verdict.sentence));
   }
   document.body.classList.toggle("asking", state.asking);
   find("invitation").hidden = !isEmpty(shown(state)) || state.path.length > 0 || state.cursor !== null;
@@ -106,6 +106,9 @@ function refresh(state) {
   }
   refreshFigures(figuresOf(state));
 }
+
+/** The headline has said yes or no already. */
+const sentenceCase = (sentence) => sentence.replace(/^(No disk\.|Yes:) /, "").replace(/^./, (letter) => letter.toUpperCase());
 
 function write(element, text) {
   if (element.textContent !== text) element.textContent = text;

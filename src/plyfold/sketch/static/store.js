@@ -28,7 +28,6 @@ export const START = Object.freeze({
   immersion: "0",
   layering: "0",
   gap: null,
-  morph: 1, // 0 disk, 0.5 immersion, 1 lifted surface
   scene: "surface", // or "layout"
   hover: null, // {cell, border, sheets}
   notice: null, // {text, actions: [action names]}

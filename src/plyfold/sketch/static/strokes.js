@@ -70,7 +70,7 @@ export function tidied(path, tolerance, obstacles = []) {
 
 /** What the pen did, as a stroke: `pixel` is the size of one. Where its end comes back to its beginning it is closed. */
 export function penStroke(raw, pixel, obstacles = []) {
-  const points = thinned(raw, 3 * pixel);
+  const points = thinned(raw, 1.5 * pixel);
   const loop = closedLoop(points, 22 * pixel);
   return tidied({ points: loop ?? points, closed: loop !== null }, 0.5 * pixel, obstacles);
 }

@@ -1,0 +1,349 @@
+"""The sketching page in a real browser: drawn with real pointer events, and by keyboard alone."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from plyfold import gallery
+
+pytest.importorskip("playwright")
+
+WORD = {"immersible": "A disk of cloth", "none": "No disk", "unfinished": "Not a loop yet"}
+
+
+@pytest.fixture
+def sketch(page):
+    page.set_default_timeout(9000)
+    page.wait_for_selector("html[data-ready]")
+    return page
+
+
+def named(name, size=380):
+    """Return a curve of the gallery in pixels around the middle, with a point every few of them."""
+    points = gallery.CURVES[name].curve.points
+    low, high = points.min(axis=0), points.max(axis=0)
+    points = (points - (low + high) / 2) * (size / (high - low).max())
+    return dense(points)
+
+
+def dense(corners, step=8.0):
+    along = []
+    for start, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        count = max(1, int(math.dist(start, end) / step))
+        along += [start + (end - start) * i / count for i in range(count)]
+    return np.array(along)
+
+
+def places(page, points):
+    box = page.locator("#drawing").bounding_box()
+    middle = np.array([box["x"] + box["width"] / 2, box["y"] + box["height"] / 2 - 20])
+    return (middle + np.asarray(points) * [1, -1]).tolist()
+
+
+def draw(page, points):
+    way = places(page, points)
+    page.mouse.move(*way[0])
+    page.mouse.down()
+    for place in way[1:]:
+        page.mouse.move(*place)
+    page.mouse.up()
+
+
+def verdict(page, text):
+    page.wait_for_function("text => document.getElementById('verdict').textContent.startsWith(text)", arg=text)
+    return page.inner_text("#sentence")
+
+
+def figure(page, name):
+    return page.locator("#figures div", has=page.locator(f"dt:text-is('{name}')")).locator("dd").inner_text()
+
+
+def settled(page):
+    page.wait_for_function("() => !document.body.classList.contains('asking')")
+
+
+def saved(page):
+    """Return the drawing that the page keeps now."""
+    return page.evaluate("JSON.parse(localStorage['plyfold.drawing.' + sessionStorage['plyfold.id']]).document")
+
+
+def eight():
+    t = np.linspace(0, 2 * np.pi, 120)
+    return np.c_[180 * np.sin(t), 110 * np.sin(2 * t)]
+
+
+def blue_pixels(page):
+    """Return how many pixels of the drawing have a cell's colours."""
+    script = """() => {
+        const canvas = document.getElementById("drawing");
+        const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        let blue = 0;
+        for (let i = 0; i < data.length; i += 4) if (data[i + 3] && data[i + 2] - data[i] > 20) blue += 1;
+        return blue;
+    }"""
+    return page.evaluate(script)
+
+
+def red_pixels_near(page, place, reach=14):
+    script = """([x, y, reach]) => {
+        const canvas = document.getElementById("drawing");
+        const box = canvas.getBoundingClientRect();
+        const corner = [x - box.x - reach, y - box.y - reach];
+        const { data } = canvas.getContext("2d").getImageData(...corner, 2 * reach, 2 * reach);
+        let red = 0;
+        for (let i = 0; i < data.length; i += 4) if (data[i] > 150 && data[i + 1] < 70 && data[i + 2] < 90) red += 1;
+        return red;
+    }"""
+    return page.evaluate(script, [*place, reach])
+
+
+def test_a_ramp_is_drawn_and_lifted(sketch):
+    draw(sketch, named("exit-ramp"))
+    assert verdict(sketch, WORD["immersible"])
+    assert figure(sketch, "crossings") == "4"
+    assert figure(sketch, "turning number") == "1"
+    assert figure(sketch, "immersions") == "1"
+    settled(sketch)
+    assert sketch.locator("#surface.empty").count() == 0
+    sketch.wait_for_function("() => document.querySelector('#surface canvas').width > 300")
+    points = gallery.CURVES["exit-ramp"].curve.points
+    x, y = ((points - points.min(axis=0)) * 380 / np.ptp(points, axis=0).max()).T
+    doubled = abs(float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))) / 2
+    assert 0.75 * doubled < blue_pixels(sketch) < 1.05 * doubled  # the cloth's area, less where it lies double
+
+
+def test_milnors_curve_lies_in_two_ways(sketch):
+    draw(sketch, named("milnor", 520))
+    assert "2 ways" in verdict(sketch, "A disk of cloth, in 2 ways")
+    settled(sketch)
+    assert sketch.inner_text("#immersion-text") == "immersion 1 of 2"
+    sketch.keyboard.press("ArrowRight")
+    sketch.wait_for_function("() => document.getElementById('immersion-text').textContent === 'immersion 2 of 2'")
+    sketch.keyboard.press("ArrowRight")
+    sketch.wait_for_function("() => document.getElementById('immersion-text').textContent === 'immersion 1 of 2'")
+    settled(sketch)
+    sketch.keyboard.press("ArrowUp")
+    sketch.wait_for_function("() => document.getElementById('layering-text').textContent.startsWith('layering 2 of')")
+    sketch.keyboard.press("v")
+    assert sketch.locator("#layout .border").count() == 12
+
+
+def test_a_figure_eight_is_kept_with_a_red_cross_where_a_lobe_turns_the_wrong_way(sketch):
+    draw(sketch, eight())
+    assert "turns 0 times" in verdict(sketch, WORD["none"])
+    assert len(saved(sketch)["strokes"]) == 1
+    assert sketch.locator("#surface.empty").count() == 1
+    marks = [red_pixels_near(sketch, place) for place in places(sketch, [[0, 0], [120, 0], [-120, 0]])]
+    assert max(marks) > 20
+
+
+def test_a_small_kink_is_removed_by_a_button(sketch):
+    corners = [[-150, -100], [150, -100], [150, 100], [-20, 100], [-20, 130], [0, 130], [0, 70], [-150, 70]]
+    draw(sketch, dense(np.array(corners, dtype=float)))
+    verdict(sketch, WORD["none"])
+    sketch.click("text=Remove the kink")
+    verdict(sketch, WORD["immersible"])
+    assert figure(sketch, "crossings") == "0"
+    sketch.keyboard.press("Control+z")
+    verdict(sketch, WORD["none"])
+
+
+def test_undo_redo_and_reload_lose_nothing(sketch):
+    draw(sketch, eight())
+    verdict(sketch, WORD["none"])
+    first = saved(sketch)
+    sketch.click("[data-action=undo]")
+    assert sketch.is_disabled("[data-action=undo]")
+    sketch.keyboard.press("Control+y")
+    verdict(sketch, WORD["none"])
+    sketch.keyboard.press("Control+z")
+    sketch.keyboard.press("Control+Shift+z")
+    assert saved(sketch) == first
+    sketch.reload()
+    sketch.wait_for_selector("html[data-ready]")
+    verdict(sketch, WORD["none"])
+    assert saved(sketch) == first
+
+
+def test_undo_waits_for_the_end_of_a_stroke(sketch):
+    draw(sketch, eight())
+    verdict(sketch, WORD["none"])
+    way = places(sketch, [[-200, 200], [-150, 210], [-100, 200]])
+    sketch.mouse.move(*way[0])
+    sketch.mouse.down()
+    sketch.mouse.move(*way[1])
+    sketch.keyboard.press("Control+z")
+    sketch.mouse.move(*way[2])
+    sketch.mouse.up()
+    assert len(saved(sketch)["strokes"]) == 2
+
+
+def test_several_strokes_make_one_loop_and_joins_are_kept_apart_until_joined(sketch):
+    t = np.linspace(0.04, np.pi - 0.04, 50)
+    draw(sketch, np.c_[150 * np.cos(t), 150 * np.sin(t)])
+    assert "away from" in verdict(sketch, WORD["unfinished"])
+    draw(sketch, np.c_[150 * np.cos(t), -150 * np.sin(t)])
+    verdict(sketch, WORD["immersible"])
+    assert [stroke["closed"] for stroke in saved(sketch)["strokes"]] == [False, False]
+    sketch.keyboard.press("j")
+    verdict(sketch, WORD["immersible"])
+    assert [stroke["closed"] for stroke in saved(sketch)["strokes"]] == [True]
+
+
+def test_points_are_placed_dragged_inserted_and_deleted(sketch):
+    sketch.keyboard.press("p")
+    square = [[-100, -100], [100, -100], [100, 100], [-100, 100]]
+    for place in places(sketch, [*square, square[0]]):
+        sketch.mouse.click(*place)
+        sketch.wait_for_timeout(350)  # two clicks in a hurry would end the line
+    verdict(sketch, WORD["immersible"])
+    assert len(saved(sketch)["strokes"][0]["points"]) == 4
+    sketch.keyboard.press("e")
+    (corner, beyond, edge, out) = places(sketch, [[100, 100], [-200, -30], [0, -100], [0, -160]])
+    drag(sketch, edge, out)
+    assert len(saved(sketch)["strokes"][0]["points"]) == 5
+    sketch.keyboard.press("l")
+    drag(sketch, corner, beyond)
+    assert "Locked" in sketch.inner_text("#notice")
+    sketch.keyboard.press("l")
+    sketch.keyboard.press("Control+z")
+    drag(sketch, corner, beyond)
+    verdict(sketch, WORD["none"])
+    sketch.keyboard.press("Delete")
+    verdict(sketch, WORD["immersible"])
+    assert len(saved(sketch)["strokes"][0]["points"]) == 4
+
+
+def drag(page, start, end):
+    page.mouse.move(*start)
+    page.mouse.down()
+    for share in (0.3, 0.6, 0.9, 1.0):
+        page.mouse.move(*(np.array(start) + share * (np.array(end) - start)).tolist())
+    page.mouse.up()
+
+
+def test_erasing_opens_a_loop_and_drawing_closes_it(sketch):
+    t = np.linspace(0, 2 * np.pi, 100)
+    draw(sketch, np.c_[150 * np.cos(t), 150 * np.sin(t)])
+    verdict(sketch, WORD["immersible"])
+    sketch.keyboard.press("x")
+    u = np.linspace(-0.8, 0.8, 30)
+    draw(sketch, np.c_[150 * np.cos(u), 150 * np.sin(u)])
+    verdict(sketch, WORD["unfinished"])
+    assert [stroke["closed"] for stroke in saved(sketch)["strokes"]] == [False]
+    sketch.keyboard.press("d")
+    draw(sketch, np.c_[170 * np.cos(u), 170 * np.sin(u)])
+    verdict(sketch, WORD["immersible"])
+
+
+def test_by_keyboard_alone(sketch):
+    sketch.keyboard.press("k")
+    for keys in (["ArrowRight"] * 12, ["ArrowUp"] * 12, ["ArrowLeft"] * 12):
+        sketch.keyboard.press("Enter")
+        for key in keys:
+            sketch.keyboard.press(key)
+    sketch.keyboard.press("Enter")
+    sketch.keyboard.press("c")
+    verdict(sketch, WORD["immersible"])
+    points = saved(sketch)["strokes"][0]["points"]
+    assert np.allclose(np.ptp(points, axis=0), 120)
+    sketch.keyboard.press("e")
+    sketch.keyboard.press("]")
+    for key in ("Enter", "ArrowDown", "ArrowDown", "Enter", "Escape"):
+        sketch.keyboard.press(key)
+    assert saved(sketch)["strokes"][0]["points"][0] != points[0]
+    sketch.keyboard.press("?")
+    assert sketch.locator("dialog kbd").count() > 30
+    sketch.keyboard.press("Escape")
+    sketch.keyboard.press("Tab")
+    assert sketch.evaluate("document.activeElement.tagName") in {"BUTTON", "CANVAS"}
+
+
+def test_a_link_holds_the_drawing_and_overwrites_nothing(sketch, server):
+    draw(sketch, named("milnor", 500))
+    verdict(sketch, "A disk of cloth, in 2 ways")
+    sketch.keyboard.press("Shift+S")
+    sketch.wait_for_function("() => location.hash.startsWith('#d=')")
+    link = sketch.url
+    drawing = saved(sketch)
+    sketch.keyboard.press("n")
+    draw(sketch, eight())
+    verdict(sketch, WORD["none"])
+    work = saved(sketch)
+    sketch.goto("about:blank")
+    sketch.goto(link)
+    sketch.wait_for_selector("html[data-ready]")
+    verdict(sketch, "A disk of cloth, in 2 ways")
+    shared = sketch.evaluate(
+        "Object.values(localStorage).filter((v) => v.startsWith('{')).map((v) => JSON.parse(v).document.strokes)"
+    )
+    assert work["strokes"] in shared
+    assert drawing["strokes"] in shared
+    sketch.click("text=Back to the drawing before")
+    verdict(sketch, WORD["none"])
+
+
+def test_the_gallery_opens_a_curve(sketch):
+    draw(sketch, eight())
+    verdict(sketch, WORD["none"])
+    sketch.keyboard.press("g")
+    sketch.click("dialog .card:has-text('woven')")
+    verdict(sketch, WORD["immersible"])
+    sketch.click("#notice button")
+    verdict(sketch, WORD["none"])
+
+
+@pytest.mark.parametrize("format", ["svg", "png", "json"])
+def test_exports_open_again(sketch, format, tmp_path):
+    draw(sketch, named("exit-ramp"))
+    verdict(sketch, WORD["immersible"])
+    drawing = saved(sketch)
+    sketch.keyboard.press("Control+e")
+    action = "saveFile" if format == "json" else f"export-{format}"
+    with sketch.expect_download() as download:
+        sketch.click(f"dialog [data-action={action}]")
+    file = tmp_path / download.value.suggested_filename
+    download.value.save_as(file)
+    assert file.suffix == f".{format}"
+    sketch.keyboard.press("n")
+    sketch.set_input_files("#file", file)
+    verdict(sketch, WORD["immersible"])
+    assert np.allclose(saved(sketch)["strokes"][0]["points"], drawing["strokes"][0]["points"], atol=1e-3)
+
+
+def test_a_sheet_that_cannot_be_lifted_says_why(sketch):
+    sketch.keyboard.press("g")
+    sketch.click("dialog .card:has-text('cannot be lifted')")
+    verdict(sketch, "A disk of cloth, in 2 ways")
+    settled(sketch)
+    sketch.keyboard.press("ArrowRight")
+    settled(sketch)
+    seen = [sketch.inner_text("#verdict")]
+    sketch.keyboard.press("ArrowRight")
+    sketch.wait_for_function("text => document.getElementById('verdict').textContent !== text", arg=seen[0])
+    seen.append(sketch.inner_text("#verdict"))
+    assert sum("cannot be lifted" in text for text in seen) == 1
+
+
+def test_the_page_fits_a_phone(sketch):
+    sketch.set_viewport_size({"width": 390, "height": 844})
+    draw(sketch, named("exit-ramp", 250))
+    verdict(sketch, WORD["immersible"])
+    assert sketch.evaluate("document.documentElement.scrollWidth") <= 390
+    small = sketch.evaluate(
+        """() => [...document.querySelectorAll(".table button, .top button")]
+            .map((button) => button.getBoundingClientRect()).filter(({ height }) => height < 38).length"""
+    )
+    assert small == 0
+
+
+def test_all_actions_have_names_and_no_key_is_used_twice(sketch):
+    actions = sketch.evaluate(
+        "import('/actions.js').then(({ ACTIONS }) => ACTIONS.map((action) => JSON.parse(JSON.stringify(action))))"
+    )
+    keys = [key for action in actions for key in action["keys"]]
+    assert len(keys) == len(set(keys))
+    assert len({action["name"] for action in actions}) == len(actions)
+    assert all(re.search(r"\w", action["label"]) and action["hint"] for action in actions)
