@@ -35,7 +35,7 @@ def gallery() -> None:
         plot_arrangement(pf.arrangement(named.curve), ax=flat)
         flat.set_title(named.name, loc="left", fontsize=12, weight="bold")
         if named.embeddable:
-            plot_surface(pf.lift(named.curve), ax=lifted)
+            plot_surface(pf.lift(named.curve), ax=lifted, pixels=450)
         else:
             reason = fill(f"No disk. {pf.find_embedding(named.curve)}".replace("No disk. No ", "No "), 26)
             lifted.text(0.5, 0.5, reason, ha="center", va="center", color=OBSTRUCTION, transform=lifted.transAxes)

@@ -10,6 +10,7 @@ from matplotlib.patches import FancyArrowPatch, Polygon
 import plyfold as pf
 from plyfold.draw import plot_obstruction
 from plyfold.draw.colours import OBSTRUCTION, sheet_colour
+from plyfold.errors import InputError
 from plyfold.gallery import CURVES
 from plyfold.layering import embed_cased
 from plyfold.obstruction import Obstruction
@@ -80,7 +81,7 @@ def test_sheets_are_shown_at_every_step_the_upper_one_above(refused):
     below = [p for p in ax.patches if isinstance(p, Polygon) and p.get_xy()[:, 1].max() < -0.4]
     expected = Counter(sheet_colour(s) for _, *pair in obstruction.value for s in pair)
     assert Counter(to_hex(p.get_facecolor()) for p in below) == expected
-    assert ax.texts[-1].get_text() == str(obstruction)
+    assert " ".join(ax.texts[-1].get_text().split()) == str(obstruction)
 
 
 def test_triples_and_fixed_orders_are_shown():
@@ -110,3 +111,16 @@ def test_other_obstructions_have_their_places():
     ax = plot_obstruction(ramp, fault)
     place = unit(fault.where, ramp.arrangement.curve)
     assert np.asarray(ax.collections[-1].get_offsets()) == pytest.approx(place)
+
+
+def test_obstruction_is_found_if_none_is_given():
+    eight = CURVES["figure-eight"].curve
+    assert " ".join(plot_obstruction(eight).texts[-1].get_text().split()) == str(pf.find_immersion(eight))
+    unliftable = next(i for i in pf.immersions(CURVES["bennequin"].curve) if not pf.find_layering(i))
+    sentence = " ".join(plot_obstruction(unliftable).texts[-1].get_text().split())
+    assert sentence == str(pf.find_layering(unliftable))
+
+
+def test_nothing_in_the_way_is_refused():
+    with pytest.raises(InputError, match="nothing is in the way"):
+        plot_obstruction(CURVES["circle"].curve)

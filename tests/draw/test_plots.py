@@ -4,23 +4,27 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import shapely
-from matplotlib.colors import to_hex
+from matplotlib.colors import rgb_to_hsv, to_hex, to_rgb
 
-from plyfold import Arrangement, arrangement, find_immersion, find_layering
+from plyfold import Arrangement, arrangement, find_immersion, find_layering, lift
 from plyfold.draw import plot_arrangement, plot_layers, plot_layout, plot_surface
 from plyfold.draw.colours import INK, OBSTRUCTION, mix, sheet_colour, winding_colour
-from plyfold.errors import PlyfoldError
+from plyfold.errors import InputError, PlyfoldError
 from plyfold.obstruction import Obstruction
 
 RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], float)
 EIGHT = np.array([(0, 0), (2, 2), (2, 0), (0, 2)], float)
 
 
+class Stub(SimpleNamespace):
+    __eq__, __hash__ = object.__eq__, object.__hash__
+
+
 def flat_surface(heights=(0.0, 0.0, 0.0, 0.0)):
     corners = np.column_stack([[(0, 0), (4, 0), (4, 3), (0, 3)], heights])
     faces = np.array([(0, 1, 2), (0, 2, 3)])
     layering = SimpleNamespace(immersion=SimpleNamespace(arrangement=SimpleNamespace(n_crossings=0)))
-    return SimpleNamespace(vertices=corners, faces=faces, boundary=np.arange(4), intersections=(), layering=layering)
+    return Stub(vertices=corners, faces=faces, boundary=np.arange(4), intersections=(), layering=layering)
 
 
 def areas_by_colour(ax):
@@ -160,3 +164,35 @@ def test_given_axes_are_used_and_pyplot_is_left_alone():
     assert plot_layout(find_immersion(RAMP), ax) is ax
     plot_arrangement(arrangement(RAMP))
     assert pyplot.get_fignums() == []
+
+
+def hues(image):
+    """The hue of every opaque pixel, or -1 for greys."""
+    colour, alpha = np.asarray(image)[..., :3], np.asarray(image)[..., 3]
+    hue, saturation, _ = np.moveaxis(rgb_to_hsv(colour), -1, 0)
+    return np.where((alpha == 1) & (saturation > 0.15), hue, -1)
+
+
+def test_surface_from_above_has_the_colours_of_the_topmost_sheets():
+    surface = lift(RAMP)
+    ax = plot_surface(surface, view=(-90, 90), colours="sheets", pixels=300)
+    image, (left, right, bottom, top) = ax.images[0].get_array(), ax.images[0].get_extent()
+    seen = hues(image)
+    layering, arrangement = surface.layering, surface.layering.immersion.arrangement
+    for cell in range(1, arrangement.n_cells):
+        if sheets := layering.immersion.sheets[cell]:
+            topmost = max(sheets, key=lambda sheet: layering.level[sheet])
+            x, y = (np.array(arrangement.cell_point(cell)) - (4.5, 1.5)) / 9
+            row, column = (y - bottom) / (top - bottom) * len(image), (x - left) / (right - left) * len(image[0])
+            expected = rgb_to_hsv(to_rgb(sheet_colour(topmost)))[0]
+            assert seen[int(row), int(column)] == pytest.approx(expected, abs=0.02)
+
+
+def test_layers_have_colours_too_and_others_are_refused():
+    surface = lift(RAMP)
+    image = plot_surface(surface, view=(-90, 90), colours="layers", pixels=60).images[0].get_array()
+    assert (hues(image) >= 0).any()
+    with pytest.raises(InputError, match="no colours 'rainbow'"):
+        plot_surface(surface, colours="rainbow")
+    with pytest.raises(InputError, match="no view 'below'"):
+        plot_surface(surface, view="below")

@@ -102,3 +102,30 @@ def test_neighbours_leave_no_gap():
     covered = shapely.contains_xy(square, *np.moveaxis(seen.pixels.centres(), -1, 0))
     assert covered.sum() > 10_000
     assert (seen.triangle[covered] >= 0).all()
+
+
+def plates(gap):
+    """A small plate above a large one."""
+    square = np.array([(-1.0, -1), (1, -1), (1, 1), (-1, 1)])
+    vertices = np.concatenate([np.column_stack([square, np.zeros(4)]), np.column_stack([square / 2, np.full(4, gap)])])
+    faces = np.array([(0, 1, 2), (0, 2, 3)])
+    return Mesh(vertices, np.concatenate([faces, faces + 4]))
+
+
+def test_a_pale_rim_parts_what_lies_apart():
+    paint = np.tile((0.2, 0.3, 0.6), (4, 1))
+    saturation = []
+    for gap in (0.0, 0.5):
+        image = shade(plates(gap), View.of(-90, 90), 400, paint).colours
+        middle = image[len(image) // 2]
+        opaque = middle[middle[:, 3] == 1, :3]
+        saturation.append((np.ptp(opaque, axis=1) / opaque.max(axis=1)).min())
+    assert saturation[0] == pytest.approx(2 / 3, abs=0.02)  # nothing lies before anything
+    assert saturation[1] < 0.3
+
+
+def test_what_lies_close_above_darkens_the_sky():
+    mesh = plates(0.2)
+    below, beside = (mesh.sky.shadow(np.array([(x, 0.0, 0.0)]), np.array([(0.0, 0, 1)]))[0] for x in (0.0, 0.9))
+    assert below > 0.6
+    assert beside < 0.5 * below

@@ -6,6 +6,7 @@ New figures are not registered with pyplot: nothing pops up, and nothing has to 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from textwrap import fill
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -20,6 +21,10 @@ if TYPE_CHECKING:
 __all__ = ["blank", "closed", "dots", "grid", "line", "note_below", "polygon", "write", "write_below"]
 
 T = TypeVar("T", bound=np.generic)
+
+# The width of a letter, as a fraction of its size; and so many letters are in a line at least.
+_LETTER = 0.53
+_SHORTEST_LINE = 24
 
 
 def blank(ax: Axes | None, size: tuple[float, float] = (5.0, 5.0)) -> Axes:
@@ -67,8 +72,10 @@ def write_below(axes: Axes, sentence: str) -> None:
 
 
 def note_below(axes: Axes, sentence: str, size: float = 8.0, colour: str = INK) -> None:
-    """Write a sentence below the drawing, for example what it leaves out."""
-    write(axes, (0.5, -0.02), sentence, size, transform=axes.transAxes, color=colour, va="top", wrap=True)
+    """Write a sentence below the drawing, for example what it leaves out, in lines no longer than the axes are wide."""
+    width = axes.bbox.width / axes.figure.dpi * 72
+    lines = fill(sentence, max(int(width / (_LETTER * size)), _SHORTEST_LINE))
+    write(axes, (0.5, -0.02), lines, size, transform=axes.transAxes, color=colour, va="top")
 
 
 def grid(axes: Axes, rows: int, columns: int, gap: float = 0.04) -> list[list[Axes]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from plyfold.draw.arrangement_plot import MOST_NUMBERS
@@ -13,12 +14,12 @@ from plyfold.draw.places import line_weight
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from plyfold.immersion import Immersion
+    from plyfold.immersion import Group, Immersion
 
 __all__ = ["plot_layout"]
 
 
-def plot_layout(immersion: Immersion, ax: Axes | None = None) -> Axes:
+def plot_layout(immersion: Immersion, ax: Axes | None = None, *, groups: Iterable[Group] | None = None) -> Axes:
     """Draw the disk layout: the disk unwound to a circle, with the borders in order around it (§2.2 of [MGR11]_).
 
     Every sheet with borders of its own is a region in its own colour, and the paper's arcs join its borders, or a
@@ -30,6 +31,8 @@ def plot_layout(immersion: Immersion, ax: Axes | None = None) -> Axes:
     immersion : Immersion
     ax : matplotlib Axes, optional
         Where to draw; by default on a new figure.
+    groups : iterable of Group, optional
+        Draw only some of ``immersion.disk_layout()``; borders of others are grey.
 
     Returns
     -------
@@ -51,13 +54,15 @@ def plot_layout(immersion: Immersion, ax: Axes | None = None) -> Axes:
     borders, weight = immersion.arrangement.n_borders, line_weight(immersion.arrangement.n_crossings)
     circle = BorderCircle(borders)
     polygon(axes, BorderCircle(1).arc(0), mix(winding_colour(1), PAPER, 0.45))
-    for group in immersion.disk_layout():
+    shown = tuple(immersion.disk_layout() if groups is None else groups)
+    for group in shown:
         colour = sheet_colour(group.sheet)
         polygon(axes, circle.region(group.borders), mix(colour, PAPER, 0.62))
         for border, other in group.arcs:
             line(axes, circle.join(border, other), mix(colour, INK, 0.15), 1.5 * weight)
+    sheets = {group.sheet for group in shown}
     for border, sheet in enumerate(immersion.own_sheet.tolist()):
-        line(axes, circle.arc(border, 1.02), sheet_colour(sheet), 5.0)
+        line(axes, circle.arc(border, 1.02), sheet_colour(sheet) if sheet in sheets else mix(INK, PAPER, 0.75), 5.0)
         if borders <= MOST_NUMBERS:
             write(axes, circle.middle(border, 1.12), str(border), 8.5 if borders <= 36 else 6.0)
     if borders > MOST_NUMBERS:

@@ -67,7 +67,7 @@ def plot_obstruction(
     Examples
     --------
     >>> ax = plot_obstruction([(0, 0), (2, 2), (2, 0), (0, 2)])
-    >>> ax.texts[-1].get_text()
+    >>> " ".join(ax.texts[-1].get_text().split())
     'The curve turns 0 times, and the outline of a disk turns once.'
     """
     why = _found(subject) if obstruction is None else obstruction

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
@@ -74,8 +75,7 @@ def plot_surface(  # noqa: PLR0913 - each option is keyword-only and independent
     1
     """
     axes = blank(ax)
-    unit = _Unit(surface, stretch)
-    mesh = Mesh(unit(surface.vertices), surface.faces)
+    unit, mesh = _unit_and_mesh(surface, stretch)
     image = shade(mesh, _view(view), pixels, _paint(surface, colours))
     axes.imshow(image.colours, origin="lower", extent=image.extent, interpolation="antialiased", zorder=1)
     width = 1.4 * line_weight(surface.layering.immersion.arrangement.n_crossings)
@@ -83,6 +83,13 @@ def plot_surface(  # noqa: PLR0913 - each option is keyword-only and independent
     for polyline in surface.intersections:
         _line_in_space(axes, unit(polyline), image, OBSTRUCTION, width)
     return axes
+
+
+@lru_cache(maxsize=2)
+def _unit_and_mesh(surface: Surface, stretch: float | None) -> tuple[_Unit, Mesh]:
+    """Return a surface scaled to be drawn: the same for every view, so that the lights look at it once."""
+    unit = _Unit(surface, stretch)
+    return unit, Mesh(unit(surface.vertices), surface.faces)
 
 
 def _view(view: Direction) -> View:

@@ -81,6 +81,11 @@ class Immersion:
     def __repr__(self) -> str:
         return f"<Immersion: {self.n_sheets} sheets over {self.arrangement.n_cells - 1} cells>"
 
+    def _repr_svg_(self) -> str:
+        from plyfold.draw.layout_svg import layout_svg
+
+        return layout_svg(self)
+
     @property
     def n_sheets(self) -> int:
         """Number of sheets: the winding numbers of all cells added up."""

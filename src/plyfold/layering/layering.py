@@ -46,6 +46,12 @@ class Layering:
     def __repr__(self) -> str:
         return f"<Layering: {self.immersion.n_sheets} sheets on up to {self.level.max(initial=0)} levels>"
 
+    def _repr_svg_(self) -> str | None:
+        # A Gauss code alone has no picture.
+        from plyfold.draw.over_under_svg import over_under_svg
+
+        return None if self.immersion.arrangement.curve is None else over_under_svg(self, colours="sheets")
+
     @property
     def border_level(self) -> Ints:
         """Level of each border's own sheet, shape (borders,). These numbers alone determine the layering."""
