@@ -83,32 +83,32 @@ def cell_boundaries(following: Ints, outer: int) -> tuple[Ints, Ints]:
     -----
     O(darts).
     """
-    darts, start, walked = np.zeros((3, len(following)), dtype=np.int64)
-    room = _Cells(darts, start, walked, counted=np.zeros(1, dtype=np.int64))
-    cells = run_loop(_walked, len(following), (_Map(following, np.array([outer])),), room)
+    walked, darts, start = np.zeros((3, len(following)), dtype=np.int64)
+    room = _Cells(darts, start, counted=np.zeros(1, dtype=np.int64))
+    cells = run_loop(_walked, len(following), (_Map(following, np.array([outer]), walked),), room)
     return np.append(cells.start[: cells.counted[0]], len(following)), cells.darts
 
 
 class _Map(NamedTuple):
-    """The dart after each dart, and one of the unbounded cell."""
+    """The dart after each dart, one of the unbounded cell, and which have been walked."""
 
     following: Ints
     outer: Ints
+    walked: Ints
 
 
 class _Cells(NamedTuple):
-    """The darts cell by cell, where each cell starts, which darts have been walked, and the number of cells."""
+    """The darts cell by cell, where each cell starts, and the number of cells."""
 
     darts: Ints
     start: Ints
-    walked: Ints
     counted: Ints
 
 
 def _walked(given: tuple[_Map], cells: _Cells) -> int:
     """Walk round every cell from its lowest dart, round the unbounded one first; return how many there are."""
-    following, outer = given[0].following, given[0].outer[0]
-    darts, start, walked = cells.darts, cells.start, cells.walked
+    following, walked, outer = given[0].following, given[0].walked, given[0].outer[0]
+    darts, start = cells.darts, cells.start
     lowest, dart = outer, following[outer]
     while dart != outer:
         lowest = min(lowest, dart)
