@@ -47,7 +47,7 @@ from plyfold.layering.layered_surface import (
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.surface import Surface, UnwoundDisk, lift, map_disk, unwrap
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 __all__ = [
     "Arrangement",
