@@ -94,8 +94,8 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
 
     Notes
     -----
-    10 to 20 ms for 4,000 triangles, 0.1 to 0.2 s for 40,000, 8 to 60 s for a million, most where sheets touch along
-    whole curves. With pinned sheets 0.03 s for 4,000 and 5 s for 100,000.
+    10 to 25 ms for 4,000 triangles, 0.1 to 0.2 s for 40,000, 8 to 20 s for a million, most where sheets touch along
+    whole curves or in hundreds of places; with pinned sheets up to twice as long.
     """
     given = pins_of(pins or {}, points, mesh, _HIGHEST_PIN * float(np.ptp(points, axis=0).max()))
     if len(mesh.stacked) == 0 and not pins:
