@@ -261,7 +261,8 @@ def _lift(options: argparse.Namespace) -> int:
     from plyfold.surface import lift
 
     watch = Stopwatch()
-    endings = (".glb", ".obj", ".ply", ".stl", ".3mf", *([] if options.thicken is not None else [".html", ".gif", ".mp4"]))
+    pages = () if options.thicken is not None else (".html", ".gif", ".mp4")
+    endings = (".glb", ".obj", ".ply", ".stl", ".3mf", *pages)
     arranged = _prepared(options, endings, watch)
     surface = lift(
         arranged,

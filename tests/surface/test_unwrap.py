@@ -307,3 +307,18 @@ def test_no_disk():
         pf.unwrap(code)
     with pytest.raises(InputError, match="not been lifted"):
         pf.unwrap(DISKS["circle"], triangles=50).to_space([(0, 0)])
+
+
+@pytest.mark.parametrize("name", ["exit-ramp", "milnor", "circle", "seven-flaps", "bennequin"])
+def test_arcs_stay_in_their_sheets_and_end_on_their_borders(name):
+    unwound = pf.unwrap(DISKS[name], triangles=300)
+    groups = unwound.immersion.disk_layout()
+    assert [arc.borders for arc in unwound.arcs] == [pair for group in groups for pair in group.arcs]
+    for arc in unwound.arcs:
+        assert (unwound.to_sheet(arc.points[1:-1]) == arc.sheet).all()
+        for end, border in zip(arc.points[[0, -1]], arc.borders, strict=True):
+            ends = unwound.disk[unwound.border(border)[[0, -1]]]
+            start, stop, there = np.arctan2(*np.array([ends[0], ends[1], end]).T[::-1])
+            whole = (stop - start) % (2 * np.pi) or 2 * np.pi
+            assert 0 < (there - start) % (2 * np.pi) < whole
+            assert np.hypot(*end) > 0.9

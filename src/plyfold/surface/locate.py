@@ -9,7 +9,7 @@ import numpy as np
 from plyfold.arrays import Floats, Ints
 from plyfold.predicates import orient
 
-__all__ = ["Places", "locate", "neighbours", "weights"]
+__all__ = ["Places", "locate", "neighbours", "twins", "weights"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,14 +34,20 @@ class Places:
         return np.asarray(np.einsum("pi,pi...->p...", self.weights, values[faces[self.face]]))
 
 
-def neighbours(faces: Ints) -> Ints:
-    """Return the triangle beyond each side of each triangle, from corner i to i + 1, or −1; shape (m, 3)."""
+def twins(faces: Ints) -> Ints:
+    """Return the side beside each side 3t + i, from corner i of triangle t to the next one, or −1; shape (3m,)."""
     start, end = faces.ravel(), faces[:, [1, 2, 0]].ravel()
     size = int(faces.max()) + 1
     key, wanted = start * size + end, end * size + start
     order = np.argsort(key)
     at = order[np.minimum(np.searchsorted(key, wanted, sorter=order), len(key) - 1)]
-    return np.where(key[at] == wanted, at // 3, -1).reshape(faces.shape)
+    return np.where(key[at] == wanted, at, -1)
+
+
+def neighbours(faces: Ints) -> Ints:
+    """Return the triangle beyond each side of each triangle, from corner i to i + 1, or −1; shape (m, 3)."""
+    beside = twins(faces)
+    return np.where(beside >= 0, beside // 3, -1).reshape(faces.shape)
 
 
 def locate(points: Floats, vertices: Floats, faces: Ints) -> Places:

@@ -32,6 +32,7 @@ from plyfold.surface.round_map import round_map
 from plyfold.surface.sizes import refuse_sizes
 
 if TYPE_CHECKING:
+    from plyfold.surface.arcs import Arc
     from plyfold.surface.surface import Surface
 
 __all__ = ["UnwoundDisk", "map_disk", "unwrap"]
@@ -113,12 +114,29 @@ class UnwoundDisk:
         length = (end - start - 1) % len(self.boundary) + 2
         return np.asarray(self.boundary[(start + np.arange(length)) % len(self.boundary)])
 
+    def border_corners(self, number: int) -> tuple[tuple[int, int], tuple[int, int]]:
+        """Return the triangles along a border's first and last piece, with their corners where it starts and ends."""
+        start = int(self.border_start[number])
+        last = int(self.border_start[(number + 1) % len(self.border_start)]) - 1
+        ends = []
+        for place, vertex in ((start, self.boundary[start]), (last, self.boundary[last + 1])):
+            face = int(self._boundary_faces[place])
+            ends.append((face, self.faces[face].tolist().index(vertex)))
+        return ends[0], ends[1]
+
     @cached_property
     def seams(self) -> Ints:
         """Edges where a sheet is glued to the next one, (e, 2): what the borders inside the disk are made of."""
         beyond = neighbours(self.faces)
         face, side = np.nonzero((beyond >= 0) & (self.sheet[beyond] > self.sheet[:, None]))
         return np.stack([self.faces[face, side], self.faces[face, (side + 1) % 3]], axis=1)
+
+    @cached_property
+    def arcs(self) -> tuple[Arc, ...]:
+        """The arcs of the disk layout (§2.2 of [MGR11]_), each inside its sheet; they meet at ends only."""
+        from plyfold.surface.arcs import arcs_of
+
+        return arcs_of(self)
 
     @cached_property
     def _boundary_faces(self) -> Ints:
