@@ -261,3 +261,16 @@ def _as_mesh(surface):
     n = np.arange(len(surface.vertices))
     none = np.empty((0, 2), dtype=int)
     return LiftedMesh(n, surface.faces, surface.sheet, surface.boundary, 0 * n, none, none)
+
+
+def test_sheets_that_meet_themselves_cannot_be_level():
+    """The loop of the ribbon is a single sheet, and both sides of a crossing belong to it; no other one is like that."""
+    plain = lift(RAMP, triangles=200)
+    cell = _cell_of_sheet(plain)
+    arranged = plain.layering.immersion.arrangement
+    loop = max(range(len(cell)), key=lambda sheet: np.ptp(plain.vertices[plain.faces[plain.sheet == sheet], 2]))
+    for sheet in set(range(len(cell))) - {loop}:
+        lift(RAMP, pins={sheet: 0.0}, triangles=200).check()
+    with pytest.raises(InputError, match="over itself at a crossing") as error:
+        lift(RAMP, pins={loop: 0.0}, triangles=200)
+    assert np.hypot(*(arranged.crossings - error.value.where[0]).T).min() < 1e-12

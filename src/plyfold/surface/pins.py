@@ -189,6 +189,7 @@ def room_between(pins: Pins, points: Floats, mesh: LiftedMesh, distance: Floats)
     over = np.where(pins.held, lowest - pins.height, -np.inf)
     if (over > 0).any():
         worst = int(np.argmax(over))
+        _refuse_meeting_itself(worst, pins, points, mesh)
         raise _too_close(points[mesh.planar_vertex[worst]], lowest[worst], pins.height[worst])
     _refuse_points_without_room(pins, points, mesh, Room(lowest, highest), distance)
     return Room(lowest, highest)
@@ -203,6 +204,18 @@ def _refuse_points_without_room(pins: Pins, points: Floats, mesh: LiftedMesh, ro
         if not low - slack <= height <= high + slack:
             bound = low if height < low else high
             raise _too_close(weight @ points[mesh.planar_vertex[corners]], bound, float(height))
+
+
+def _refuse_meeting_itself(worst: int, pins: Pins, points: Floats, mesh: LiftedMesh) -> None:
+    """Raise InputError if all that is pinned over a vertex's point belongs to a single sheet."""
+    there = np.flatnonzero((mesh.planar_vertex == mesh.planar_vertex[worst]) & pins.held)
+    sheets = [set(mesh.sheet[(mesh.faces == vertex).any(axis=1)].tolist()) for vertex in there]
+    if set.intersection(*sheets):
+        raise InputError(
+            "a pinned sheet comes to lie over itself at a crossing, so it cannot be level",
+            where=points[mesh.planar_vertex[[worst]]],
+            hint="pin a point of it: (x, y, sheet)",
+        )
 
 
 def _too_close(where: Floats, bound: float, height: float) -> InputError:
