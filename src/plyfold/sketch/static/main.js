@@ -90,10 +90,16 @@ function followPictures() {
     if (!sameHover(whole, store.state.hover)) store.set({ hover: whole });
   };
   page.surface = createView3d(find("surface"), onHover);
+  const settle = () => {
+    page.surface.set({ dark: isDark() });
+    const toolbar = find("surface").querySelector("[role=toolbar]");
+    if (toolbar) find("surface-tools").append(toolbar); // below the picture, where it hides nothing
+  };
   store.follow((state, before) => {
-    if (state.mesh !== before.mesh && state.mesh) page.surface.show(state.mesh).then(() => page.surface.set({ dark: isDark() }));
+    if (state.mesh !== before.mesh && state.mesh) page.surface.show(state.mesh).then(settle);
     if (!state.mesh) page.surface.say(state.unlifted ?? "");
     find("surface").classList.toggle("empty", !state.mesh);
+    find("surface-tools").hidden = !state.mesh || state.scene !== "surface";
     if (lieShown(state) !== lieShown(before)) paintLayout(find("layout"), lieShown(state), onHover);
     if (state.hover !== before.hover) {
       lightLayout(find("layout"), state.hover);
@@ -185,9 +191,12 @@ function followNotices() {
   });
 }
 
+/** Whether keys are meant for the drawing, not for a button. */
+const isDrawing = (target) => target === canvas || target === document.body;
+
 function listenToSpace() {
   const hold = (held) => ({ key, target }) => {
-    if (key === " " && (target === canvas || target === document.body)) page.spaceHeld = held;
+    if (key === " " && isDrawing(target)) page.spaceHeld = held;
   };
   addEventListener("keydown", hold(true));
   addEventListener("keyup", hold(false));
@@ -210,7 +219,7 @@ followPictures();
 followGap();
 listenToFiles();
 listenToSpace();
-listenToKeys(page, (event) => pressCursor(page, event) || endPath(event));
+listenToKeys(page, (event) => isDrawing(event.target) && (pressCursor(page, event) || endPath(event)));
 store.follow((state, before) => state.history.present.image !== before.history.present.image && placeImage(state));
 fit(page);
 await restore();

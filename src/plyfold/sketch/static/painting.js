@@ -71,9 +71,9 @@ function trace({ context, at }, points, closed) {
   if (closed) context.closePath();
 }
 
-function line(scene, points, { closed = false, colour, width = 2.5, dash = [] }) {
+function line(scene, points, { closed = false, colour, width = 2.5, dash = [], cap = "round" }) {
   trace(scene, points, closed);
-  Object.assign(scene.context, { strokeStyle: colour, lineWidth: width, lineJoin: "round", lineCap: "round" });
+  Object.assign(scene.context, { strokeStyle: colour, lineWidth: width, lineJoin: "round", lineCap: cap });
   scene.context.setLineDash(dash);
   scene.context.stroke();
   scene.context.setLineDash([]);
@@ -155,7 +155,7 @@ function paintOver(scene, visit) {
   const { borders } = scene.answer;
   const before = borders[(visit - 1 + borders.length) % borders.length];
   const piece = [...ending(scene, before, 9), ...ending(scene, borders[visit].toReversed(), 9).toReversed().slice(1)];
-  line(scene, piece, { colour: scene.theme.paper, width: 10 });
+  line(scene, piece, { colour: scene.theme.paper, width: 8, cap: "butt" });
   line(scene, piece, { colour: scene.theme.ink });
 }
 
