@@ -264,12 +264,12 @@ def _as_mesh(surface):
 
 
 def test_sheets_that_meet_themselves_cannot_be_level():
-    """The loop of the ribbon is a single sheet, and both sides of a crossing belong to it; no other one is like that."""
+    """The loop of the ribbon is a single sheet, and both sides of a crossing belong to it. No other is."""
     plain = lift(RAMP, triangles=200)
-    cell = _cell_of_sheet(plain)
     arranged = plain.layering.immersion.arrangement
-    loop = max(range(len(cell)), key=lambda sheet: np.ptp(plain.vertices[plain.faces[plain.sheet == sheet], 2]))
-    for sheet in set(range(len(cell))) - {loop}:
+    sheets = set(range(plain.layering.immersion.n_sheets))
+    loop = max(sheets, key=lambda sheet: np.ptp(plain.vertices[plain.faces[plain.sheet == sheet], 2]))
+    for sheet in sheets - {loop}:
         lift(RAMP, pins={sheet: 0.0}, triangles=200).check()
     with pytest.raises(InputError, match="over itself at a crossing") as error:
         lift(RAMP, pins={loop: 0.0}, triangles=200)
