@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
-import re
+from contextlib import suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
-from plyfold.errors import InputError, PlyfoldError, PrecisionError
+from plyfold.errors import InputError, PrecisionError
+from plyfold.flat.constrained import (
+    ENCLOSING,
+    Outline,
+    PlanarMesh,
+    chain_of,
+    constrained,
+    outline_of,
+    planar_mesh,
+    too_close,
+)
+from plyfold.flat.refine import Size, refine, split_points, usual_area
 from plyfold.predicates import orient
 
 if TYPE_CHECKING:
@@ -26,16 +37,8 @@ __all__ = [
 
 DEFAULT_TRIANGLES = 4000
 MOST_TRIANGLES = 10_000_000
-# Refined triangles have on average 0.6 of the area that is allowed.
-_USUAL_SHARE = 0.6
-_SMALLEST_ANGLE = 25.0
-# Edges are not split below this fraction of the usual edge, so that tiny features do not attract tiny triangles.
-_SHORTEST_EDGE = 0.05
-# Nor below this fraction of the usual edge of the curve.
-_SHORTEST_PIECE = 0.3
-_MOST_POINTS = 20_000_000
-# The library starts with the three corners of a triangle around everything.
-_ENCLOSING = 3
+# No edge shorter than so many roundings is split: points on it would not lie well enough on a line.
+_FINEST = (2.0**10, 2.0**24)
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,12 +89,14 @@ def triangulate_cells(
         Largest area of a triangle, in square units of the drawing; by default it follows from ``triangles``.
     triangles : int, optional
         Roughly how many triangles the *lifted surface* shall have (a triangle over a cell with winding number w counts
-        w times). Curves with many points have more. With 0, no points are added.
+        w times). With 0, no points are added.
 
     Returns
     -------
     CellTriangulation
-        Angles are at least 25° except at sharp corners of the drawing and features much finer than the triangles.
+        Angles are at least 25° except at sharp corners of the drawing and in strips so thin that good angles there
+        would take too many triangles: more than asked for and more than three times as many as the curve has without
+        points added. Triangles grow from fine features to the usual size.
 
     Raises
     ------
@@ -111,14 +116,14 @@ def triangulate_cells(
     >>> mesh.points[:4].tolist(), mesh.chain[0]
     ([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]], np.int64(0))
     """
-    outline = _outline(arrangement)
-    if not triangles:
-        return _verified(arrangement, _plain(outline))
-    try:
-        return _verified(arrangement, _refined(arrangement, outline, max_area, triangles))
-    except PrecisionError:
-        # Added points are rounded too, and may not fit where the cells are as thin as rounding errors.
-        return _verified(arrangement, _plain(outline))
+    outline = outline_of(arrangement)
+    if triangles:
+        size = usual_area(outline, triangles, max_area)
+        for finest in _FINEST:
+            # Added points are rounded too, and may not fit where the cells are as thin as rounding errors.
+            with suppress(PrecisionError):
+                return _verified(arrangement, _refined(arrangement, outline, size, finest * outline.rounding))
+    return _verified(arrangement, _plain(outline))
 
 
 def refuse_max_area(points: Floats, max_area: float) -> None:
@@ -133,187 +138,27 @@ def refuse_max_area(points: Floats, max_area: float) -> None:
         )
 
 
-@dataclass(frozen=True, eq=False)
-class _Outline:
-    """The points of curve and crossings, the curve as a chain through them, and the same points in a unit square."""
-
-    points: Floats
-    chain: Ints
-    chain_border: Ints
-    unit_points: Floats
-    centre: Floats
-    scale: float
-
-
-def _outline(arrangement: Arrangement) -> _Outline:
-    curve = arrangement.curve
-    if curve is None:
-        raise PlyfoldError("triangles need a drawing, and this arrangement is a Gauss code alone")
-    points = np.concatenate([curve.points, arrangement.crossings])
-    chain, chain_border = chain_of(arrangement)
-    return _Outline(points, chain, chain_border, *_unit_square(points))
-
-
-def chain_of(arrangement: Arrangement) -> tuple[Ints, Ints]:
-    """Return points and crossings along the curve (crossing i is number n + i), and the border each is followed by."""
-    edge = arrangement.visit_edge
-    visits = len(edge)
-    n = len(arrangement.curve.points) if arrangement.curve else 0
-    at = edge + np.arange(1, visits + 1)
-    on_curve = np.ones(n + visits, dtype=bool)
-    on_curve[at] = False
-    chain = np.empty(n + visits, dtype=np.int64)
-    chain[on_curve] = np.arange(n)
-    chain[at] = n + arrangement.crossing_of_visit
-    border = (np.cumsum(~on_curve) - 1) % max(visits, 1)
-    return chain, border
-
-
-def _unit_square(points: Floats) -> tuple[Floats, Floats, float]:
-    """Return the points moved and scaled to about unit size, with the centre and the scale that lead back.
-
-    Both steps are exact: the scale is a power of two, and where the centre is not left at 0 it is so far away that
-    the difference of two doubles has no rounding error (Sterbenz).
-    """
-    x, y = points.T  # one column at a time is faster
-    low, high = np.array([x.min(), y.min()]), np.array([x.max(), y.max()])
-    size = float((high / 2 - low / 2).max())
-    scale = 2.0 ** (np.frexp(size)[1] + 1)
-    middle = low / 2 + high / 2
-    centre = np.where(np.abs(middle) >= 4 * size, middle, 0.0)
-    return (points - centre) / scale, centre, float(scale)
-
-
-@dataclass(frozen=True, eq=False)
-class _Mesh:
-    """What the triangulation library has made, in coordinates of the drawing; a triangle around everything included.
-
-    Its three corners come last.
-    """
-
-    points: Floats
-    triangles: Ints
-    twin: Ints
-    chain: Ints
-    chain_border: Ints
-
-
-def _plain(outline: _Outline) -> _Mesh:
+def _plain(outline: Outline) -> PlanarMesh:
     """Triangulate without adding points."""
-    return _mesh_of(_constrained(outline), outline, outline.points, outline.chain, outline.chain_border)
+    return planar_mesh(constrained(outline), outline.points, outline.chain, outline.chain_border)
 
 
-def _refined(arrangement: Arrangement, outline: _Outline, max_area: float | None, triangles: int) -> _Mesh:
+def _refined(arrangement: Arrangement, outline: Outline, size: Size, finest: float) -> PlanarMesh:
     """Triangulate, and refine what the surface covers."""
-    library = _constrained(outline)
-    plain = _mesh_of(library, outline, outline.points, outline.chain, outline.chain_border)
-    uncovered = set(np.flatnonzero(arrangement.winding[_cells(arrangement, plain)[0]] <= 0).tolist())
-    covered = _covered(outline)
-    most = covered / (_USUAL_SHARE * triangles) if max_area is None else max_area / outline.scale**2
-    _refine(library, most, covered / most, uncovered, _shortest_edge(outline, most))
-    corners = library.vertices_array()[_ENCLOSING:]
+    library = constrained(outline)
+    plain = planar_mesh(library, outline.points, outline.chain, outline.chain_border)
+    refine(library, outline, arrangement.winding[_cells(arrangement, plain)[0]], size, finest)
+    corners = library.vertices_array()[ENCLOSING:]
     unit_points = np.stack([corners["x"], corners["y"]], axis=1)
     points = outline.centre + unit_points * outline.scale
     points[: len(outline.points)] = outline.points
-    return _mesh_of(library, outline, points, *_split_chain(outline, unit_points, library.piece_to_originals))
+    return planar_mesh(library, points, *_split_chain(outline, unit_points, split_points(library, outline)))
 
 
-def _constrained(outline: _Outline) -> Any:
-    """Return the constrained Delaunay triangulation; its first three vertices are those of an enclosing triangle."""
-    import pythoncdt as cdt
-
-    edges = np.stack([outline.chain, np.roll(outline.chain, -1)], axis=1)
-    mesh = cdt.Triangulation(cdt.VertexInsertionOrder.AUTO, cdt.IntersectingConstraintEdges.NOT_ALLOWED, 0.0)
-    try:
-        mesh.insert_vertices(outline.unit_points)  # type: ignore[call-overload,unused-ignore]
-        mesh.insert_edges(edges.astype(np.uintc))  # type: ignore[call-overload,unused-ignore]
-    except RuntimeError as error:
-        _refuse_equal(outline.points)
-        named = [int(number) for pair in re.findall(r"\((\d+), (\d+)\)", str(error)) for number in pair]
-        raise _too_close(outline.points[named]) from error
-    if mesh.fixed_edges_count() != len(edges):
-        named = [edge.v1 - _ENCLOSING for originals in mesh.piece_to_originals.values() for edge in originals]
-        raise _too_close(outline.points[named])
-    return mesh
-
-
-def _refuse_equal(points: Floats) -> None:
-    places, count = np.unique(points, axis=0, return_counts=True)
-    if (count > 1).any():
-        raise PrecisionError(
-            "crossings fall on each other or on a point of the curve when rounded to double precision",
-            where=places[count > 1],
-            hint="move the strands apart there",
-        )
-
-
-def _too_close(places: Floats) -> PrecisionError:
-    return PrecisionError(
-        "strands are so close that rounding their crossings to double precision changes the drawing",
-        where=places,
-        hint="move the strands apart there",
-    )
-
-
-def _mesh_of(library: Any, outline: _Outline, points: Floats, chain: Ints, chain_border: Ints) -> _Mesh:
-    rows = library.triangles_array()
-    corners = rows["vertices"].astype(np.int64) - _ENCLOSING
-    corners[corners < 0] += len(points) + _ENCLOSING
-    around = np.full((_ENCLOSING, 2), np.nan)
-    return _Mesh(np.concatenate([points, around]), corners, _twins(corners, rows["neighbors"]), chain, chain_border)
-
-
-def _twins(corners: Ints, neighbours: Any) -> Ints:
-    """Return the half-edge beside each half-edge, from the triangle beside it; -1 where there is none."""
-    first = 3 * neighbours.ravel().astype(np.int64)
-    outside = np.flatnonzero(first >= corners.size)
-    first[outside] = 0
-    # The twin starts where the half-edge ends.
-    start, end = corners.ravel(), corners[:, [1, 2, 0]].ravel()
-    twin = first + (start[first + 1] == end)
-    twin += 2 * (start[first + 2] == end)
-    twin[outside] = -1
-    return np.asarray(twin)
-
-
-def _covered(outline: _Outline) -> float:
-    """Return the area of the lifted surface in the unit square: what the curve encloses, times winding numbers."""
-    x, y = outline.unit_points[outline.chain].T
-    return abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2
-
-
-def _shortest_edge(outline: _Outline, most: float) -> float:
-    """Return the length below which edges are not split: features finer than that attract no triangles.
-
-    It is well below the usual edge, and below most edges of the curve, which would stay the sides of slivers.
-    """
-    piece = outline.unit_points[np.roll(outline.chain, -1)] - outline.unit_points[outline.chain]
-    return float(min(_SHORTEST_EDGE * np.sqrt(most), _SHORTEST_PIECE * np.median(np.hypot(*piece.T))))
-
-
-def _refine(library: Any, most: float, wanted: float, uncovered: set[int], shortest: float) -> None:
-    """Split triangles larger than ``most``, about ``wanted`` in all, and then those with sharp angles."""
-    import pythoncdt as cdt
-
-    # A limit on added points, for needles would take as many as they are longer than wide to get good angles.
-    limit = min(int(wanted) + library.vertices_count(), _MOST_POINTS)
-    library.refine_triangles(limit, cdt.RefinementCriterion.LARGEST_AREA, most, uncovered, shortest)
-    angle = cdt.deg_to_rad(_SMALLEST_ANGLE)
-    library.refine_triangles(limit, cdt.RefinementCriterion.SMALLEST_ANGLE, angle, uncovered, shortest)
-
-
-def _split_chain(outline: _Outline, unit_points: Floats, originals: dict[Any, list[Any]]) -> tuple[Ints, Ints]:
+def _split_chain(outline: Outline, unit_points: Floats, added: Ints) -> tuple[Ints, Ints]:
     """Return the chain along the curve with the points that refinement has put on it, and the borders."""
     starts, ends = outline.chain, np.roll(outline.chain, -1)
-    piece_of = {frozenset(pair): j for j, pair in enumerate(zip(starts.tolist(), ends.tolist(), strict=True))}
-    known = len(outline.points)
-    added = {
-        (piece_of[frozenset((whole[0].v1 - _ENCLOSING, whole[0].v2 - _ENCLOSING))], vertex - _ENCLOSING)
-        for piece, whole in originals.items()
-        for vertex in (piece.v1, piece.v2)
-        if vertex >= known + _ENCLOSING
-    }
-    piece, vertex = np.array(sorted(added), dtype=np.int64).reshape(-1, 2).T
+    piece, vertex = added.T
     direction = unit_points[ends[piece]] - unit_points[starts[piece]]
     advance = ((unit_points[vertex] - unit_points[starts[piece]]) * direction).sum(axis=1)
     every_piece = np.concatenate([np.arange(len(starts)), piece])
@@ -321,22 +166,22 @@ def _split_chain(outline: _Outline, unit_points: Floats, originals: dict[Any, li
     return np.concatenate([starts, vertex])[order], outline.chain_border[every_piece[order]]
 
 
-def _verified(arrangement: Arrangement, mesh: _Mesh) -> CellTriangulation:
+def _verified(arrangement: Arrangement, mesh: PlanarMesh) -> CellTriangulation:
     """Keep the triangles over covered cells, and check exactly that they are what they should be."""
     cell, left = _cells(arrangement, mesh)
     keep = arrangement.winding[cell] > 0
     kept = mesh.triangles[keep]
     a, b, c = mesh.points[kept].swapaxes(0, 1)
     if len(flat := np.flatnonzero(orient(a, b, c) <= 0)):
-        raise _too_close(a[flat])
+        raise too_close(a[flat])
     moved = np.full(3 * len(keep) + 1, -1)  # one more, so that −1 stays −1
     moved[np.flatnonzero(np.repeat(keep, 3))] = np.arange(3 * len(kept))
     twin = moved[mesh.twin.reshape(-1, 3)[keep].ravel()]
-    points = mesh.points[:-_ENCLOSING]
+    points = mesh.points[:-ENCLOSING]
     return CellTriangulation(points, kept, twin, cell[keep], mesh.chain, mesh.chain_border, moved[left])
 
 
-def _cells(arrangement: Arrangement, mesh: _Mesh) -> tuple[Ints, Ints]:
+def _cells(arrangement: Arrangement, mesh: PlanarMesh) -> tuple[Ints, Ints]:
     """Return the cell of each triangle: cut along the curve, the triangles must fall apart into exactly the cells.
 
     Also the half-edge on the left of each piece of the chain. The faces of a connected plane graph are disks. So if
@@ -345,7 +190,7 @@ def _cells(arrangement: Arrangement, mesh: _Mesh) -> tuple[Ints, Ints]:
     """
     left = _left_of_chain(mesh)
     if len(missing := np.flatnonzero(left < 0)):
-        raise _too_close(mesh.points[mesh.chain[missing]])
+        raise too_close(mesh.points[mesh.chain[missing]])
     right = mesh.twin[left]
     component = _components(mesh, left, right)
     touching = np.concatenate([component[left // 3], component[right // 3]])
@@ -356,11 +201,11 @@ def _cells(arrangement: Arrangement, mesh: _Mesh) -> tuple[Ints, Ints]:
     component_of_cell[cell] = touching
     wrong = (cell_of_component[touching] != cell) | (component_of_cell[cell] != touching)
     if wrong.any() or (cell_of_component < 0).any():
-        raise _too_close(mesh.points[np.concatenate([mesh.chain, mesh.chain])[wrong]])
+        raise too_close(mesh.points[np.concatenate([mesh.chain, mesh.chain])[wrong]])
     return np.asarray(cell_of_component[component]), left
 
 
-def _left_of_chain(mesh: _Mesh) -> Ints:
+def _left_of_chain(mesh: PlanarMesh) -> Ints:
     """Return the half-edge along each piece of the chain; a point is the start of at most two pieces."""
     start, end = mesh.triangles.ravel(), mesh.triangles[:, [1, 2, 0]].ravel()
     pieces = np.arange(len(mesh.chain))
@@ -374,7 +219,7 @@ def _left_of_chain(mesh: _Mesh) -> Ints:
     return left
 
 
-def _components(mesh: _Mesh, left: Ints, right: Ints) -> Ints:
+def _components(mesh: PlanarMesh, left: Ints, right: Ints) -> Ints:
     """Return the component of each triangle when the mesh is cut along the chain."""
     from scipy.sparse import csr_array
     from scipy.sparse.csgraph import connected_components

@@ -1,0 +1,201 @@
+"""Points added for the quality of triangles: good angles first, then the size asked for.
+
+Refinement after Ruppert takes as many triangles as the drawing's features are fine: a few dozen around a cell a
+billionth of the drawing's size, but a billion along a strip as thin. So edges are split only down to a shortest
+length, and that is made shorter step by step, the more boldly the fewer bad triangles are left: they vanish around
+tiny cells, and multiply in thin strips. When the triangles that a further step may cost are no longer there, it ends,
+and the triangles in the thinnest places stay as they are. At sharp corners of the drawing no angles are good, and
+there the step by step approach to the corner, that would never end, counts as done.
+
+Only then the triangles that are larger than the size asked for are split, so that the number asked for includes those
+around features.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from plyfold.arrays import Floats, Ints
+from plyfold.flat.constrained import ENCLOSING, Outline
+
+__all__ = ["Size", "refine", "split_points", "usual_area"]
+
+_SMALLEST_ANGLE = 25.0
+# Refined triangles have on average this share of the area that is allowed.
+_USUAL_SHARE = 0.6
+# Good angles may take this many times the triangles of the curve alone, if that is more than the number asked for.
+_MOST_GROWTH = 3
+# The shortest length that is tried first, by the root of the usual area: a third of the usual edge.
+_FIRST_LENGTH = 0.5
+# A step that may not make the shortest length half as long is not worth its triangles.
+_SMALLEST_STEP = 2.0
+# A step may overrun what its bad triangles predict.
+_SLACK = 1.5
+_MOST_POINTS = 20_000_000
+# Corners sharper than this have no triangles with good angles at them, or only just.
+_SHARP = np.cos(np.radians(30.0))
+
+
+@dataclass(frozen=True, eq=False)
+class _Covered:
+    """The library's triangulation, the curve in it, and the triangles to leave alone; the library updates these."""
+
+    library: Any
+    outline: Outline
+    uncovered: set[int]
+
+    def add_points(self, criterion: str, threshold: float, shortest: float, limit: int) -> int:
+        """Split bad triangles, but no edge below the shortest length; return how many points were added."""
+        import pythoncdt as cdt
+
+        before = self.library.vertices_count()
+        named = getattr(cdt.RefinementCriterion, criterion)
+        self.library.refine_triangles(min(limit, _MOST_POINTS), named, threshold, self.uncovered, shortest)
+        return int(self.library.vertices_count() - before)
+
+    def improve_angles(self, shortest: float, limit: int) -> int:
+        """Split triangles with sharp angles."""
+        return self.add_points("SMALLEST_ANGLE", float(np.radians(_SMALLEST_ANGLE)), shortest, limit)
+
+
+class Size(NamedTuple):
+    """How many triangles the lifted surface shall have, and the area of the largest if that is what was asked for."""
+
+    wanted: float
+    most: float | None
+
+
+def usual_area(outline: Outline, triangles: int, max_area: float | None) -> Size:
+    """Return the size asked for, in the unit square."""
+    if max_area is None:
+        return Size(triangles, None)
+    most = max_area / outline.scale**2
+    return Size(outline.covered / (_USUAL_SHARE * most), most)
+
+
+def refine(library: Any, outline: Outline, winding: Ints, size: Size, finest: float) -> None:
+    """Add points to a constrained triangulation where the surface is, for good angles and the size asked for.
+
+    Parameters
+    ----------
+    library : Triangulation
+        Without points added.
+    outline : Outline
+    winding : (t,) int
+        The winding number of each triangle of the library; those with 0 or less are left alone.
+    size : Size
+    finest : float
+        No edge shorter than this is split, in the unit square.
+    """
+    covered = _Covered(library, outline, set(np.flatnonzero(winding <= 0).tolist()))
+    fewest = int(winding[winding > 0].sum())
+    layers = max(1, fewest) / max(1, int((winding > 0).sum()))
+    # A planar point more makes two planar triangles more.
+    affordable = (max(size.wanted, _MOST_GROWTH * fewest) - fewest) / (2 * layers)
+    first = float(_FIRST_LENGTH * np.sqrt(outline.covered / size.wanted))
+    shortest = _good_angles(covered, max(first, finest), finest, affordable)
+    most = _even_area(covered, size.wanted) if size.most is None else size.most
+    if most > 0:
+        limit = int(size.wanted) + library.vertices_count()
+        covered.add_points("LARGEST_AREA", most, shortest, limit)
+        covered.improve_angles(shortest, limit)
+
+
+def _good_angles(covered: _Covered, shortest: float, finest: float, affordable: float) -> float:
+    """Split triangles with sharp angles; return the length below which no edge was split."""
+    while True:
+        affordable -= covered.improve_angles(shortest, int(_SLACK * affordable) + 1)
+        bad = _bad_triangles(covered)
+        if not bad or shortest <= finest or affordable < _SMALLEST_STEP * bad:
+            return shortest
+        # In a strip, each bad triangle becomes as many as the length becomes shorter.
+        shortest = max(shortest * bad / affordable, finest)
+
+
+def _corners(library: Any, triangles: Ints) -> tuple[Ints, Floats]:
+    """Return the vertices of triangles, and all points; those of the enclosing triangle are −3 to −1 and the last."""
+    numbers = library.triangles_array(copy=False)["vertices"][triangles].astype(np.int64) - ENCLOSING
+    rows = library.vertices_array(copy=False)
+    points = np.stack([rows["x"], rows["y"]], axis=1)
+    return numbers, np.roll(points, -ENCLOSING, axis=0)
+
+
+def _bad_triangles(covered: _Covered) -> int:
+    """Return how many triangles have sharp angles, other than those that a sharp corner of the drawing makes."""
+    import pythoncdt as cdt
+
+    threshold = float(np.radians(_SMALLEST_ANGLE))
+    found = covered.library.find_unrefined_triangles(cdt.RefinementCriterion.SMALLEST_ANGLE, threshold)
+    found = [number for number in found if number not in covered.uncovered]
+    if not found:
+        return 0
+    triangles, points = _corners(covered.library, np.array(found))
+    sides = points[np.roll(triangles, -1, axis=1)] - points[triangles]
+    side = np.hypot(*sides.transpose(2, 0, 1)).argmin(axis=1)
+    row = np.arange(len(found))
+    ends = np.stack([triangles[row, side], triangles[row, (side + 1) % 3]], axis=1)
+    beside = _neighbours_on_curve(covered.library, covered.outline)
+    return sum(not _across_sharp_corner(points, u, v, beside) for u, v in ends.tolist())
+
+
+def _neighbours_on_curve(library: Any, outline: Outline) -> dict[int, set[int]]:
+    """Return the points of curve and crossings at the ends of the pieces on which each vertex lies."""
+    beside: dict[int, set[int]] = {}
+    pieces = np.stack([outline.chain, np.roll(outline.chain, -1)], axis=1).tolist()
+    for start, end in pieces:
+        beside.setdefault(start, set()).add(end)
+        beside.setdefault(end, set()).add(start)
+    for piece, vertex in split_points(library, outline).tolist():
+        beside[vertex] = set(pieces[piece])
+    return beside
+
+
+def _across_sharp_corner(points: Floats, u: int, v: int, beside: dict[int, set[int]]) -> bool:
+    """Tell whether the two vertices lie on the two sides of a sharp corner of the drawing."""
+    for corner in beside.get(u, set()) & beside.get(v, set()):
+        to_u, to_v = points[u] - points[corner], points[v] - points[corner]
+        if to_u @ to_v > _SHARP * np.hypot(*to_u) * np.hypot(*to_v):
+            return True
+    return False
+
+
+def split_points(library: Any, outline: Outline) -> Ints:
+    """Return rows (piece of the outline's chain, vertex): the points added on the curve, in no order along it."""
+    known = len(outline.points) + ENCLOSING
+    originals = library.piece_to_originals
+    rows = [
+        (vertex, whole[0].v1, whole[0].v2)
+        for edge, whole in originals.items()
+        for vertex in (edge.v1, edge.v2)
+        if vertex >= known
+    ]
+    vertex, first, second = np.array(rows, dtype=np.int64).reshape(-1, 3).T - ENCLOSING
+    vertex, at = np.unique(vertex, return_index=True)
+    n = len(outline.points)
+    pairs = np.sort(np.stack([outline.chain, np.roll(outline.chain, -1)], axis=1), axis=1)
+    key = pairs[:, 0] * n + pairs[:, 1]
+    order = np.argsort(key)
+    wanted = np.minimum(first[at], second[at]) * n + np.maximum(first[at], second[at])
+    return np.stack([order[np.searchsorted(key, wanted, sorter=order)], vertex], axis=1)
+
+
+def _even_area(covered: _Covered, wanted: float) -> float:
+    """Return the largest area that makes about so many triangles of those there are; 0 if they are enough already.
+
+    A triangle of area A becomes A by the usual area, or stays one if it is smaller.
+    """
+    inside = np.ones(covered.library.triangles_count(), dtype=bool)
+    inside[list(covered.uncovered)] = False
+    triangles, points = _corners(covered.library, np.flatnonzero(inside))
+    a, b, c = points[triangles].swapaxes(0, 1)
+    (ux, uy), (vx, vy) = (b - a).T, (c - a).T
+    area = np.sort(ux * vy - uy * vx)[::-1] / 2
+    wanted *= area.sum() / covered.outline.covered
+    larger = np.arange(1, len(area) + 1)
+    # If the larger ones are split to the usual area x, their number is their area by x.
+    usual = np.cumsum(area) / np.maximum(wanted - (len(area) - larger), 1e-300)
+    fits = np.flatnonzero((usual <= area) & (wanted > len(area)))
+    return float(usual[fits[-1]] / _USUAL_SHARE) if len(fits) else 0.0
