@@ -1,0 +1,114 @@
+"""Time of surfaces, stage by stage, and their angles: ``python benchmarks/surfaces.py``, a few minutes.
+
+Sketches of up to 30 crossings with the usual number of triangles, from points, the best of five; and the pretzel with
+ten thousand, a hundred thousand and a million triangles. With ``--docs`` the tables are written into
+docs/surfaces.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from families import glued_disk, ribbon_disk
+from tables import machine, markdown, number
+
+import plyfold as pf
+from plyfold.flat.cells import CellTriangulation, triangulate_cells
+from plyfold.gallery import CURVES
+from plyfold.surface.glue import glue_sheets
+from plyfold.surface.heights import smooth_heights
+from plyfold.surface.surface import layering_of
+
+PAGE = Path(__file__).parent.parent / "docs" / "surfaces.md"
+MOST_CROSSINGS = 30
+STAGES = ("verdict", "mesh", "gluing", "heights")
+ANGLES = (0, 5, 15, 25, 30, 40, 50, 60)
+
+
+class Case(NamedTuple):
+    """A curve, and how many triangles its surface shall have."""
+
+    name: str
+    points: Any
+    triangles: int
+    repeats: int
+
+
+def cases(largest: int) -> Iterator[Case]:
+    """Yield sketches, and then one curve with ever more triangles."""
+    sketches = {name: named.curve.points for name, named in CURVES.items() if named.embeddable}
+    sketches |= {"ribbon of 100": ribbon_disk(100), "dense disk of 30": glued_disk(30)}
+    for name, points in sketches.items():
+        if pf.arrangement(points).n_crossings <= MOST_CROSSINGS:
+            yield Case(name, points, 4_000, 5)
+    for triangles in (10_000, 100_000, 1_000_000):
+        if triangles <= largest:
+            yield Case("pretzel", CURVES["pretzel"].curve.points, triangles, 1)
+
+
+def once(case: Case) -> tuple[list[float], pf.Layering, CellTriangulation, int]:
+    """Lift a curve; return the seconds of each stage, and what it made."""
+    seconds: list[float] = []
+
+    def timed(stage: Callable[[], Any]) -> Any:
+        start = time.perf_counter()
+        made = stage()
+        seconds.append(time.perf_counter() - start)
+        return made
+
+    layering = timed(lambda: layering_of(case.points, False, None, lambda stage, done: None))
+    drawn = layering.immersion.arrangement
+    mesh = timed(lambda: triangulate_cells(drawn, triangles=case.triangles))
+    lifted = timed(lambda: glue_sheets(layering, mesh))
+    timed(lambda: smooth_heights(mesh.points, lifted, 0.05 * float(np.ptp(drawn.curve.points, axis=0).max())))
+    return seconds, layering, mesh, len(lifted.faces)
+
+
+def smallest_angles(mesh: CellTriangulation) -> Any:
+    """Return the smallest angle of each triangle, in degrees."""
+    corner = mesh.points[mesh.triangles]
+    to_next, to_last = np.roll(corner, -1, axis=1) - corner, np.roll(corner, 1, axis=1) - corner
+    sine = to_next[..., 0] * to_last[..., 1] - to_next[..., 1] * to_last[..., 0]
+    return np.degrees(np.arctan2(sine, (to_next * to_last).sum(axis=2))).min(axis=1)
+
+
+def rows(case: Case) -> tuple[list[str], list[str]]:
+    """Measure a curve: its line in the table of times, and in that of angles."""
+    runs = [once(case) for _ in range(case.repeats)]
+    _, layering, mesh, faces = runs[0]
+    best = np.min([run[0] for run in runs], axis=0)
+    crossings = layering.immersion.arrangement.n_crossings
+    times = [case.name, str(crossings), f"{faces:,}", *map(number, 1000 * best), number(1000 * best.sum())]
+    angles = smallest_angles(mesh)
+    # A hair's breadth of rounding below a bound still meets it.
+    count = np.histogram(angles + 1e-6, ANGLES)[0]
+    return times, [case.name, f"{faces:,}", f"{angles.min():.1f}", *(f"{part:,}" for part in count)]
+
+
+def main() -> None:
+    """Measure, print, and write the tables if asked to."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--largest", type=int, default=1_000_000, metavar="TRIANGLES")
+    parser.add_argument("--docs", action="store_true", help="write the tables into docs/surfaces.md")
+    options = parser.parse_args()
+    measured = [rows(case) for case in cases(options.largest)]
+    times = markdown(
+        ["curve", "k", "triangles", *(f"{stage} ms" for stage in STAGES), "all ms"], [a for a, _ in measured]
+    )
+    between = [f"{low}–{high}°" for low, high in pairwise(ANGLES)]
+    angles = markdown(["curve", "triangles", "least", *between], [b for _, b in measured])
+    text = f"# Surfaces: time and angles\n\nMade by `python benchmarks/surfaces.py --docs`. {machine([]).replace(', GEOS ?', '')}\n\n"
+    text += f"## Time\n\n{times}\n\n## The smallest angle of each triangle\n\n{angles}\n"
+    print(text)
+    if options.docs:
+        PAGE.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
