@@ -121,10 +121,19 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"plyfold {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    for add in (_add_check, _add_lift, _add_draw, _add_flat, add_gallery_command, add_sketch_command):
+        add(commands)
+    return parser
+
+
+def _add_check(commands: Any) -> None:
     check = _command(commands, "check", _check, "say whether a curve bounds a disk, with all figures")
     _time_limit(check)
     check.add_argument("--json", action="store_true", help="print one JSON object and nothing else (see below)")
     check.epilog, check.formatter_class = _JSON_GUIDE, argparse.RawDescriptionHelpFormatter
+
+
+def _add_lift(commands: Any) -> None:
     lift = _command(commands, "lift", _lift, "lift a curve to a layered surface that does not cut itself")
     _time_limit(lift)
     _outputs(lift, ".glb .obj .ply .stl .3mf .html .gif .mp4")
@@ -153,6 +162,9 @@ def _parser() -> argparse.ArgumentParser:
     lift.add_argument(
         "--no-unwrap", action="store_true", help="leave out texture coordinates and, from a GLB, the way to the disk"
     )
+
+
+def _add_draw(commands: Any) -> None:
     draw = _command(commands, "draw", _draw, "draw the arrangement, the disk layout, the layers and the surface")
     _time_limit(draw)
     _outputs(draw, ".svg .png .pdf; of the view over-under .svg .tikz .tex")
@@ -174,6 +186,9 @@ def _parser() -> argparse.ArgumentParser:
         default="cloth",
         help="over-under: of what (default: %(default)s)",
     )
+
+
+def _add_flat(commands: Any) -> None:
     split = _command(commands, "split", _split, "cut a disk into simple polygons, or any curve into its cells")
     _outputs(split, ".geojson .wkt .svg")
     split.add_argument(
@@ -184,9 +199,6 @@ def _parser() -> argparse.ArgumentParser:
     _command(commands, "word", _word, "print Blank's word of a curve, and its groupings").add_argument(
         "--most", type=int, default=20, help="how many groupings to print (default: %(default)s)"
     )
-    add_gallery_command(commands)
-    add_sketch_command(commands)
-    return parser
 
 
 def _command(commands: Any, name: str, run: Callable[..., int], summary: str) -> argparse.ArgumentParser:
