@@ -31,7 +31,7 @@ function refresh(made, action, state) {
   if (action.pressed) made.setAttribute("aria-pressed", String(action.pressed(state)));
 }
 
-export const bySort = (group) => ACTIONS.filter((action) => action.group === group && !action.hidden);
+export const actionsIn = (group) => ACTIONS.filter((action) => action.group === group && !action.hidden);
 
 const WITHOUT_LABEL = new Set(["tools", "history", "view"]);
 
@@ -39,7 +39,7 @@ const WITHOUT_LABEL = new Set(["tools", "history", "view"]);
 export function fillButtons(page) {
   for (const place of document.querySelectorAll("[data-buttons]")) {
     const group = place.dataset.buttons;
-    const actions = group === "copy" ? [actionNamed("copyAnswers")] : bySort(group);
+    const actions = group === "copy" ? [actionNamed("copyAnswers")] : actionsIn(group);
     place.append(...actions.map((action) => button(page, action, { label: !WITHOUT_LABEL.has(group) })));
   }
   page.store.follow((state) => {

@@ -2,7 +2,7 @@
 
 import { toScreen, fitted } from "./camera.js";
 import { ACTIONS } from "./actions.js";
-import { button, bySort } from "./buttons.js";
+import { button, actionsIn } from "./buttons.js";
 import { openDrawing } from "./commands.js";
 import { allPoints, loop } from "./document.js";
 import { CURSOR_KEYS } from "./keyboard.js";
@@ -82,7 +82,7 @@ export function showDrawings(page) {
 }
 
 export function showExports(page) {
-  const buttons = bySort("exports").map((action) => button(page, action));
+  const buttons = actionsIn("exports").map((action) => button(page, action));
   buttons.forEach((made) => made.addEventListener("click", closeDialog));
   show("Save as", make("div", { className: "formats" }, ...buttons));
 }
