@@ -103,7 +103,8 @@ def main() -> None:
     )
     between = [f"{low}–{high}°" for low, high in pairwise(ANGLES)]
     angles = markdown(["curve", "triangles", "least", *between], [b for _, b in measured])
-    text = f"# Surfaces: time and angles\n\nMade by `python benchmarks/surfaces.py --docs`. {machine([]).replace(', GEOS ?', '')}\n\n"
+    where = machine([]).replace(", GEOS ?", "")
+    text = f"# Surfaces: time and angles\n\nMade by `python benchmarks/surfaces.py --docs`. {where}\n\n"
     text += f"## Time\n\n{times}\n\n## The smallest angle of each triangle\n\n{angles}\n"
     print(text)
     if options.docs:

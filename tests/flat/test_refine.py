@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 import plyfold as pf
 from plyfold.arrangement import arrangement
+from plyfold.errors import InputError
 from plyfold.flat.cells import triangulate_cells
 from plyfold.gallery import CURVES
 from reference import random_curves
@@ -65,6 +66,20 @@ def test_fine_features(draw, exponent):
 @pytest.mark.parametrize("exponent", [3, 4, 6, 9])
 def test_good_angles_around_tiny_cells(exponent):
     assert smallest_angle(triangulate_cells(arrangement(dipping(9 * 10.0**-exponent)))) > 25 - 1e-6
+
+
+@pytest.mark.parametrize("size", [0.2, 0.5])
+def test_usual_edge(size):
+    surface = pf.lift(STRIP, size=size)
+    corner = surface.vertices[surface.faces][:, :, :2]
+    edges = np.hypot(*(np.roll(corner, -1, axis=1) - corner).transpose(2, 0, 1))
+    assert np.median(edges) == pytest.approx(size, rel=0.2)
+
+
+@pytest.mark.parametrize("options", [{"size": 0.0}, {"size": float("nan")}, {"size": 1.0, "max_area": 1.0}])
+def test_sizes_that_make_no_sense(options):
+    with pytest.raises(InputError):
+        pf.lift(STRIP, **options)
 
 
 def test_dense_drawings_do_not_blow_up():

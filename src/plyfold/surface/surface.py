@@ -30,7 +30,7 @@ from plyfold.surface.glue import glue_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, flat_weight, refuse_stiffness, smooth_heights
 from plyfold.surface.passages import intersection_curves
 from plyfold.surface.pins import PinKey
-from plyfold.surface.sizes import refuse_sizes
+from plyfold.surface.sizes import area_of_edge, refuse_sizes
 from plyfold.surface.thicken import Solid, thicken
 from plyfold.surface.unwrap import UnwoundDisk, unwound_surface
 
@@ -236,6 +236,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     gap: float | None = None,
     triangles: int = DEFAULT_TRIANGLES,
     max_area: float | None = None,
+    size: float | None = None,
     stiffness: float = DEFAULT_STIFFNESS,
     pins: Mapping[PinKey, float] | None = None,
     flat: bool | float = False,
@@ -254,9 +255,11 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     gap : float, optional
         Least distance of sheets over the same point, in units of the drawing; 1/20 of its larger side by default.
     triangles : int, optional
-        Roughly how many triangles to make; curves with many points have more.
+        Roughly how many triangles to make; curves with many points or crossings have more.
     max_area : float, optional
         Largest area of a triangle seen from above, instead of ``triangles``.
+    size : float, optional
+        Usual length of the edges, in units of the drawing, instead of ``triangles`` or ``max_area``.
     stiffness : float
         The length below which the cloth resists bending more than sloping, as a fraction of its mean width: stiffer
         cloth swings out further, softer cloth creases where sheets touch.
@@ -288,7 +291,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     PrecisionError
         If double precision cannot hold the mesh.
     InputError
-        If ``gap``, ``triangles`` or ``max_area`` is not positive, or the triangles would be more than ten million; if
+        If ``gap`` or a size is not positive, or the triangles would be more than ten million; if
         pins name no place of the surface, or leave less room than the gap somewhere.
 
     References
@@ -306,6 +309,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     layering = layering_of(curve, allow_intersections, time_limit, report)
     drawn = layering.immersion.arrangement
     distance = _distance(drawn, gap)
+    max_area = area_of_edge(size, max_area)
     refuse_sizes(cast(Curve, drawn.curve).points, triangles, max_area)
     refuse_stiffness(stiffness)
     weight = flat_weight(flat)
