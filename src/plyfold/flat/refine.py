@@ -73,7 +73,7 @@ def usual_area(outline: Outline, triangles: int, max_area: float | None) -> Size
     if max_area is None:
         return Size(triangles, None)
     most = max_area / outline.scale**2
-    return Size(outline.covered / (_USUAL_SHARE * most), most)
+    return Size(max(1.0, outline.covered / (_USUAL_SHARE * most)), most)
 
 
 def refine(library: Any, outline: Outline, winding: Ints, size: Size, finest: float) -> None:
@@ -193,7 +193,8 @@ def _even_area(covered: _Covered, wanted: float) -> float:
     a, b, c = points[triangles].swapaxes(0, 1)
     (ux, uy), (vx, vy) = (b - a).T, (c - a).T
     area = np.sort(ux * vy - uy * vx)[::-1] / 2
-    wanted *= area.sum() / covered.outline.covered
+    # Where winding numbers of both signs cancel, there is no surface, and each triangle counts once.
+    wanted *= min(1.0, area.sum() / max(covered.outline.covered, 1e-300))
     larger = np.arange(1, len(area) + 1)
     # If the larger ones are split to the usual area x, their number is their area by x.
     usual = np.cumsum(area) / np.maximum(wanted - (len(area) - larger), 1e-300)
