@@ -110,7 +110,7 @@ function ground(radius) {
 }
 
 /** What `set` takes. A morph of 0 is the round disk, 1 laid flat over the drawing, 2 lifted. */
-const OPTIONS = { explode: 1, seeThrough: false, morph: 2, colouring: "cloth", dark: null, highlightSheet: null };
+const OPTIONS = { explode: 1, stretch: 1, seeThrough: false, morph: 2, colouring: "cloth", dark: null, highlightSheet: null };
 
 class Viewer {
   constructor(element, data) {
@@ -167,7 +167,8 @@ class Viewer {
 
   apply(changes) {
     const actions = {
-      explode: () => this.setScale(this.surface.stretch * this.options.explode),
+      explode: () => this.setScale(),
+      stretch: () => this.setScale(),
       seeThrough: () => this.setSeeThrough(),
       morph: () => this.move(),
       colouring: () => this.paint(),
@@ -199,7 +200,6 @@ class Viewer {
     this.scene.add(this.body, ...softLights());
     this.move();
     this.paint();
-    this.setScale(this.surface.stretch * this.options.explode);
   }
 
   /** Put the cloth where it is at the time of its way that is to be seen. */
@@ -209,7 +209,7 @@ class Viewer {
     this.line.geometry.setPositions(around(this.surface, this.positions));
     this.passing.forEach((line) => Object.assign(line, { visible: this.options.morph === 2 }));
     this.sortedAlong = null;
-    this.setScale(this.scale);
+    this.setScale();
   }
 
   paint() {
@@ -224,13 +224,13 @@ class Viewer {
     return Math.hypot(size.x, size.y, size.z * this.scale) / 2;
   }
 
-  setScale(scale) {
-    this.scale = scale;
-    this.body.scale.z = scale;
+  setScale() {
+    const { explode, stretch } = this.options;
+    this.scale = this.body.scale.z = this.surface.stretch * explode * stretch;
     this.scene.remove(this.key, this.ground);
     this.key = keyLight(this.radius);
     this.ground = ground(this.radius);
-    this.ground.position.z = this.geometry.boundingBox.min.z * scale - 0.06 * this.radius;
+    this.ground.position.z = this.geometry.boundingBox.min.z * this.scale - 0.06 * this.radius;
     this.scene.add(this.key, this.ground);
     this.sortIfSeeThrough();
     this.requestFrame();
