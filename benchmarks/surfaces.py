@@ -26,6 +26,7 @@ from plyfold.surface.heights import smooth_heights
 from plyfold.surface.surface import layering_of
 
 PAGE = Path(__file__).parent.parent / "docs" / "surfaces.md"
+PICTURE = "![Meshes of three drawings, and the smallest angles over the gallery](images/mesh.png)"
 MOST_CROSSINGS = 30
 STAGES = ("verdict", "mesh", "gluing", "heights")
 ANGLES = (0, 5, 15, 25, 30, 40, 50, 60)
@@ -105,7 +106,7 @@ def main() -> None:
     angles = markdown(["curve", "triangles", "least", *between], [b for _, b in measured])
     where = machine([]).replace(", GEOS ?", "")
     text = f"# Surfaces: time and angles\n\nMade by `python benchmarks/surfaces.py --docs`. {where}\n\n"
-    text += f"## Time\n\n{times}\n\n## The smallest angle of each triangle\n\n{angles}\n"
+    text += f"## Time\n\n{times}\n\n## The smallest angle of each triangle\n\n{PICTURE}\n\n{angles}\n"
     print(text)
     if options.docs:
         PAGE.write_text(text, encoding="utf-8")
