@@ -13,7 +13,7 @@ function recorder() {
   return [new Proxy(target, { get: (own, name) => own[name] ?? record(name) }), calls];
 }
 
-const THEME = { ink: "ink", paper: "paper", dot: "dot", accent: "accent", wrong: "wrong", hover: "hover", changed: "changed", cellOpacity: 1 };
+const THEME = { ink: "ink", paper: "paper", dot: "dot", accent: "accent", wrong: "wrong", hover: "hover", changed: "changed", night: false };
 const CAMERA = { scale: 2, x: 100, y: 100 };
 const BLANK = {
   size: { width: 200, height: 200 }, camera: CAMERA, theme: THEME, document: { strokes: [], image: null }, joins: [], openEnds: [],

@@ -64,7 +64,7 @@ function fitToScreen(canvas) {
 function themeOf(canvas) {
   const style = getComputedStyle(canvas);
   const theme = Object.fromEntries(COLOURS.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
-  return { ...theme, cellOpacity: Number(style.getPropertyValue("--cell-opacity")) };
+  return { ...theme, night: document.documentElement.dataset.theme === "dark" };
 }
 
 /** The picture to draw after, once it is there. */

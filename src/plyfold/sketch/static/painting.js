@@ -5,7 +5,7 @@
  *            answer: to `look` or null, lie: to `lie` or null,           both about this very document
  *            tool, path: points being placed, next: where the next one would be, selected: {stroke, vertex},
  *            cursor: [x, y] of the keyboard, hover: {cell, sheets, border}, snap, image: loaded picture or null}
- * theme = {ink, paper, dot, accent, wrong, hover, changed, cellOpacity}
+ * theme = {ink, paper, dot, accent, wrong, hover, changed, night}
  */
 
 import { toDrawing, toScreen } from "./camera.js";
@@ -80,13 +80,11 @@ function line(scene, points, { closed = false, colour, width = 2.5, dash = [], c
 }
 
 function paintCell(scene, { winding, outline }) {
-  const colour = windingColour(winding);
+  const colour = windingColour(winding, scene.theme.night);
   if (!colour) return;
   trace(scene, outline, true);
-  scene.context.globalAlpha = scene.theme.cellOpacity;
   scene.context.fillStyle = colour;
   scene.context.fill();
-  scene.context.globalAlpha = 1;
 }
 
 function paintHover(scene) {
@@ -185,7 +183,7 @@ function paintNumber({ context, camera, theme, at }, { winding, label, radius })
   context.font = `600 ${Math.min(17, room * 1.2)}px system-ui, sans-serif`;
   context.textAlign = "center";
   context.textBaseline = "middle";
-  context.fillStyle = winding === 0 || theme.cellOpacity < 0.7 ? theme.ink : onWinding(winding);
+  context.fillStyle = winding === 0 ? theme.ink : onWinding(winding, theme.night);
   context.fillText(String(winding).replace("-", "−"), ...at(label));
 }
 
