@@ -66,7 +66,14 @@ def test_glb(surface, colours, tmp_path):
 def test_shape_keys_of_a_glb(surface, tmp_path):
     surface.export(tmp_path / "out.glb")
     found = read(tmp_path / "out.glb")
-    assert [key.name for key in found.data.shape_keys.key_blocks] == ["Basis", "flat", "disk"]
+    assert [key.name for key in found.data.shape_keys.key_blocks] == [
+        "Basis",
+        "flat",
+        "unwinding 1",
+        "unwinding 2",
+        "unwinding 3",
+        "disk",
+    ]
     assert [action.name for action in bpy.data.actions] == ["unwind"]
     assert_same(corners(found, "flat"), surface.vertices[surface.faces] * (1, 1, 0))
     disk = corners(found, "disk")[..., :2].reshape(-1, 2)

@@ -162,10 +162,18 @@ def test_animation_goes_there_and_back(surface, tmp_path):
     (animation,) = glb.json["animations"]
     (sampler,) = animation["samplers"]
     assert animation["channels"] == [{"sampler": 0, "target": {"node": 0, "path": "weights"}}]
-    times, weights = glb.array(sampler["input"]).ravel(), glb.array(sampler["output"]).reshape(-1, 2)
+    times, weights = glb.array(sampler["input"]).ravel(), glb.array(sampler["output"]).reshape(-1, 5)
     assert (np.diff(times) > 0).all()
-    assert weights.tolist() == [[0, 0], [1, 0], [0, 1], [1, 0], [0, 0]]
-    assert glb.json["meshes"][0]["weights"] == [0, 0]
+    there = [[0] * 5, *np.eye(5).tolist()]
+    assert weights.tolist() == [*there, *there[-2::-1]]
+    assert glb.json["meshes"][0]["weights"] == [0] * 5
+    assert glb.json["meshes"][0]["extras"]["targetNames"] == [
+        "flat",
+        "unwinding 1",
+        "unwinding 2",
+        "unwinding 3",
+        "disk",
+    ]
 
 
 def test_without_the_disk(surface, tmp_path):

@@ -107,9 +107,16 @@ def _attributes(model: Model, shaded: Ints, faces: Ints) -> Iterator[dict[str, n
         own["COLOR_0"] = _linear(model.colours)[shaded].astype("<f4")
     yield own
     for shape in model.shapes.values():
-        turned = vertex_normals(shape[shaded], faces) - normals
+        turned = _normals(shape[shaded], faces) - normals
         moved = _places(model, shape - model.vertices)[shaded]
         yield {"POSITION": moved, "NORMAL": _y_up(turned).astype("<f4")}
+
+
+def _normals(shape: Floats, faces: Ints) -> Floats:
+    """Return the normals of a shape. What lies on the table faces up, also slivers that turn over on their way."""
+    if np.ptp(shape[:, 2]) == 0:
+        return np.tile((0.0, 0.0, 1.0), (len(shape), 1))
+    return vertex_normals(shape, faces)
 
 
 def _animation(shapes: int, buffer: _Buffer) -> dict[str, Any]:

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import InputError, PrecisionError
+from plyfold.surface.animation import Motion
 
 if TYPE_CHECKING:
     from plyfold.surface.surface import Surface
@@ -24,6 +25,10 @@ Colouring: TypeAlias = Literal["layers", "sheets"]
 _FINER = 10
 # What is to be seen of a drawing, as a fraction of its size.
 _DETAIL = 1e-3
+# Times of the shapes between the flat drawing and the disk, on the straight way between which cloth would fold over;
+# larger surfaces do without them.
+_BETWEEN = (0.75, 0.5, 0.25)
+_MANY_VERTICES = 50_000
 
 
 @dataclass(frozen=True)
@@ -174,7 +179,7 @@ def single_precision(values: Floats, detail: float) -> npt.NDArray[np.float32]:
 
 
 def _unwrapped(surface: Surface, wanted: bool | None) -> tuple[Floats | None, dict[str, Floats]]:
-    """Return texture coordinates, and the surface flat on the table and as a disk of the drawing's size."""
+    """Return texture coordinates, and the surface flat on the table, on its way to a disk, and as that disk."""
     if wanted is False:
         return None, {}
     try:
@@ -183,11 +188,11 @@ def _unwrapped(surface: Surface, wanted: bool | None) -> tuple[Floats | None, di
         if wanted:
             raise
         return None, {}
-    plane = surface.vertices[:, :2]
-    low, high = plane.min(axis=0), plane.max(axis=0)
-    disk = low + (high - low) / 2 + unwound.disk * (high - low).max() / 2
-    shapes = {"flat": plane, "disk": disk}
-    return unwound.uv, {name: np.column_stack([places, np.zeros(len(places))]) for name, places in shapes.items()}
+    motion = Motion(unwound)
+    shapes = {"flat": motion.at(1.0)}
+    if len(surface.vertices) < _MANY_VERTICES:
+        shapes |= {f"unwinding {number + 1}": motion.at(time) for number, time in enumerate(_BETWEEN)}
+    return unwound.uv, shapes | {"disk": motion.at(0.0)}
 
 
 def _refuse_colouring(colours: str) -> None:
