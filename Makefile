@@ -47,8 +47,9 @@ pictures: $(READY)  ## Rebuild the pictures of the README and of docs
 benchmark: $(READY)  ## Times, memory and ratios against GEOS, from one run of at most ten minutes; see --help for OPTIONS
 	$(BIN)/python benchmarks/run.py $(OPTIONS)
 
-benchmark-docs: $(READY)  ## The same, written into docs/benchmarks.md
+benchmark-docs: $(READY)  ## The same, written into docs/benchmarks.md, and surfaces into docs/surfaces.md
 	$(BIN)/python benchmarks/run.py --docs $(OPTIONS)
+	$(BIN)/python benchmarks/surfaces.py --docs
 
 $(READY): pyproject.toml
 	@if command -v uv >/dev/null 2>&1; then \

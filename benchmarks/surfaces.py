@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from families import glued_disk, ribbon_disk
+from families import chain, glued_disk, ribbon_disk
 from tables import machine, markdown, number
 
 import plyfold as pf
@@ -44,7 +44,7 @@ class Case(NamedTuple):
 def cases(largest: int) -> Iterator[Case]:
     """Yield sketches, and then one curve with ever more triangles."""
     sketches = {name: named.curve.points for name, named in CURVES.items() if named.embeddable}
-    sketches |= {"ribbon of 100": ribbon_disk(100), "dense disk of 30": glued_disk(30)}
+    sketches |= {"ribbon of 300": ribbon_disk(300), "dense disk of 60": glued_disk(60), "chain of 370": chain(370)}
     for name, points in sketches.items():
         if pf.arrangement(points).n_crossings <= MOST_CROSSINGS:
             yield Case(name, points, 4_000, 5)
