@@ -208,9 +208,9 @@ def _refuse_wide_gaps(ends: _Points, loop: list[int], largest: float, numbers: l
         left, entered = (
             f"the {('start', 'end')[end % 2]} of stroke {numbers[end // 2]}" for end in (leaving, entering)
         )
-        gap = f"{left} is {length:.6g} away from {entered}"
+        gap = f"{left} is {length:.3g} away from {entered}"
         raise StrokeError(
-            f"{gap}, more than the largest gap that is bridged, {largest:.6g}",
+            f"{gap}, more than the largest gap that is bridged, {largest:.3g}",
             where=[ends[leaving], ends[entering]],
             hint="draw the missing part (in Python, Curve.from_strokes takes a larger max_gap)",
         )

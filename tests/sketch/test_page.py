@@ -150,6 +150,21 @@ def test_a_small_kink_is_removed_by_a_button(sketch):
     verdict(sketch, WORD["none"])
 
 
+@pytest.mark.parametrize("tool", ["draw", "points", "edit", "erase", "hand"])
+def test_tools_are_chosen_by_the_mouse(sketch, tool):
+    """At the very place where the button is seen, nothing lies over it."""
+    button = sketch.locator(f".rail [data-action={tool}]")
+    box = button.bounding_box()
+    sketch.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    assert button.get_attribute("aria-pressed") == "true"
+
+
+def test_half_a_figure_eight_is_no_small_kink(sketch):
+    draw(sketch, eight())
+    verdict(sketch, WORD["none"])
+    assert not sketch.locator("text=Remove the kink").is_visible()
+
+
 def test_undo_redo_and_reload_lose_nothing(sketch):
     draw(sketch, eight())
     verdict(sketch, WORD["none"])
@@ -183,7 +198,7 @@ def test_undo_waits_for_the_end_of_a_stroke(sketch):
 def test_several_strokes_make_one_loop_and_joins_are_kept_apart_until_joined(sketch):
     t = np.linspace(0.04, np.pi - 0.04, 50)
     draw(sketch, np.c_[150 * np.cos(t), 150 * np.sin(t)])
-    assert "away from" in verdict(sketch, WORD["unfinished"])
+    assert "too far apart" in verdict(sketch, WORD["unfinished"])
     draw(sketch, np.c_[150 * np.cos(t), -150 * np.sin(t)])
     verdict(sketch, WORD["immersible"])
     assert [stroke["closed"] for stroke in saved(sketch)["strokes"]] == [False, False]

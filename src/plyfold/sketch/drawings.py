@@ -48,7 +48,10 @@ def curve_of(strokes: Sequence[Stroke]) -> Curve:
     try:
         return Curve.from_strokes(stroke.points for stroke in strokes)
     except StrokeError as error:
-        raise StrokeError(error.message, error.where, "draw the missing part") from error
+        if len(error.where) != 2:
+            raise
+        sentence = "the ends are too far apart to be joined" if len(strokes) == 1 else "the strokes make no closed loop"
+        raise StrokeError(sentence, error.where, "draw the missing part between the rings") from error
 
 
 @lru_cache(maxsize=_REMEMBERED)

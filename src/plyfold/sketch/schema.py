@@ -130,11 +130,11 @@ def parse(text: bytes) -> Any:
     try:
         return json.loads(text.decode(), parse_constant=_refuse_constant)
     except json.JSONDecodeError as error:
-        raise InputError(f"the question is no JSON: line {error.lineno}, {error.msg.lower()}") from error
+        raise InputError(f"this is no JSON: line {error.lineno}, {error.msg.lower()}") from error
     except InputError:
         raise
     except (ValueError, RecursionError) as error:
-        raise InputError("the question is no JSON that can be read", hint=str(error)) from error
+        raise InputError("this is no JSON that can be read", hint=str(error)) from error
 
 
 def _refuse_constant(name: str) -> NoReturn:

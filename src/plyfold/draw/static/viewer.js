@@ -324,6 +324,7 @@ class Viewer {
     if (this.waiting) return;
     this.waiting = requestAnimationFrame(() => {
       this.waiting = 0;
+      if (!this.canvas.checkVisibility({ visibilityProperty: true })) return;
       this.controls.update();
       this.sortIfSeeThrough();
       this.renderer.render(this.scene, this.camera);

@@ -5,7 +5,7 @@ import * as commands from "./commands.js";
 import { EMPTY, deletePoint, lastStrokeOnly, loop, reversed, toggleClosed, withImage, withStrokes } from "./document.js";
 import { canRedo, canUndo } from "./history.js";
 import { closedAll, smoothedDrawing } from "./tidying.js";
-import { answerShown, errorShown, lieShown } from "./store.js";
+import { answerShown, errorShown, lieShown, smallKink } from "./store.js";
 import { zoomed } from "./camera.js";
 
 const drawn = (state) => state.history.present.strokes.length > 0;
@@ -47,9 +47,9 @@ export const ACTIONS = [
   tool("hand", "Move", "H", "Move the paper (also with Space held, or two fingers)"),
 
   { name: "undo", label: "Undo", keys: ["Ctrl+Z"], group: "history", hint: "Take the last change back", perform: commands.undoStep,
-    enabled: (state) => !state.busy && (canUndo(state.history) || state.path.length > 0) },
+    enabled: (state) => (canUndo(state.history) || state.path.length > 0) },
   { name: "redo", label: "Redo", keys: ["Ctrl+Shift+Z", "Ctrl+Y"], group: "history", hint: "Do again what was taken back",
-    perform: commands.redoStep, enabled: (state) => !state.busy && canRedo(state.history) },
+    perform: commands.redoStep, enabled: (state) => canRedo(state.history) },
 
   { name: "reverse", label: "Reverse", keys: ["R"], group: "change", hint: "Draw it in the other direction",
     perform: (page) => commands.edit(page, reversed(present(page))), enabled: drawn },
@@ -82,13 +82,13 @@ export const ACTIONS = [
   walking("layeringUp", "Next layering", "ArrowUp", "layering", 1),
   { name: "removeKink", label: "Remove the kink", keys: ["Shift+K"], group: "answers", hint: "Draw the loop without the small kink",
     perform: (page) => commands.edit(page, withStrokes(present(page), loop(page.store.state.answer.verdict.kink.points).strokes)),
-    enabled: (state) => Boolean(answerShown(state)?.verdict.kink) },
+    enabled: (state) => smallKink(state) !== null },
   { name: "closeLoop", label: "Close the loop", keys: ["Shift+J"], group: "answers", hint: "Bridge the gap between the ends",
     perform: (page) => commands.edit(page, closedAll(present(page))),
     enabled: (state) => errorShown(state)?.kind === "unfinished" && state.history.present.strokes.length === 1 },
   { name: "lastOnly", label: "Keep the last stroke only", keys: ["Shift+L"], group: "answers", hint: "Leave out all strokes but the last",
     perform: (page) => commands.edit(page, lastStrokeOnly(present(page))),
-    enabled: (state) => Boolean(errorShown(state)) && state.history.present.strokes.length > 1 },
+    enabled: (state) => ["unfinished", "drawing"].includes(errorShown(state)?.kind) && state.history.present.strokes.length > 1 },
   { name: "copyAnswers", label: "Copy", keys: ["Shift+C"], group: "answers", hint: "Copy the answers as text", perform: (page) => page.copyAnswers(), enabled: drawn },
 
   { name: "scene", label: "Surface or disk layout", keys: ["V"], group: "surface", hint: "Change between the surface and the disk layout",
@@ -120,7 +120,8 @@ export const ACTIONS = [
 ];
 
 export const actionNamed = (name) => ACTIONS.find((action) => action.name === name);
-export const isEnabled = (action, state) => action.enabled?.(state) ?? true;
+/** While a stroke or a drag is under way, the view is all that can be changed. */
+export const isEnabled = (action, state) => (!state.busy || action.group === "view") && (action.enabled?.(state) ?? true);
 
 /** The action of a key, if it can be done now. */
 export const actionOf = (key, state) => ACTIONS.find((action) => action.keys.includes(key) && isEnabled(action, state));

@@ -1,10 +1,11 @@
 // What the server says of the drawing: three questions, each asked as soon as the one before is answered. The newest
 // drawing wins: whatever is still on its way for an older one is cancelled.
 
-import { isAnswered, shown } from "./store.js";
+import { errorShown, isAnswered, shown } from "./store.js";
 
 const PAGE = crypto.getRandomValues(new Uint32Array(2)).join("-");
 const TRIANGLES = 3000;
+const RETRY = 2000; // milliseconds
 const AWAY = { kind: "away", where: [], hint: "start plyfold sketch again; the drawing is kept in this browser" };
 
 /** Ask the server. @returns its answer, or one with an error; null if the question was cancelled. */
@@ -16,7 +17,7 @@ export async function ask(question, body, signal) {
     return answer.error?.kind === "superseded" ? null : answer;
   } catch (error) {
     if (error.name === "AbortError") return null;
-    return { error: { ...AWAY, sentence: "plyfold does not answer" } };
+    return { error: { ...AWAY, sentence: "The server has ended, or is busy starting" } };
   }
 }
 
@@ -33,6 +34,7 @@ export function followAnswers(store, question = ask) {
     else if (state.lie && state.lie === before.lie && asksOtherwise(state)) restart(isAnswered(state) ? lie : look);
     else if (state.lie && state.gap !== before.gap) restart(isAnswered(state) ? lift : look);
   });
+  setInterval(() => errorShown(store.state)?.kind === "away" && restart(look), RETRY);
   if (shown(store.state).strokes.length) restart(look);
 }
 

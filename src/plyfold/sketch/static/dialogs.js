@@ -3,7 +3,7 @@
 import { toScreen, fitted } from "./camera.js";
 import { ACTIONS } from "./actions.js";
 import { button, actionsIn } from "./buttons.js";
-import { openDrawing } from "./commands.js";
+import { openDrawing, tell } from "./commands.js";
 import { allPoints, loop } from "./document.js";
 import { CURSOR_KEYS } from "./keyboard.js";
 import { shownKey } from "./keys.js";
@@ -56,12 +56,13 @@ function card(document_, title, detail, onOpen) {
 }
 
 export async function showGallery(page) {
-  const { curves } = await fetch("/api/v1/gallery").then((response) => response.json());
+  const { curves } = await fetch("/api/v1/gallery").then((response) => response.json()).catch(() => ({}));
+  if (!curves) return tell(page, "plyfold does not answer: start plyfold sketch again.");
   const cards = curves.map(({ name, title, points, crossings, immersions }) => {
-    const detail = `${crossings} crossing${crossings === "1" ? "" : "s"}, ${immersions === "0" ? "no disk" : `${immersions} immersion${immersions === "1" ? "" : "s"}`}`;
+    const detail = `${name}: ${crossings} crossing${crossings === "1" ? "" : "s"}, ${immersions === "0" ? "no disk" : `${immersions} immersion${immersions === "1" ? "" : "s"}`}`;
     return card(loop(points), title, detail, () => openDrawing(page, loop(points), name));
   });
-  show("Curves to begin with", make("div", { className: "cards" }, ...cards));
+  return show("Curves to begin with", make("div", { className: "cards" }, ...cards));
 }
 
 export function showDrawings(page) {
@@ -87,6 +88,13 @@ export function showExports(page) {
   show("Save as", make("div", { className: "formats" }, ...buttons));
 }
 
+const SURFACE_KEYS = [
+  ["← → ↑ ↓", "Turn it"],
+  ["+  -", "Come nearer, go back"],
+  ["T  P", "From above, as it is drawn; in perspective"],
+  ["F", "Show all of it"],
+  ["X", "See through it"],
+];
 const GROUPS = { tools: "Tools", history: "History", change: "Change", view: "View", answers: "Answers", surface: "Surface", file: "File", exports: "Save" };
 
 export function showHelp() {
@@ -94,7 +102,7 @@ export function showHelp() {
     const actions = ACTIONS.filter((action) => action.group === group && action.keys.length);
     return keyTable(title, actions.map(({ keys, hint }) => [keys.map(shownKey).join("  "), hint]));
   });
-  show("Keys", make("div", { className: "keys" }, ...tables, keyTable("With the keyboard cursor (K)", CURSOR_KEYS)));
+  show("Keys", make("div", { className: "keys" }, ...tables, keyTable("With the keyboard cursor (K)", CURSOR_KEYS), keyTable("In the surface", SURFACE_KEYS)));
 }
 
 function keyTable(title, rows) {

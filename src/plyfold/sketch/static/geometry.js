@@ -29,6 +29,9 @@ export function nearestOnSegment(point, a, b) {
 
 export const distanceToSegment = (point, a, b) => distance(point, nearestOnSegment(point, a, b));
 
+/** The length of a closed path once round. */
+export const lengthOf = (points) => edges({ points, closed: true }).reduce((sum, [a, b]) => sum + distance(a, b), 0);
+
 export function edges({ points, closed }) {
   const last = closed && points.length > 2 ? points.length : points.length - 1;
   return Array.from({ length: Math.max(last, 0) }, (_, i) => [points[i], points[(i + 1) % points.length]]);

@@ -174,6 +174,11 @@ function placeImage(state) {
     store.set({ history: { ...steps, present: placedImage } });
     tell(page, "Draw after the picture; it stays in the background.", ["dropImage"]);
   });
+  picture.addEventListener("error", () => {
+    const { history: steps } = store.state;
+    store.set({ history: { ...steps, present: withImage(steps.present, null) } });
+    tell(page, "The picture cannot be read.");
+  });
   picture.src = image.href;
 }
 

@@ -4,7 +4,7 @@
  * picture = {size: {width, height}, camera, theme, document, joins: [[a, b]..], openEnds: [[x, y]..],
  *            answer: to `look` or null, lie: to `lie` or null,           both about this very document
  *            tool, path: points being placed, next: where the next one would be, selected: {stroke, vertex},
- *            cursor: [x, y] of the keyboard, hover: {cell, sheets, border}, snap, image: loaded picture or null}
+ *            cursor: [x, y] of the keyboard, hover: {cell, sheets, border}, kink: small or null, snap, image: loaded picture or null}
  * theme = {ink, paper, dot, accent, wrong, hover, changed, night}
  */
 
@@ -121,8 +121,8 @@ function paintDirection({ context, theme, at }, points, closed) {
 
 function paintAnswer(scene) {
   const { answer, lie, theme } = scene;
-  const { kink, where } = answer.verdict;
-  kink?.loops.forEach((loop) => line(scene, loop, { closed: true, colour: theme.wrong, width: 4 }));
+  const { where } = answer.verdict;
+  scene.kink?.loops.forEach((loop) => line(scene, loop, { closed: true, colour: theme.wrong, width: 4 }));
   answer.crossings.forEach((place) => paintDot(scene, place, 3, theme.accent));
   answer.cells.forEach((cell) => paintNumber(scene, cell));
   [...where, ...(lie?.obstruction?.where ?? [])].forEach((place) => paintCross(scene, place));

@@ -5,6 +5,8 @@ import { button } from "./buttons.js";
 import { isEmpty } from "./document.js";
 import { answerShown, errorShown, lieShown, shown } from "./store.js";
 
+const HEADLINES = { unfinished: "Not a loop yet", away: "plyfold does not answer" };
+const LONGEST = 600;
 const REMEDIES = ["removeKink", "closeLoop", "lastOnly"];
 const find = (id) => document.getElementById(id);
 const grouped = (digits) => (digits.length > 24 ? `about 10^${digits.length - 1}` : digits.replace(/\B(?=(\d{3})+$)/g, "\u202f"));
@@ -13,7 +15,7 @@ const grouped = (digits) => (digits.length > 24 ? `about 10^${digits.length - 1}
 export function verdictOf(state) {
   const error = errorShown(state);
   if (isEmpty(shown(state))) return { kind: "empty", headline: "", sentence: "" };
-  if (error) return { kind: "unfinished", headline: error.kind === "unfinished" ? "Not a loop yet" : "Not a loop that can be used", sentence: `${error.sentence}${error.hint ? `: ${error.hint}` : ""}.` };
+  if (error) return { kind: "unfinished", headline: HEADLINES[error.kind] ?? "Not a loop that can be used", sentence: `${error.sentence}${error.hint ? `: ${error.hint}` : ""}.` };
   const answer = answerShown(state);
   if (!answer) return null;
   const { verdict } = answer;
@@ -42,9 +44,20 @@ export function figuresOf(state) {
   if (answer.gauss) rows.push(["Gauss code", answer.gauss]);
   if (answer.word) rows.push(["Blank's word", answer.word]);
   const repairs = answer.repairs.filter(({ kind }) => kind !== "gap bridged");
-  if (repairs.length) rows.push(["repairs", repairs.map(({ kind }) => kind).join(", ")]);
+  if (repairs.length) rows.push(["repairs", counted(repairs.map(({ kind }) => kind))]);
   return rows;
 }
+
+/** "vertex moved, 12 times" instead of twelve times the same. */
+function counted(words) {
+  return [...new Set(words)].map((word) => {
+    const times = words.filter((other) => other === word).length;
+    return times > 1 ? `${word}, ${times} times` : word;
+  }).join("; ");
+}
+
+/** As much of a long code as is read; the copy has the whole. */
+const readable = (value) => (value.length > LONGEST ? `${value.slice(0, LONGEST)} …` : value);
 
 function windings(cells) {
   const counts = new Map();
@@ -122,7 +135,7 @@ function refreshFigures(rows) {
   written = text;
   find("figures").replaceChildren(...rows.map(([name, value]) => {
     const row = document.createElement("div");
-    row.append(Object.assign(document.createElement("dt"), { textContent: name }), Object.assign(document.createElement("dd"), { textContent: value }));
+    row.append(Object.assign(document.createElement("dt"), { textContent: name }), Object.assign(document.createElement("dd"), { textContent: readable(value) }));
     return row;
   }));
 }

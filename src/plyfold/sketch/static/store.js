@@ -2,6 +2,7 @@
 
 import { START as CAMERA } from "./camera.js";
 import { EMPTY } from "./document.js";
+import { lengthOf } from "./geometry.js";
 import { begin } from "./history.js";
 
 export const START = Object.freeze({
@@ -62,6 +63,14 @@ export const answerShown = (state) => (isAnswered(state) && !state.answer.error 
 
 /** What is wrong with the drawing that is seen, if it is no loop that can be used. */
 export const errorShown = (state) => (isAnswered(state) ? (state.answer.error ?? null) : null);
+
+/** The kink that the drawing would be a disk without, if it is no more than a quarter of it. */
+export function smallKink(state) {
+  const kink = answerShown(state)?.verdict.kink;
+  if (!kink) return null;
+  const loops = kink.loops.reduce((sum, loop) => sum + lengthOf(loop), 0);
+  return loops <= (loops + lengthOf(kink.points)) / 4 ? kink : null;
+}
 
 /** How the cloth lies, if that is about what is seen. */
 export const lieShown = (state) => (answerShown(state) && state.lie?.layout ? state.lie : null);
