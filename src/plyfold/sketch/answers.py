@@ -19,14 +19,15 @@ from plyfold.sketch.schema import VERSION, Export, Lie, Look, Surface, parse, re
 
 __all__ = ["Answer", "answer", "error_answer", "json_answer"]
 
+# What is part of drawing is no failure: browsers would write of it in their consoles.
 _STATUS = {
     "unfinished": 200,
     "drawing": 200,
+    "superseded": 200,
     "input": 400,
     "refused": 403,
     "not found": 404,
     "too large": 413,
-    "superseded": 409,
     "busy": 503,
     "time limit": 503,
     "internal": 500,
