@@ -40,6 +40,8 @@ class Curve:
         At least three vertices, no two consecutive ones equal, not all on one line.
     repairs : tuple of Repair
         Everything that was changed in the input.
+    rows : ndarray, shape (n,), int64, read-only
+        The row that each vertex has in the array it was made from: 0 to n − 1, unless points were left out.
 
     Raises
     ------
@@ -62,13 +64,19 @@ class Curve:
 
     points: npt.NDArray[np.float64]
     repairs: tuple[Repair, ...]
+    rows: npt.NDArray[np.int64]
 
     def __init__(self, points: npt.ArrayLike, repairs: Iterable[Repair] = ()) -> None:
-        kept, dropped = _without_repetitions(_without_closing_point(as_points(points)))
+        given = _without_closing_point(as_points(points))
+        rows = _fresh_rows(given)
+        # All of them, mostly; a copy would cost more than the rest.
+        kept = given if len(rows) == len(given) else given[rows]
         _refuse_degenerate(kept)
         kept.setflags(write=False)
+        rows.setflags(write=False)
         object.__setattr__(self, "points", kept)
-        object.__setattr__(self, "repairs", (*repairs, *dropped))
+        object.__setattr__(self, "repairs", (*repairs, *_dropped_points(given, rows)))
+        object.__setattr__(self, "rows", rows)
 
     def __len__(self) -> int:
         return len(self.points)
@@ -270,17 +278,23 @@ def _without_closing_point(points: npt.NDArray[np.float64]) -> npt.NDArray[np.fl
     return points[:-1] if closed else points
 
 
-def _without_repetitions(points: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.float64], list[Repair]]:
-    """Keep the first of each run of equal points; a run across the end belongs to the first point."""
+def _fresh_rows(points: npt.NDArray[np.float64]) -> npt.NDArray[np.int64]:
+    """Return the first row of each run of equal points; a run across the end belongs to the first point."""
     x, y = points.T
     if not ((x[1:] == x[:-1]) & (y[1:] == y[:-1])).any() and not np.array_equal(points[:1], points[-1:]):
-        return points, []
+        return np.arange(len(points))
     fresh = (points != np.roll(points, 1, axis=0)).any(axis=1)
     fresh[:1] = True
     last = np.flatnonzero(fresh)[-1:]
     fresh[last] = (last == 0) | (points[last] != points[:1]).any(axis=1)
-    places = dict.fromkeys((x, y) for x, y in points[~fresh].tolist())
-    return points[fresh], [Repair("repeated point dropped", place, 0.0) for place in places]
+    return np.flatnonzero(fresh)
+
+
+def _dropped_points(points: npt.NDArray[np.float64], kept: npt.NDArray[np.int64]) -> list[Repair]:
+    if len(kept) == len(points):
+        return []
+    places = dict.fromkeys((x, y) for x, y in np.delete(points, kept, axis=0).tolist())
+    return [Repair("repeated point dropped", place, 0.0) for place in places]
 
 
 def _refuse_degenerate(points: npt.NDArray[np.float64]) -> None:

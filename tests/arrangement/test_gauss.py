@@ -206,3 +206,15 @@ def test_text_is_drawn_and_what_is_no_text_is_refused():
     assert GaussCode.of(pf.Curve.from_gauss(TREFOIL)) == GaussCode.parse(TREFOIL)
     with pytest.raises(GaussCodeError, match="no text"):
         GaussCode.parse(None)
+
+
+@pytest.mark.parametrize("wrong", [None, 1.5, "a", True])
+def test_visits_and_darts_are_whole_numbers(wrong):
+    code = GaussCode([1, 0], [True, False], 1)
+    for make in (
+        lambda: GaussCode([1, 0], [True, False], wrong),
+        lambda: code.with_outer(wrong),
+        lambda: code.rotated(wrong),
+    ):
+        with pytest.raises(GaussCodeError, match="whole number"):
+            make()

@@ -181,10 +181,42 @@ def test_immersion_of_another_curve():
     with pytest.raises(InputError, match="another curve"):
         triangulate(CURVES["circle"].curve, immersion)
     with pytest.raises(InputError, match="another curve"):
-        triangulate(pf.arrangement(RAMP), immersion)
+        triangulate(pf.arrangement(RAMP[::-1]), immersion)
     with pytest.raises(InputError, match="another curve"):
         triangulate(np.roll(RAMP, 1, axis=0), immersion)
     assert len(triangulate(RAMP[::-1], pf.find_immersion(RAMP[::-1]))) == 8
+
+
+def test_immersion_of_an_equal_arrangement():
+    immersion = pf.find_immersion(RAMP)
+    assert np.array_equal(triangulate(pf.arrangement(RAMP), immersion), triangulate(RAMP, immersion))
+
+
+@pytest.mark.parametrize("ring", [np.array, shapely.LinearRing], ids=["array", "shapely"])
+def test_faces_number_the_points_as_given(ring):
+    doubled = np.repeat(RAMP, [1, 2, 1, 1, 3, 1, 1, 1, 1, 2], axis=0)
+    faces = triangulate(ring(doubled))
+    assert faces.shape == (8, 3)
+    assert (double_areas(doubled, faces) > 0).all()
+    assert np.array_equal(doubled[faces], np.array(RAMP)[triangulate(RAMP)])
+    curve = pf.Curve(doubled)
+    assert np.array_equal(curve.points[triangulate(curve)], doubled[faces])
+
+
+def test_touching_strands_give_triangles_or_an_error():
+    touching = np.array([(1, -3), (3, -1), (3, 2), (1, -3), (-3, 1)], dtype=float)
+    with pytest.raises(GeneralPositionError, match="no area"):
+        triangulate(touching)
+    moved = pf.arrangement(touching)
+    assert len(triangulate(moved)) == 3
+
+
+def test_touching_strands_whose_triangles_hold():
+    slit = np.array([(0, 0), (4, 0), (4, 2), (2, 2), (4, 2), (4, 4), (0, 4)], dtype=float)
+    moved = pf.arrangement(slit)
+    assert moved.curve.repairs
+    faces = triangulate(slit)
+    assert (double_areas(slit, faces) > 0).all()
 
 
 @pytest.mark.parametrize("exponent", range(1, 18))

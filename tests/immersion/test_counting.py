@@ -191,3 +191,9 @@ def test_blank_words_print_and_list_their_groupings():
     assert str(pf.blank_word([(0, 0), (1, 0), (0, 1)])) == "(empty)"
     for name in ("figure-eight", "limacon", "doubled-circle", "kinked-circle"):
         assert not list(pf.blank_word(pf.gallery.CURVES[name].curve).groupings())
+
+
+@pytest.mark.parametrize("rng", [-1, 1.5, "dice"])
+def test_source_of_randomness_is_checked(rng):
+    with pytest.raises(InputError, match="source of randomness"):
+        pf.sample_immersion([(0, 0), (1, 0), (0, 1)], rng)

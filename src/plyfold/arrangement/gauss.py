@@ -21,7 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrangement.core import Arrangement, CurveLike, arrangement
-from plyfold.arrangement.planar_map import next_darts, reversed_code
+from plyfold.arrangement.planar_map import next_darts, reversed_code, whole_number
 from plyfold.curve import Curve
 from plyfold.errors import GaussCodeError
 
@@ -167,7 +167,7 @@ class GaussCode:
         1- 2- 2+ 1+ / outer 1
         """
         word = self._word()
-        start %= len(word)
+        start = whole_number("start", start) % len(word)
         return _from_word(word[start:] + word[:start])
 
     def reversed(self) -> GaussCode:
@@ -213,7 +213,7 @@ class GaussCode:
         >>> print(GaussCode.parse("1+ 1- / outer 1").with_outer(0))
         1+ 1- / outer 0
         """
-        return GaussCode(self.partner, self.ccw, dart)
+        return GaussCode(self.partner, self.ccw, whole_number("dart", dart))
 
     def canonical(self, reversal: bool = True, reflection: bool = True, any_outer: bool = False) -> GaussCode:
         """Return the same code for all equivalent curves, and different ones for others.

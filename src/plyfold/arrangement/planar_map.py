@@ -34,9 +34,17 @@ def checked_code(partner: npt.ArrayLike, ccw: npt.ArrayLike, outer: int) -> tupl
     if (same := signs == signs[visits]).any():
         first = int(same.argmax())
         raise GaussCodeError(f"visits {first} and {visits[first]} say that both strands cross from the same side")
+    outer = whole_number("outer", outer)
     if not 0 <= outer < max(2 * n, 2):
         raise GaussCodeError(f"dart {outer} does not exist: there are {max(2 * n, 2)}")
-    return visits, signs.astype(bool), int(outer)
+    return visits, signs.astype(bool), outer
+
+
+def whole_number(name: str, value: object) -> int:
+    """Return a value as an int if it is a whole number, or refuse it by name."""
+    if isinstance(value, bool) or not isinstance(value, int | np.integer):
+        raise GaussCodeError(f"{name} must be a whole number, not {value!r}")
+    return int(value)
 
 
 def _whole_numbers(name: str, values: npt.ArrayLike) -> Ints:

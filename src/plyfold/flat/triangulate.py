@@ -9,8 +9,8 @@ import numpy as np
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.core import CurveLike
 from plyfold.arrays import Floats, Ints
-from plyfold.curve import as_curve
-from plyfold.errors import InputError, NotImmersibleError, PlyfoldError
+from plyfold.curve import Curve, as_curve
+from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError, PlyfoldError
 from plyfold.flat.cells import refuse_max_area
 from plyfold.flat.flips import flip_edges
 from plyfold.flat.sweep import sweep_triangles
@@ -47,9 +47,9 @@ def triangulate(
     Returns
     -------
     faces : (n − 2, 3) int
-        Rows of three points of the curve, by number, counter-clockwise (exactly, and strictly). Glued along their
-        common sides they are a disk, immersed in the plane, with the curve as its boundary. A curve that runs
-        clockwise keeps its numbers; the triangles are counter-clockwise all the same.
+        Rows of three points of the curve, by their number in the array that was given, counter-clockwise (exactly, and
+        strictly). Glued along their common sides they are a disk, immersed in the plane, with the curve as its
+        boundary. A curve that runs clockwise keeps its numbers; the triangles are counter-clockwise all the same.
     points, faces : (m, 2) float and (m' , 3) int
         With ``refine``; the first n points are the curve's.
 
@@ -59,6 +59,8 @@ def triangulate(
         If the curve bounds no immersed disk; ``error.obstruction`` says why.
     InputError
         If ``refine`` is no positive number or makes too many triangles, or the immersion is one of another curve.
+    GeneralPositionError
+        If strands touch, and a triangle of the separated strands has no area on the points as they were given.
 
     Notes
     -----
@@ -67,10 +69,13 @@ def triangulate(
     only at corners where an interval is split does it have to be found, by a walk through the sheets. All signs are
     exact. O((n + k) log n) and some steps for each strand that is walked over; 60,000 points with 18,000 crossings take
     a hundredth of a second with numba, a quarter of a second without. That such triangles exist is proved in [SW92]_
-    and [WZ14]_. Many are long and thin; those that ``refine`` makes are as round as the outline lets them.
+    and [WZ14]_. Many are long and thin; those that ``refine`` makes are as round as
+    the points of the outline let them; :func:`~plyfold.map_disk` divides the outline too.
 
-    Points that repeat the one before them are left out (see :class:`~plyfold.Curve`) and do not count. If vertices had
-    to be moved into general position, the triangles are those of the moved curve, ``arrangement(curve).curve``.
+    Points that repeat the one before them are left out (see :class:`~plyfold.Curve`): they do not count, and no face
+    has them. If vertices had to be moved into general position, the triangles are those of the moved curve. They are
+    returned if they are triangles of the points as given, too; given an arrangement, they are always those of
+    ``arrangement.curve``, the moved points.
 
     References
     ----------
@@ -91,7 +96,8 @@ def triangulate(
     chosen = chosen_immersion(curve, immersion)
     if refine is not None:
         return _refined(chosen, refine)
-    return _input_order(chosen.arrangement)[sweep_triangles(chosen)]
+    faces = _input_order(chosen.arrangement)[sweep_triangles(chosen)]
+    return faces if isinstance(curve, Arrangement) else _faces_as_given(curve, faces, chosen.arrangement)
 
 
 def chosen_immersion(curve: CurveLike, immersion: Immersion | None) -> Immersion:
@@ -105,9 +111,31 @@ def chosen_immersion(curve: CurveLike, immersion: Immersion | None) -> Immersion
             raise NotImmersibleError(found)
         return found
     drawn = require_immersion(immersion).arrangement
-    if not (curve is drawn if isinstance(curve, Arrangement) else _draws(drawn, as_curve(curve).points)):
+    if not (_same(drawn, curve) if isinstance(curve, Arrangement) else _draws(drawn, as_curve(curve).points)):
         raise InputError("the immersion belongs to another curve", hint="make it from the same arrangement")
     return immersion
+
+
+def _faces_as_given(curve: CurveLike, faces: Ints, drawn: Arrangement) -> Ints:
+    """Give the points the numbers that the caller knows, and refuse triangles without area on his points."""
+    assert drawn.curve is not None
+    given = as_curve(curve)
+    if not np.array_equal(drawn.curve.points[_input_order(drawn)], given.points):
+        flat = faces[orient(*given.points[faces].swapaxes(0, 1)) <= 0]
+        if len(flat):
+            raise GeneralPositionError(
+                "strands touch, and where they were separated a triangle has no area on the points as given",
+                where=given.points[flat[0]],
+                hint="take the moved points: a = arrangement(curve), then triangulate(a) and a.curve.points",
+            )
+    return faces if isinstance(curve, Curve) else given.rows[faces]
+
+
+def _same(drawn: Arrangement, other: Arrangement) -> bool:
+    """Tell whether two arrangements are of the same points."""
+    if drawn.curve is None or other.curve is None:
+        return drawn is other
+    return drawn.reversed == other.reversed and np.array_equal(drawn.curve.points, other.curve.points)
 
 
 def _draws(drawn: Arrangement, points: Floats) -> bool:

@@ -172,17 +172,32 @@ def sample_immersion(curve: CurveLike, rng: np.random.Generator | int) -> Immers
     Immersion or Obstruction
         As from :func:`find_immersion`. Cost: that of :func:`count_immersions`, however many immersions there are.
 
+    Raises
+    ------
+    InputError
+        If ``rng`` is neither.
+
     Examples
     --------
     >>> import numpy as np
     >>> sample_immersion([(0, 0), (1, 0), (0, 1)], np.random.default_rng(1)).n_sheets
     1
     """
+    dice = _dice(rng)
     family = _family(curve)
     if family is None:
         return find_immersion(curve)
-    index = _random_below(count_groupings(family.groupings), np.random.default_rng(rng))
+    index = _random_below(count_groupings(family.groupings), dice)
     return _glued(family, nth_grouping(family.groupings, index))
+
+
+def _dice(rng: np.random.Generator | int) -> np.random.Generator:
+    try:
+        return np.random.default_rng(rng)
+    except (TypeError, ValueError) as error:
+        raise InputError(
+            f"the source of randomness must be a Generator or a whole number from 0 up, not {rng!r}"
+        ) from error
 
 
 def nth_immersion(curve: CurveLike, index: int) -> Immersion:
