@@ -284,6 +284,51 @@ def test_pieces_of_any_length():
     assert_one_to_one(pf.unwrap(np.concatenate([corner, [(1, 0.5), (1, 1), (0, 1)]]), triangles=100))
 
 
+def helix(turns):
+    """A ring that runs over itself and ends exactly above its beginning, up to rounding."""
+    angle = np.linspace(0, 2 * np.pi * turns, 60 * turns)
+    way = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return np.concatenate([(3 + 0.01 * angle)[:, None] * way, ((2 + 0.01 * angle)[:, None] * way)[::-1]])
+
+
+def nearly_closed(gap):
+    """A strip that comes back to itself at a distance of rounding errors."""
+    return [(0, 0), (10, 0), (10, 10), (0, 10), (0, 5), (1, 5), (1, 9), (9, 9), (9, 1), (1.5, 1),
+            (1.5, 5 + gap), (0.5, 5 + gap), (0.5, 2)]  # fmt: skip
+
+
+@pytest.mark.parametrize("curve", [helix(2), helix(3), nearly_closed(1e-14)], ids=["2 turns", "3 turns", "strip"])
+def test_strands_that_all_but_fall_together(curve):
+    """Triangles as flat as rounding errors: in the disk they are counter-clockwise, as texture coordinates too."""
+    unwound = pf.unwrap(curve)
+    assert_one_to_one(unwound)
+    assert all(positive(*unwound.uv[face]) for face in unwound.faces)
+
+
+@pytest.mark.parametrize("kind", ["cotangents", "_mean_values"])
+def test_weights_of_flat_triangles_are_finite(kind):
+    """Angles of half a turn but for a rounding error; mean values stay positive as well."""
+    corners = np.array([[(0, 0), (1, 0), (0.5, 2.0**-1000)], [(0, 0), (1, 0), (1, 2.0**-60)]])
+    found = getattr(round_map, kind)(corners)
+    assert np.isfinite(found).all()
+    assert kind == "cotangents" or (found > 0).all()
+
+
+def test_a_disk_that_is_lost_is_refused_and_its_surface_written_without(monkeypatch, tmp_path):
+    """Factors of a matrix with a pivot of 0 are an error of the library below, not of ours."""
+
+    def singular(*_, **__):
+        raise RuntimeError("Factor is exactly singular")
+
+    surface = pf.lift(DISKS["exit-ramp"], triangles=200)
+    monkeypatch.setattr("scipy.sparse.linalg.splu", singular)
+    with pytest.raises(PrecisionError, match="round disk") as caught:
+        surface.unwrap()
+    assert len(caught.value.where) > 100
+    surface.export(tmp_path / "ramp.glb")
+    assert b"TEXCOORD_0" not in (tmp_path / "ramp.glb").read_bytes()
+
+
 def test_checks_notice_a_spoiled_disk():
     unwound = pf.unwrap(DISKS["exit-ramp"], triangles=100)
     for spoil in (lambda disk: disk * [1, -1], lambda disk: disk * 0.5, lambda disk: -disk):

@@ -2,7 +2,8 @@
 
 Each inner vertex is put at a weighted mean of its neighbours. Cotangent weights make the map harmonic. If all weights
 are positive and the boundary is convex, no triangle is flipped (Tutte, Floater); cotangents may be negative, and where
-they flip a triangle, mean value weights or equal ones take their place.
+they flip a triangle, mean value weights or equal ones take their place. Angles of almost nothing or almost a half turn
+count as if they were a little further from it, so that no weight is infinite.
 
 References
 ----------
@@ -17,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import PrecisionError
 from plyfold.predicates import orient
 
@@ -25,6 +26,10 @@ __all__ = ["boundary_angles", "cotangents", "round_map"]
 
 # Pieces of the boundary count as at least this share of it: with shorter ones, doubles would hold no circle.
 _SHORTEST_SHARE = 1e-7
+# Tangents of angles and lengths of sides, in a drawing of size 1, that are less than these count as these.
+_LEAST_TANGENT, _LEAST_LENGTH = 1e-8, 1e-16
+# Places are multiples of this, so that they can be moved by 1 with no rounding: texture coordinates are as exact.
+_GRID = 2.0**-52
 _Weights = Callable[[Floats], Floats]
 
 
@@ -65,13 +70,13 @@ def round_map(points: Floats, faces: Ints, boundary: Ints) -> Floats:
     unit = _in_unit_square(points)
     angle = boundary_angles(unit[boundary])
     disk = np.zeros(points.shape)
-    disk[boundary] = np.column_stack([np.cos(angle), np.sin(angle)])
+    disk[boundary] = _on_grid(np.column_stack([np.cos(angle), np.sin(angle)]))
     inner = np.setdiff1d(np.arange(len(points)), boundary)
     flipped = np.empty(0, dtype=np.int64)
     for weights in (cotangents, _mean_values, _equal):
         if len(inner):
-            disk[inner] = _weighted_means(weights(unit[faces]), faces, disk, inner, boundary)
-        flipped = np.flatnonzero(orient(*disk[faces].swapaxes(0, 1)) <= 0)
+            disk[inner] = _on_grid(_weighted_means(weights(unit[faces]), faces, disk, inner, boundary))
+        flipped = np.flatnonzero(~_counter_clockwise(disk[faces]))
         if len(flipped) == 0:
             return disk
     raise PrecisionError(
@@ -89,13 +94,24 @@ def boundary_angles(outline: Floats) -> Floats:
     return np.asarray(2 * np.pi * before / length.sum())
 
 
+def _on_grid(points: Floats) -> Floats:
+    return np.asarray(np.round(points / _GRID) * _GRID)
+
+
+def _counter_clockwise(corners: Floats) -> Bools:
+    """Tell which triangles are counter-clockwise, exactly; none is that has a corner nowhere."""
+    known = np.asarray(np.isfinite(corners).all(axis=(1, 2)))
+    known[known] = orient(*corners[known].swapaxes(0, 1)) > 0
+    return known
+
+
 def _in_unit_square(points: Floats) -> Floats:
     low = points.min(axis=0)
     return np.asarray((points - low) / (points - low).max())
 
 
 def _weighted_means(weights: Floats, faces: Ints, disk: Floats, inner: Ints, boundary: Ints) -> Floats:
-    """Return the places of the inner vertices, given those of the boundary.
+    """Return the places of the inner vertices, given those of the boundary; nowhere (NaN) if rounding loses them.
 
     ``weights[t, i]`` has what triangle t adds to the weight of the side opposite its corner i: from the corner that
     follows to the last one, and back.
@@ -113,7 +129,11 @@ def _weighted_means(weights: Floats, faces: Ints, disk: Floats, inner: Ints, bou
 def _solved(matrix: Any, right: Floats) -> Floats:
     from scipy.sparse.linalg import splu
 
-    factors = splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    options = {"SymmetricMode": True}
+    try:
+        factors = splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+    except RuntimeError:  # a pivot of 0
+        return np.full(right.shape, np.nan)
     solution = factors.solve(right)
     # One step of refinement: small features far from the origin need every digit.
     return np.asarray(solution + factors.solve(right - matrix @ solution))
@@ -122,17 +142,19 @@ def _solved(matrix: Any, right: Floats) -> Floats:
 def cotangents(corners: Floats) -> Floats:
     """Return half the cotangent of each angle, both ways along the side opposite it."""
     following, preceding = _sides(corners)
-    cotangent = (following * preceding).sum(axis=-1) / _cross(following, preceding)
+    cosine, sine = (following * preceding).sum(axis=-1), _cross(following, preceding)
+    cotangent = cosine / np.maximum(sine, _LEAST_TANGENT * np.maximum(np.abs(cosine), _LEAST_LENGTH**2))
     return np.repeat(cotangent[..., None] / 2, 2, axis=-1)
 
 
 def _mean_values(corners: Floats) -> Floats:
     """Return Floater's weights: tangents of half the angles at a side's ends, by the side's length."""
     following, preceding = _sides(corners)
-    length = np.hypot(following[..., 0], following[..., 1])
+    length = np.maximum(np.hypot(following[..., 0], following[..., 1]), _LEAST_LENGTH)
     product = length * np.roll(length, 1, axis=1)
     # tan(α/2) = sin α / (1 + cos α)
-    tangent = _cross(following, preceding) / (product + (following * preceding).sum(axis=-1))
+    sine, beside = _cross(following, preceding), product + (following * preceding).sum(axis=-1)
+    tangent = np.maximum(sine, _LEAST_TANGENT * product) / np.maximum(beside, _LEAST_TANGENT * product)
     there_and_back = np.stack([np.roll(tangent, -1, axis=1), np.roll(tangent, -2, axis=1)], axis=-1)
     return np.asarray(there_and_back / np.roll(length, -1, axis=1)[..., None])
 
