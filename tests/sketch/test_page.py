@@ -15,7 +15,7 @@ WORD = {"immersible": "A disk of cloth", "none": "No disk", "unfinished": "Not a
 
 @pytest.fixture
 def sketch(page):
-    page.set_default_timeout(9000)
+    page.set_default_timeout(30_000)
     page.wait_for_selector("html[data-ready]")
     return page
 
