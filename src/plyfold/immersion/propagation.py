@@ -5,7 +5,8 @@ the nearest on its right lies a gap with its minus letter in it, and whatever ch
 crosses each of its own, so it can go. When a label has one partner left, its chord is drawn; then the two sides of
 the gap are the two sides of the chord, and have nothing to do with each other from there on.
 
-Either way only the smaller of the two sides is walked through, in the ring of letters that are still in play.
+Either way only the smaller of the two sides is walked through, in the ring of letters that are still in play; each
+part of the word that no chord of another crosses has a ring of its own.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from collections import deque
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+from plyfold.immersion.parts import independent_parts
 from plyfold.immersion.word import Word
 
 __all__ = ["Conflict", "Narrowed", "narrow"]
@@ -31,7 +33,7 @@ class Narrowed:
     partners : list of list of int
         The plus letters that are left for each label.
     regions : list of list of int
-        The letters still in play, in order along the curve, region by region: no chord joins two regions.
+        The letters still in play, in order along the curve, region by region: no chord joins or crosses two regions.
     removed_by : dict of int to int
         For each plus letter out of play, the label that removed it.
     """
@@ -82,7 +84,9 @@ def narrow(word: Word) -> Narrowed | Conflict:
                 return Conflict(_reasons(board, [word.label[letter]]))
         if len(board.partners[label]) == 1 and label not in board.chosen:
             _draw_chord(board, label)
-    return Narrowed(word, board.chosen, board.partners, _regions(board), board.removed_by)
+    undecided = [label for label in range(len(word.minus)) if label not in board.chosen]
+    regions = independent_parts(word, undecided, board.partners)
+    return Narrowed(word, board.chosen, board.partners, regions, board.removed_by)
 
 
 @dataclass(eq=False)
@@ -100,11 +104,15 @@ class _Board:
 
     @classmethod
     def of(cls, word: Word) -> _Board:
-        n, labels = len(word), len(word.minus)
+        labels = len(word.minus)
+        after, before = [-1] * len(word), [-1] * len(word)
+        for ring in independent_parts(word, range(labels), word.partners):
+            for letter, following in zip(ring, [*ring[1:], ring[0]], strict=True):
+                after[letter], before[following] = following, letter
         return cls(
             word=word,
-            after=[*range(1, n), 0],
-            before=[n - 1, *range(n - 1)],
+            after=after,
+            before=before,
             partners=[list(letters) for letters in word.partners],
             due=deque(range(labels)),
             waiting=[True] * labels,
@@ -193,25 +201,6 @@ def _draw_chord(board: _Board, label: int) -> None:
     first, last = board.after[plus], board.before[minus]
     if first != minus:
         board.after[last], board.before[first] = first, last
-
-
-def _regions(board: _Board) -> list[list[int]]:
-    """Return the rings that are left, each cut open at its first letter."""
-    seen: set[int] = set()
-    regions = []
-    for label, minus in enumerate(board.word.minus):
-        if label not in board.chosen and minus not in seen:
-            ring = sorted(_ring(board, minus))
-            seen.update(ring)
-            regions.append(ring)
-    return regions
-
-
-def _ring(board: _Board, start: int) -> list[int]:
-    ring = [start]
-    while (letter := board.after[ring[-1]]) != start:
-        ring.append(letter)
-    return ring
 
 
 def _reasons(found: _Board | Narrowed, labels: Iterable[int]) -> tuple[int, ...]:
