@@ -74,6 +74,8 @@ def test_shape_keys_of_a_glb(surface, tmp_path):
         "unwinding 3",
         "disk",
     ]
+    bpy.context.scene.frame_set(1)
+    assert [key.value for key in found.data.shape_keys.key_blocks[1:]] == [0] * 5
     assert [action.name for action in bpy.data.actions] == ["unwind"]
     assert_same(corners(found, "flat"), surface.vertices[surface.faces] * (1, 1, 0))
     disk = corners(found, "disk")[..., :2].reshape(-1, 2)

@@ -305,6 +305,12 @@ def test_strands_that_all_but_fall_together(curve):
     assert all(positive(*unwound.uv[face]) for face in unwound.faces)
 
 
+def test_a_helix_is_written_with_its_disk(tmp_path):
+    surface = pf.lift(helix(2), triangles=500)
+    surface.export(tmp_path / "helix.glb")
+    assert b"TEXCOORD_0" in (tmp_path / "helix.glb").read_bytes()
+
+
 @pytest.mark.parametrize("kind", ["cotangents", "_mean_values"])
 def test_weights_of_flat_triangles_are_finite(kind):
     """Angles of half a turn but for a rounding error; mean values stay positive as well."""

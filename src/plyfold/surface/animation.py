@@ -1,33 +1,45 @@
 """The motion from the round disk to the drawing laid flat, and from there to the lifted surface.
 
-Moving every point straight to its place would fold the cloth over. So each triangle turns and stretches evenly
-instead, a spiral by several full turns if it must, and the vertices follow as closely as they can.
+Moving every point straight to its place would fold the cloth over. Instead the lengths of all sides go from those in
+the disk to those in the drawing, and at each time the triangles with these lengths are laid out in the plane, as in
+[CWKB13]_. They fit together after small changes (:mod:`plyfold.surface.flatten`), so at no time any is turned over, and
+a spiral unrolls by as many turns as it has.
 
 References
 ----------
-.. [ACL00] M. Alexa, D. Cohen-Or, D. Levin, "As-rigid-as-possible shape interpolation", SIGGRAPH 2000.
+.. [CWKB13] R. Chen, O. Weber, D. Keren, M. Ben-Chen, "Planar shape interpolation with bounded distortion", ACM
+   Transactions on Graphics 32, 2013.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
-from plyfold.arrays import Complexes, Floats, Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.errors import InputError
-from plyfold.surface.locate import neighbours
-from plyfold.surface.round_map import cotangents
+from plyfold.surface.flatten import angles_of, flattened, thin
+from plyfold.surface.lay_out import Layout
 from plyfold.surface.unwrap import UnwoundDisk
 
-__all__ = ["Motion"]
+__all__ = ["Motion", "turned_over"]
+
+# Shorter sides, in a drawing of size 1, count as that long.
+_SHORTEST = 1e-16
+# How often the stretch is averaged with that of neighbours, until no triangle is torn by it at any of these times.
+_SMOOTHINGS = (5, 20, 80)
+_TRIALS = (0.25, 0.5, 0.75)
 
 
 @dataclass(frozen=True, eq=False)
 class Motion:
     """The way of a disk of cloth: round at time 0, laid flat over the drawing at 1, lifted at 2.
+
+    Up to time 1 it is as wide as the drawing, in the same place. Every triangle stays counter-clockwise, but for single
+    ones in cloth that is stretched very unevenly, and such as are thinner than rounding errors: there, lengths that fit
+    together may need a side as long as the two others. :func:`turned_over` counts them.
 
     Parameters
     ----------
@@ -63,7 +75,7 @@ class Motion:
 
         Notes
         -----
-        The first call costs a sparse factorisation, as :meth:`Surface.unwrap` does, and others a tenth of it.
+        Between 0 and 1 some three sparse factorisations, each like that of :meth:`Surface.unwrap`.
         """
         latest = 1 if self.unwound.space is None else 2
         if not 0 <= time <= latest:
@@ -73,15 +85,32 @@ class Motion:
         heights = np.zeros(len(self.unwound.disk)) if self.unwound.space is None else self.unwound.space[:, 2]
         return np.column_stack([self._flat(min(time, 1.0)), heights * max(time - 1, thickness)])
 
+    def stations(self, most: int) -> list[float]:
+        """Return times from 1 to 0 between which every vertex can move straight, and no triangle turns over.
+
+        No more than ``most`` steps; if they do not suffice, triangles turn over where the cloth turns fastest.
+        """
+        times = [1.0, 0.75, 0.5, 0.25, 0.0]
+        shapes = [self._flat(time) for time in times]
+        step = 0
+        while step < len(times) - 1:
+            if len(times) <= most and turned_over(shapes[step], shapes[step + 1], self.unwound.faces):
+                times.insert(step + 1, (times[step] + times[step + 1]) / 2)
+                shapes.insert(step + 1, self._flat(times[step + 1]))
+            else:
+                step += 1
+        return times
+
     @cached_property
     def disk(self) -> Floats:
         """The round disk at time 0, (n, 2): as wide as the drawing, in its middle, and turned to fit it best.
 
         Turned so that the triangles turn by nothing on the whole on their way to the drawing.
         """
-        low, high = self.unwound.plane.min(axis=0), self.unwound.plane.max(axis=0)
-        disk = _complex(self.unwound.disk) * np.exp(-1j * self._bend.mean_turn)
-        return np.asarray(low / 2 + high / 2 + (high - low).max() / 2 * _pairs(disk))
+        turn = self._directions(self._in_disk)[0, 0] - _way(self.unwound.disk, self.unwound.faces)
+        turned = self.unwound.disk @ [(np.cos(turn), np.sin(turn)), (-np.sin(turn), np.cos(turn))]
+        middle, size = _middle_and_size(self.unwound.plane)
+        return np.asarray(middle + size / 2 * turned)
 
     def _flat(self, time: float) -> Floats:
         if time == 0:
@@ -89,100 +118,114 @@ class Motion:
         return self.unwound.plane if time == 1 else self._between(time)
 
     def _between(self, time: float) -> Floats:
-        """Integrate the triangles' turns and stretches at a time between 0 and 1, by least squares."""
-        unwound = self.unwound
-        plane, size = _complex(unwound.plane - unwound.plane[0]), float(np.ptp(unwound.plane, axis=0).max())
-        start, end = unwound.faces[:, [1, 2, 0]], unwound.faces[:, [2, 0, 1]]
-        pull = self._weights * self._bend.at(1 - time, (plane[end] - plane[start]) / size)
-        force = np.zeros(len(plane), dtype=np.complex128)
-        np.add.at(force, end.ravel(), pull.ravel())
-        np.add.at(force, start.ravel(), -pull.ravel())
-        moved = np.zeros_like(force)
-        moved[1:] = self._factors.solve(force[1:])
-        return self._centred(_pairs(moved) * size, time)
+        mixed = _mixed(self._in_disk, self._in_plane, self._stretch, time)
+        sides = flattened(mixed, self.unwound.faces, self._layout.inner)
+        return self._in_place(self._layout.points(sides, self._directions(sides)), time)
 
-    def _centred(self, moved: Floats, time: float) -> Floats:
-        """Let the middle of the cloth move straight."""
-        middle = (1 - time) * self.disk.mean(axis=0) + time * self.unwound.plane.mean(axis=0)
-        return np.asarray(moved - moved.mean(axis=0) + middle)
+    def _in_place(self, points: Floats, time: float) -> Floats:
+        """Put the cloth where disk and drawing are, and make it as wide."""
+        (disk, disk_size), (plane, plane_size) = _middle_and_size(self.disk), _middle_and_size(self.unwound.plane)
+        middle, size = _middle_and_size(points)
+        scale = ((1 - time) * disk_size + time * plane_size) / size
+        return np.asarray((1 - time) * disk + time * plane + scale * (points - middle))
 
     @cached_property
-    def _bend(self) -> _Bend:
-        size = float(np.ptp(self.unwound.plane, axis=0).max())
-        plane, faces = (self.unwound.plane - self.unwound.plane[0]) / size, self.unwound.faces
-        return _Bend.between(_complex(plane)[faces], _complex(self.unwound.disk)[faces] / 2, neighbours(faces))
+    def _layout(self) -> Layout:
+        return Layout(self.unwound.faces, self.unwound.boundary)
+
+    def _directions(self, sides: Floats) -> Floats:
+        """Return the directions of sides with these lengths, turned as the drawing is on the whole."""
+        directions, (drawn, share) = self._layout.directions(sides), self._drawn
+        return np.asarray(directions - share @ (directions - drawn).mean(axis=1))
 
     @cached_property
-    def _weights(self) -> Floats:
+    def _drawn(self) -> tuple[Floats, Floats]:
+        """The directions of the sides in the drawing, and the share that each triangle has of its area."""
+        sides = self._in_plane
+        area = sides[:, 0] * sides[:, 1] * np.sin(angles_of(sides)[:, 1])
+        return self._layout.directions(sides) + _way(self.unwound.plane, self.unwound.faces), area / area.sum()
+
+    @cached_property
+    def _in_disk(self) -> Floats:
+        """The lengths of all sides in the disk, (m, 3), if it were as wide as 1."""
+        return _sides(self.unwound.disk / 2, self.unwound.faces)
+
+    @cached_property
+    def _in_plane(self) -> Floats:
+        """The lengths of all sides in the drawing, (m, 3), if it were as wide as 1."""
         plane = self.unwound.plane - self.unwound.plane[0]
-        return cotangents(plane[self.unwound.faces] / np.ptp(plane, axis=0).max())[..., 0]
+        return _sides(plane / np.ptp(plane, axis=0).max(), self.unwound.faces)
 
     @cached_property
-    def _factors(self) -> Any:
-        """The factors of the cotangent Laplacian without its first row and column."""
-        from scipy.sparse import csc_array, diags_array
-        from scipy.sparse.linalg import splu
+    def _stretch(self) -> Floats:
+        """The logarithm of how much longer the sides are in the drawing than in the disk, smoothed; (m, 3).
 
-        start, end = self.unwound.faces[:, [1, 2, 0]].ravel(), self.unwound.faces[:, [2, 0, 1]].ravel()
-        n = len(self.unwound.disk)
-        one_way = csc_array((self._weights.ravel(), (start, end)), shape=(n, n))
-        whole = one_way + one_way.T
-        matrix = (diags_array(whole.sum(axis=0)) - whole).tocsc()[1:, 1:].astype(np.complex128)
-        return splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        Where nothing smooth keeps triangles whole, it is the same everywhere.
+        """
+        faces, plain = self.unwound.faces, np.log(self._in_plane / self._in_disk)
+        smooth, done = plain, 0
+        for wanted in _SMOOTHINGS:
+            for _ in range(wanted - done):
+                smooth = _smoother(smooth, faces)
+            done = wanted
+            if not any(thin(_mixed(self._in_disk, self._in_plane, smooth, time)).any() for time in _TRIALS):
+                return smooth
+        return np.full(plain.shape, plain.mean())
 
 
-@dataclass(frozen=True, eq=False)
-class _Bend:
-    """What a map does in each triangle, z ↦ e^{iθ} (stretch · z + shear · z̄): it stretches and then turns by θ.
+def turned_over(before: Floats, after: Floats, faces: Ints) -> int:
+    """Return how many triangles turn over while their corners move straight from one place, (n, 2), to another.
 
-    The angles are those of one continuous function, so they may be more than a full turn; their mean is 0.
+    Examples
+    --------
+    >>> triangle, turned = np.array([(0.0, 0), (2, 0), (0, 1)]), np.array([(0.0, 0), (-2, 0), (0, -1)])
+    >>> turned_over(triangle, triangle[[1, 2, 0]], np.array([(0, 1, 2)]))
+    0
+    >>> turned_over(triangle, turned, np.array([(0, 1, 2)]))
+    1
     """
-
-    turn: Floats
-    stretch: Floats
-    shear: Complexes
-    mean_turn: float
-
-    @classmethod
-    def between(cls, corners: Complexes, images: Complexes, beyond: Ints) -> _Bend:
-        """Return the map of triangles, (m, 3), to others, but for the mean of its turns."""
-        (e, f), (p, q) = ((triangle[:, 1:] - triangle[:, :1]).T for triangle in (corners, images))
-        double_area = e * f.conj() - f * e.conj()
-        linear = (p * f.conj() - q * e.conj()) / double_area
-        turn = _continuous(np.angle(linear), beyond)
-        area = np.abs(double_area)
-        mean_turn = float((turn * area).sum() / area.sum())
-        shear = (e * q - f * p) / double_area * np.exp(-1j * turn)
-        return cls(turn - mean_turn, np.abs(linear), shear, mean_turn)
-
-    def at(self, share: float, sides: Complexes) -> Complexes:
-        """Apply a share of the map to sides of the triangles, (m, 3)."""
-        stretch, shear = 1 + share * (self.stretch - 1), share * self.shear
-        bent = stretch[:, None] * sides + shear[:, None] * sides.conj()
-        return np.asarray(np.exp(1j * share * self.turn)[:, None] * bent)
+    sides = [points[faces[:, 1:]] - points[faces[:, :1]] for points in (before, after)]
+    first, last = (_cross(side[:, 0], side[:, 1]) for side in sides)
+    mixed = (_cross(sides[0][:, 0], sides[1][:, 1]) + _cross(sides[1][:, 0], sides[0][:, 1])) / 2
+    # On the way the area is first (1 − t)² + 2 mixed t (1 − t) + last t².
+    stays = (first > 0) & (last > 0) & (mixed > -np.sqrt(first.clip(0) * last.clip(0)))
+    return int(len(faces) - stays.sum())
 
 
-def _continuous(turn: Floats, beyond: Ints) -> Floats:
-    """Add full turns so that the angles of neighbouring triangles differ by less than half a turn.
+def _mixed(start: Floats, end: Floats, stretch: Floats, time: float) -> Floats:
+    """Return lengths between those of two meshes: their squares are mixed, after half-way stretches of both.
 
-    Neighbours turn their common side by the same angle, and this differs by less than a quarter turn from either's.
+    Without these, lengths would go over at once where they grow a hundredfold, and in the end only where they shrink.
     """
-    from scipy.sparse import csr_array
-    from scipy.sparse.csgraph import breadth_first_order
-
-    face, side = np.nonzero(beyond >= 0)
-    graph = csr_array((np.ones(len(face)), (face, beyond[face, side])), shape=(len(turn), len(turn)))
-    order, before = breadth_first_order(graph, 0)
-    step = np.round((turn[before[order[1:]]] - turn[order[1:]]) / (2 * np.pi))
-    full_turns = [0.0] * len(turn)
-    for triangle, previous, more in zip(order[1:].tolist(), before[order[1:]].tolist(), step.tolist(), strict=True):
-        full_turns[triangle] = full_turns[previous] + more
-    return np.asarray(turn + 2 * np.pi * np.array(full_turns))
+    share = time * time * (3 - 2 * time)  # slowly at both ends: flat triangles open with the root of the share
+    from_start, from_end = start * np.exp(share * stretch), end * np.exp((share - 1) * stretch)
+    return np.sqrt((1 - share) * from_start**2 + share * from_end**2)
 
 
-def _complex(points: Floats) -> Complexes:
-    return points[:, 0] + 1j * points[:, 1]
+def _smoother(stretch: Floats, faces: Ints) -> Floats:
+    """Return for each side the mean of two vertices' means over the sides around them."""
+    ends = np.roll(faces, -1, axis=1)
+    total = np.bincount(faces.ravel(), stretch.ravel()) + np.bincount(ends.ravel(), stretch.ravel())
+    mean = total / (2 * np.bincount(faces.ravel()))
+    return np.asarray((mean[faces] + mean[ends]) / 2)
 
 
-def _pairs(numbers: Complexes) -> Floats:
-    return np.column_stack([numbers.real, numbers.imag])
+def _sides(points: Floats, faces: Ints) -> Floats:
+    """Return the lengths of sides, (m, 3), from corner i to i + 1."""
+    way = points[np.roll(faces, -1, axis=1)] - points[faces]
+    return np.maximum(np.hypot(way[..., 0], way[..., 1]), _SHORTEST)
+
+
+def _middle_and_size(points: Floats) -> tuple[Floats, float]:
+    low, high = points.min(axis=0), points.max(axis=0)
+    return low / 2 + high / 2, float((high - low).max())
+
+
+def _way(points: Floats, faces: Ints) -> float:
+    """Return the direction of the first side."""
+    x, y = points[faces[0, 1]] - points[faces[0, 0]]
+    return float(np.arctan2(y, x))
+
+
+def _cross(first: Floats, second: Floats) -> Floats:
+    return np.asarray(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])

@@ -23,7 +23,9 @@ __all__ = ["glb"]
 _UNSIGNED, _SINGLE = 5125, 5126
 _VERTICES, _INDICES = 34962, 34963
 _TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3"}
-_SECONDS_PER_SHAPE = 2.0
+_SECONDS_PER_SHAPE = 1.5
+# The animation rests on the surface first, for programs show the file at some moment after its beginning.
+_REST = 0.5
 
 
 def glb(model: Model) -> bytes:
@@ -121,8 +123,8 @@ def _normals(shape: Floats, faces: Ints) -> Floats:
 
 def _animation(shapes: int, buffer: _Buffer) -> dict[str, Any]:
     there = np.eye(shapes + 1)[:, 1:]
-    weights = np.concatenate([there, there[-2::-1]])
-    times = _SECONDS_PER_SHAPE * np.arange(len(weights))
+    weights = np.concatenate([there[:1], there, there[-2::-1]])
+    times = np.append(0.0, _REST + _SECONDS_PER_SHAPE * np.arange(len(weights) - 1))
     (time,), (weight,) = (buffer.array(x.astype("<f4").reshape(-1, 1), np.array([0, x.size])) for x in (times, weights))
     channel = {"sampler": 0, "target": {"node": 0, "path": "weights"}}
     sampler = {"input": time, "interpolation": "LINEAR", "output": weight}

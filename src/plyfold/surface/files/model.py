@@ -25,9 +25,9 @@ Colouring: TypeAlias = Literal["layers", "sheets"]
 _FINER = 10
 # What is to be seen of a drawing, as a fraction of its size.
 _DETAIL = 1e-3
-# Times of the shapes between the flat drawing and the disk, on the straight way between which cloth would fold over;
-# larger surfaces do without them.
-_BETWEEN = (0.75, 0.5, 0.25)
+# Shapes from the flat drawing to the disk are so many that no cloth folds over on the straight way between them, up to
+# a number; larger surfaces do without those between.
+_MOST_SHAPES = 16
 _MANY_VERTICES = 50_000
 
 
@@ -189,10 +189,9 @@ def _unwrapped(surface: Surface, wanted: bool | None) -> tuple[Floats | None, di
             raise
         return None, {}
     motion = Motion(unwound)
-    shapes = {"flat": motion.at(1.0)}
-    if len(surface.vertices) < _MANY_VERTICES:
-        shapes |= {f"unwinding {number + 1}": motion.at(time) for number, time in enumerate(_BETWEEN)}
-    return unwound.uv, shapes | {"disk": motion.at(0.0)}
+    between = motion.stations(_MOST_SHAPES)[1:-1] if len(surface.vertices) < _MANY_VERTICES else []
+    shapes = {f"unwinding {number + 1}": motion.at(time) for number, time in enumerate(between)}
+    return unwound.uv, {"flat": motion.at(1.0), **shapes, "disk": motion.at(0.0)}
 
 
 def _refuse_colouring(colours: str) -> None:

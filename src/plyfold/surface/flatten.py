@@ -1,0 +1,119 @@
+"""Flat metrics: sides of triangles, rescaled at the vertices until they fit together in the plane.
+
+Of a mesh only the lengths of its sides are given. Around an inner vertex the angles of its triangles may then add up to
+more or less than a full turn. A factor at each inner vertex, for all sides that end there, makes them add up: Newton's
+method finds these factors, for they are where a convex energy is least ([SSP08]_).
+
+References
+----------
+.. [SSP08] B. Springborn, P. Schröder, U. Pinkall, "Conformal equivalence of triangle meshes", ACM Transactions on
+   Graphics 27, 2008.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from plyfold.arrays import Bools, Floats, Ints
+
+__all__ = ["angles_of", "flattened", "thin"]
+
+# How far from a full turn the angles around a vertex may be in the end, in radians.
+_TOLERANCE = 1e-10
+_MOST_STEPS, _MOST_HALVINGS = 30, 12
+# Triangles whose longest side is, but for this share, as long as the two others have no angles that count.
+_THIN = 1e-14
+
+
+def flattened(lengths: Floats, faces: Ints, inner: Ints) -> Floats:
+    """Rescale the sides of triangles so that the angles around each inner vertex add up to a full turn.
+
+    Parameters
+    ----------
+    lengths : (m, 3) float
+        Of the sides of each triangle, from corner i to i + 1; the same for both triangles at a side.
+    faces : (m, 3) int
+    inner : array of int
+        The vertices that get a factor; those of the boundary keep theirs.
+
+    Returns
+    -------
+    (m, 3) float
+        Lengths; where there are no such factors, those that come closest on the way. Cost: some three sparse
+        factorisations.
+
+    Examples
+    --------
+    Around the top of a flat pyramid there is less than a full turn; in the square the way to the middle is shorter:
+
+    >>> faces = np.array([(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)])
+    >>> flattened(np.tile([2.0, 1.5, 1.5], (4, 1)), faces, np.array([4])).round(9)[0].tolist()
+    [2.0, 1.414213562, 1.414213562]
+    """
+    factor = np.zeros(int(faces.max()) + 1)
+    sides, gap = lengths, _gaps(lengths, faces, inner)
+    for _ in range(_MOST_STEPS):
+        if np.abs(gap).max(initial=0.0) < _TOLERANCE:
+            break
+        step = np.zeros_like(factor)
+        step[inner] = _newton_step(sides, gap, faces, inner)
+        for halving in range(_MOST_HALVINGS):
+            there = factor - step / 2**halving
+            shorter = lengths * np.exp(there[faces] / 2 + there[np.roll(faces, -1, axis=1)] / 2)
+            left = _gaps(shorter, faces, inner)
+            if np.linalg.norm(left) < np.linalg.norm(gap):
+                break
+        else:
+            break
+        factor, sides, gap = there, shorter, left
+    return sides
+
+
+def angles_of(sides: Floats) -> Floats:
+    """Return the angle at each corner, (m, 3); if a side is too long for the two others, half a turn opposite it."""
+    room, around = _room(sides).clip(0), sides.sum(axis=1)
+    corners = [2 * np.arctan2(np.sqrt(room[:, i - 2] * room[:, i - 1]), np.sqrt(room[:, i] * around)) for i in range(3)]
+    return np.stack(corners, axis=1)
+
+
+def thin(sides: Floats) -> Bools:
+    """Tell which triangles have a side that is as long as the two others, or longer."""
+    return np.asarray((_room(sides) <= _THIN * sides.sum(axis=1)[:, None]).any(axis=1))
+
+
+def _room(sides: Floats) -> Floats:
+    """Return, at each corner, by how much the two sides there are longer than the one opposite."""
+    opposite = np.roll(sides, -1, axis=1)
+    return np.asarray(sides.sum(axis=1)[:, None] - 2 * opposite)
+
+
+def _gaps(sides: Floats, faces: Ints, inner: Ints) -> Floats:
+    around = np.bincount(faces.ravel(), angles_of(sides).ravel())
+    return np.asarray(2 * np.pi - around[inner])
+
+
+def _newton_step(sides: Floats, gap: Floats, faces: Ints, inner: Ints) -> Floats:
+    """Return the change of factors that fills the gaps to first order: by the cotangent Laplacian."""
+    from scipy.sparse import csr_array, diags_array
+
+    angle, flat = angles_of(sides), thin(sides)
+    cotangent = np.where(flat[:, None], 0.0, 1 / np.tan(np.where(flat[:, None], 1.0, angle)))
+    start, end = np.roll(faces, -1, axis=1).ravel(), np.roll(faces, -2, axis=1).ravel()
+    size = int(faces.max()) + 1
+    one_way = csr_array((cotangent.ravel() / 2, (start, end)), shape=(size, size))
+    whole = one_way + one_way.T
+    matrix = (diags_array(whole.sum(axis=1)) - whole)[inner][:, inner]
+    return _solved(matrix, gap)
+
+
+def _solved(matrix: Any, right: Floats) -> Floats:
+    from scipy.sparse.linalg import splu
+
+    options = {"SymmetricMode": True}
+    try:
+        factors = splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+    except RuntimeError:  # singular: only triangles without angles around some vertex
+        return np.zeros(right.shape)
+    return np.asarray(factors.solve(right))
