@@ -11,6 +11,7 @@ from plyfold.errors import InputError, NotImmersibleError, PlyfoldError, Precisi
 from plyfold.gallery import CURVES
 from plyfold.surface import round_map
 from plyfold.surface.locate import locate
+from plyfold.surface.locate import weights as weights_of
 from reference import random_curves
 
 DISKS = {name: named.curve for name, named in CURVES.items() if named.immersions}
@@ -174,6 +175,52 @@ def test_points_not_below_the_sheet():
         unwound.from_plane([(100.0, 0.0)], 0)
     with pytest.raises(InputError, match="no sheet 1"):
         unwound.from_plane([(0.0, 0.0)], 1)
+
+
+@pytest.mark.parametrize("name", ["exit-ramp", "milnor", "stacked-spiral"])
+@pytest.mark.parametrize("shift", [0.0, 1e6])
+def test_back_from_the_rim(name, shift):
+    """Middles of the boundary's pieces, which rounding puts on either side of it, far from the origin too."""
+    unwound = pf.unwrap(DISKS[name].points + shift)
+    ends = unwound.disk[unwound.boundary]
+    middles = (ends + np.roll(ends, -1, axis=0)) / 2
+    plane, sheets = unwound.to_plane(middles), unwound.to_sheet(middles)
+    assert len(middles) > 300
+    for sheet in np.unique(sheets):
+        back = unwound.from_plane(plane[sheets == sheet], int(sheet))
+        assert back == pytest.approx(middles[sheets == sheet], abs=1e-14 + 1e-13 * shift)
+
+
+@pytest.mark.parametrize("name", ["exit-ramp", "milnor", "bennequin"])
+def test_back_from_anywhere(name):
+    """None of 20,000 points is lost, and the drawing says where each of them was."""
+    unwound = pf.unwrap(DISKS[name])
+    rng = np.random.default_rng(0)
+    wanted = np.sqrt(rng.random((20_000, 1))) * np.stack([np.cos(t := 7 * rng.random(20_000)), np.sin(t)], axis=1)
+    plane, sheets = unwound.to_plane(wanted), unwound.to_sheet(wanted)
+    for sheet in np.unique(sheets):
+        back = unwound.from_plane(plane[sheets == sheet], int(sheet))
+        assert unwound.to_plane(back) == pytest.approx(plane[sheets == sheet], abs=1e-12 * np.ptp(unwound.plane))
+
+
+def test_points_that_are_missing():
+    unwound = pf.unwrap([(0, 0), (2, 0), (2, 2), (0, 2)], triangles=50)
+    points = np.array([(1.0, 1.0), (3.0, 1.0), (2.0, 1.0), (-1e-9, 1.0), (2 + 2.0**-50, 0.5)])
+    with pytest.raises(InputError, match="2 of 5 points are not below sheet 0") as caught:
+        unwound.from_plane(points, 0)
+    assert caught.value.where == ((3.0, 1.0), (-1e-9, 1.0))
+    found = unwound.from_plane(points, 0, missing="nan")
+    assert np.isnan(found).all(axis=1).tolist() == [False, True, False, True, False]
+    assert unwound.to_plane(found[[0, 2, 4]]) == pytest.approx(points[[0, 2, 4]])
+    with pytest.raises(InputError, match="missing"):
+        unwound.from_plane(points, 0, missing="none")
+
+
+def test_weights_in_triangles_without_area():
+    """Cross products of their sides are 0 in doubles; a point on the longest side lies between its ends."""
+    corners = np.array([[(0, 0), (1, 0), (0.25, 1e-320)], [(3, 3), (0, 0), (1e-300, 2e-300)]])
+    found = weights_of(np.array([(0.75, 0.0), (1.0, 1.0)]), corners)
+    assert found == pytest.approx(np.array([(0.25, 0.75, 0), (1 / 3, 2 / 3, 0)]))
 
 
 @pytest.mark.parametrize("name", ["exit-ramp", "milnor", "circle", "seven-flaps"])

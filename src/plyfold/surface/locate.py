@@ -100,4 +100,17 @@ def weights(points: Floats, corners: Floats) -> Floats:
     way = corners - points[:, None]
     opposite = [(way[:, i - 2, 0] * way[:, i - 1, 1] - way[:, i - 2, 1] * way[:, i - 1, 0]) for i in range(3)]
     areas = np.stack(opposite, axis=1).clip(0)
+    flat = areas.sum(axis=1) == 0
+    areas[flat] = _along_longest_side(points[flat], corners[flat])
     return np.asarray(areas / areas.sum(axis=1, keepdims=True))
+
+
+def _along_longest_side(points: Floats, corners: Floats) -> Floats:
+    """Return the weights of the corners of triangles without area in doubles: those of the longest side's ends."""
+    side = np.roll(corners, -1, axis=1) - corners
+    row, first = np.arange(len(points)), np.hypot(side[..., 0], side[..., 1]).argmax(axis=1)
+    way, start = side[row, first], corners[row, first]
+    share = (((points - start) * way).sum(axis=1) / (way * way).sum(axis=1)).clip(0, 1)
+    found = np.zeros((len(points), 3))
+    found[row, first], found[row, (first + 1) % 3] = 1 - share, share
+    return found

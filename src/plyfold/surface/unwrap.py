@@ -33,6 +33,7 @@ from plyfold.surface.sizes import refuse_sizes
 
 if TYPE_CHECKING:
     from plyfold.surface.arcs import Arc
+    from plyfold.surface.lookup import Missing
     from plyfold.surface.surface import Surface
 
 __all__ = ["UnwoundDisk", "map_disk", "unwrap"]
@@ -178,17 +179,29 @@ class UnwoundDisk:
         """Return the sheet that each point of the unit disk lies in, shape (p,)."""
         return np.asarray(self.sheet[self.places(points).face])
 
-    def from_plane(self, points: npt.ArrayLike, sheet: int) -> Floats:
+    def from_plane(self, points: npt.ArrayLike, sheet: int, *, missing: Missing = "error") -> Floats:
         """Map points of the drawing that lie below one sheet to the unit disk, shape (p, 2).
+
+        Parameters
+        ----------
+        points : (p, 2) array_like
+            A point that is beyond the rim of the sheet by rounding errors alone counts as on it.
+        sheet : int
+        missing : {"error", "nan"}
+            What is said of points that are not below the sheet.
 
         Raises
         ------
         InputError
-            If a point is not below the sheet, or there is no such sheet.
+            If points are not below the sheet, with the places of all of them; or there is no such sheet.
         """
         from plyfold.surface.lookup import places_in_sheet
 
-        return places_in_sheet(self, as_points(points), sheet).of(self.disk, self.faces)
+        wanted = as_points(points)
+        places, found = places_in_sheet(self, wanted, sheet, missing)
+        there = np.full(wanted.shape, np.nan)
+        there[found] = places.of(self.disk, self.faces)
+        return there
 
     def check(self) -> None:
         """Prove with the independent checkers of :mod:`plyfold.certify` that the map is one-to-one.
