@@ -12,7 +12,7 @@ from plyfold.arrangement import Arrangement
 from plyfold.arrangement.core import CurveLike
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import PrecisionError
-from plyfold.flat.flips import flip_edges
+from plyfold.flat.delaunay import delaunay_triangles, inner_edges
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.flat.triangulate import chosen_immersion
 from plyfold.immersion import Immersion
@@ -72,7 +72,7 @@ def decompose(curve: CurveLike, immersion: Immersion | None = None) -> list[Poly
     assert drawn.curve is not None
     points = drawn.curve.points
     # Round triangles overlap fewer others than long ones.
-    faces = flip_edges(points, sweep_triangles(chosen))
+    faces = delaunay_triangles(points, sweep_triangles(chosen))
     conflicts = _crossing_sides(drawn, faces)
     tree = _tree(faces)
     while True:
@@ -117,13 +117,9 @@ def _tree(faces: Ints) -> tuple[list[int], list[int]]:
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import breadth_first_order
 
-    start, end = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    key = np.minimum(start, end) * (faces.max() + 1) + np.maximum(start, end)
-    order = np.argsort(key)
-    same = np.flatnonzero(np.diff(key[order]) == 0)
-    first, second = order[same] // 3, order[same + 1] // 3
+    first, second = inner_edges(faces).T // 3
     size = len(faces)
-    graph = coo_array((np.ones(len(same), dtype=np.int8), (first, second)), shape=(size, size))
+    graph = coo_array((np.ones(len(first), dtype=np.int8), (first, second)), shape=(size, size))
     reached, parent = breadth_first_order(graph, 0, directed=False)
     return reached.tolist(), parent.tolist()
 

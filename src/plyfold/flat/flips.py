@@ -10,9 +10,10 @@ from math import hypot
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
+from plyfold.compiled import called_from_loops
 from plyfold.flat.turns import Places, as_places, turn
 
-__all__ = ["flip_edges"]
+__all__ = ["flip_edges", "wants_flip"]
 
 # Two opposite angles must add up to more than half a turn by this much, or rounding could flip an edge for ever.
 _CLEARLY = 1e-9
@@ -39,7 +40,7 @@ def flip_edges(points: Floats, faces: Ints) -> Ints:
     while waiting:
         u, v = waiting.pop()
         a, b = apex.get((u, v)), apex.get((v, u))
-        if a is None or b is None or not _wants_flip(places, (u, b, v, a)):
+        if a is None or b is None or not wants_flip(places, (u, b, v, a)):
             continue
         del apex[u, v], apex[v, u]
         for p, q, r in ((u, b, a), (b, v, a)):
@@ -49,7 +50,8 @@ def flip_edges(points: Floats, faces: Ints) -> Ints:
     return np.array(rows, dtype=np.int64).reshape(-1, 3)
 
 
-def _wants_flip(places: Places, corners: tuple[int, int, int, int]) -> bool:
+@called_from_loops
+def wants_flip(places: Places, corners: tuple[int, int, int, int]) -> bool:
     """Tell whether a quadrilateral u, b, v, a is convex, and its angles at a and b are more than half a turn."""
     u, b, v, a = corners
     sine_a, cosine_a = _angle(places, u, a, v)
@@ -59,6 +61,7 @@ def _wants_flip(places: Places, corners: tuple[int, int, int, int]) -> bool:
     return turn(places, u, b, a) > 0 and turn(places, b, v, a) > 0
 
 
+@called_from_loops
 def _angle(places: Places, before: int, corner: int, after: int) -> tuple[float, float]:
     """Return sine and cosine of the angle at the corner of a counter-clockwise triangle."""
     x, y, _ = places
