@@ -52,14 +52,12 @@ def test_lengths_go_from_those_of_the_disk_to_those_of_the_drawing(time):
 
 
 @pytest.mark.parametrize("name", ["two-loops", "stacked-spiral", "milnor", "smallest-unliftable"])
-def test_straight_ways_between_stations(name):
+def test_straight_ways_between_shapes(name):
     motion = Motion(pf.unwrap(CURVES[name].curve, triangles=1000))
-    faces, times = motion.unwound.faces, motion.stations(16)
-    assert times[0] == 1
-    assert times[-1] == 0
-    assert (np.diff(times) < 0).all()
-    assert len(times) <= 9
-    shapes = [motion.at(time)[:, :2] for time in times]
+    faces, shapes = motion.unwound.faces, motion.shapes(16)
+    assert (shapes[0] == motion.unwound.plane).all()
+    assert (shapes[-1] == motion.disk).all()
+    assert 5 <= len(shapes) <= 9
     for before, after in pairwise(shapes):
         assert turned_over(before, after, faces) == 0
         for share in np.linspace(0, 1, 21):
@@ -80,8 +78,15 @@ def test_turned_over_counts_what_a_fine_sampling_finds():
     assert abs(found - (least <= 0).sum()) <= 1
 
 
-def test_a_few_stations_are_all_there_are():
-    assert motion_of("stacked-spiral").stations(4) == [1.0, 0.75, 0.5, 0.25, 0.0]
+def test_shapes_are_no_more_than_allowed():
+    """Its helix turns so far that a few shapes do not do."""
+    angle = np.linspace(0, 8 * np.pi, 240)
+    way = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    helix = np.concatenate([(3 + 0.05 * angle)[:, None] * way, ((2 + 0.05 * angle)[:, None] * way)[::-1]])
+    motion = Motion(pf.unwrap(helix, triangles=1))
+    assert len(motion.shapes(4)) == 5
+    assert len(motion.shapes(6)) == 6
+    assert len(motion.shapes(16)) > 6
 
 
 def test_uneven_cloth_loses_single_triangles_at_most():

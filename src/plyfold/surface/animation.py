@@ -75,7 +75,7 @@ class Motion:
 
         Notes
         -----
-        Between 0 and 1 some three sparse factorisations, each like that of :meth:`Surface.unwrap`.
+        Between 0 and 1 a sparse factorisation or two, each like that of :meth:`Surface.unwrap`.
         """
         latest = 1 if self.unwound.space is None else 2
         if not 0 <= time <= latest:
@@ -85,21 +85,22 @@ class Motion:
         heights = np.zeros(len(self.unwound.disk)) if self.unwound.space is None else self.unwound.space[:, 2]
         return np.column_stack([self._flat(min(time, 1.0)), heights * max(time - 1, thickness)])
 
-    def stations(self, most: int) -> list[float]:
-        """Return times from 1 to 0 between which every vertex can move straight, and no triangle turns over.
+    def shapes(self, most: int) -> list[Floats]:
+        """Return the cloth from the drawing to the disk, each (n, 2), at so many times that it can move straight.
 
-        No more than ``most`` steps; if they do not suffice, triangles turn over where the cloth turns fastest.
+        Between one shape and the next no triangle turns over. But there are no more than ``most`` (or 5) shapes: if
+        they do not suffice, triangles turn over in the end.
         """
         times = [1.0, 0.75, 0.5, 0.25, 0.0]
         shapes = [self._flat(time) for time in times]
         step = 0
         while step < len(times) - 1:
-            if len(times) <= most and turned_over(shapes[step], shapes[step + 1], self.unwound.faces):
+            if len(times) < most and turned_over(shapes[step], shapes[step + 1], self.unwound.faces):
                 times.insert(step + 1, (times[step] + times[step + 1]) / 2)
                 shapes.insert(step + 1, self._flat(times[step + 1]))
             else:
                 step += 1
-        return times
+        return shapes
 
     @cached_property
     def disk(self) -> Floats:

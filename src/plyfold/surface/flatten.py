@@ -12,7 +12,7 @@ References
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 
@@ -22,7 +22,9 @@ __all__ = ["angles_of", "flattened", "thin"]
 
 # How far from a full turn the angles around a vertex may be in the end, in radians.
 _TOLERANCE = 1e-10
-_MOST_STEPS, _MOST_HALVINGS = 30, 12
+_MOST_STEPS, _MOST_HALVINGS = 60, 12
+# The same factors serve while the gaps shrink to less than this share at each step.
+_SLOWLY = 0.1
 # Triangles whose longest side is, but for this share, as long as the two others have no angles that count.
 _THIN = 1e-14
 
@@ -41,8 +43,8 @@ def flattened(lengths: Floats, faces: Ints, inner: Ints) -> Floats:
     Returns
     -------
     (m, 3) float
-        Lengths; where there are no such factors, those that come closest on the way. Cost: some three sparse
-        factorisations.
+        Lengths; where there are no such factors, those that come closest on the way. Cost: a sparse
+        factorisation or two, and some ten solutions with it.
 
     Examples
     --------
@@ -52,22 +54,27 @@ def flattened(lengths: Floats, faces: Ints, inner: Ints) -> Floats:
     >>> flattened(np.tile([2.0, 1.5, 1.5], (4, 1)), faces, np.array([4])).round(9)[0].tolist()
     [2.0, 1.414213562, 1.414213562]
     """
-    factor = np.zeros(int(faces.max()) + 1)
+    factor, solve = np.zeros(int(faces.max()) + 1), None
     sides, gap = lengths, _gaps(lengths, faces, inner)
     for _ in range(_MOST_STEPS):
         if np.abs(gap).max(initial=0.0) < _TOLERANCE:
             break
+        fresh = solve is None
+        solve = solve or _newton_steps(sides, faces, inner)
         step = np.zeros_like(factor)
-        step[inner] = _newton_step(sides, gap, faces, inner)
-        for halving in range(_MOST_HALVINGS):
+        step[inner] = solve(gap)
+        for halving in range(_MOST_HALVINGS if fresh else 1):
             there = factor - step / 2**halving
             shorter = lengths * np.exp(there[faces] / 2 + there[np.roll(faces, -1, axis=1)] / 2)
             left = _gaps(shorter, faces, inner)
-            if np.linalg.norm(left) < np.linalg.norm(gap):
+            if better := np.linalg.norm(left) < np.linalg.norm(gap):
                 break
-        else:
+        if np.linalg.norm(left) > _SLOWLY * np.linalg.norm(gap):
+            solve = None
+        if better:
+            factor, sides, gap = there, shorter, left
+        elif fresh:
             break
-        factor, sides, gap = there, shorter, left
     return sides
 
 
@@ -94,9 +101,10 @@ def _gaps(sides: Floats, faces: Ints, inner: Ints) -> Floats:
     return np.asarray(2 * np.pi - around[inner])
 
 
-def _newton_step(sides: Floats, gap: Floats, faces: Ints, inner: Ints) -> Floats:
-    """Return the change of factors that fills the gaps to first order: by the cotangent Laplacian."""
+def _newton_steps(sides: Floats, faces: Ints, inner: Ints) -> Callable[[Floats], Floats]:
+    """Return what gives the change of factors that fills gaps to first order: by the cotangent Laplacian."""
     from scipy.sparse import csr_array, diags_array
+    from scipy.sparse.linalg import splu
 
     angle, flat = angles_of(sides), thin(sides)
     cotangent = np.where(flat[:, None], 0.0, 1 / np.tan(np.where(flat[:, None], 1.0, angle)))
@@ -104,16 +112,10 @@ def _newton_step(sides: Floats, gap: Floats, faces: Ints, inner: Ints) -> Floats
     size = int(faces.max()) + 1
     one_way = csr_array((cotangent.ravel() / 2, (start, end)), shape=(size, size))
     whole = one_way + one_way.T
-    matrix = (diags_array(whole.sum(axis=1)) - whole)[inner][:, inner]
-    return _solved(matrix, gap)
-
-
-def _solved(matrix: Any, right: Floats) -> Floats:
-    from scipy.sparse.linalg import splu
-
+    matrix = (diags_array(whole.sum(axis=1)) - whole)[inner][:, inner].tocsc()
     options = {"SymmetricMode": True}
     try:
-        factors = splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+        factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
     except RuntimeError:  # singular: only triangles without angles around some vertex
-        return np.zeros(right.shape)
-    return np.asarray(factors.solve(right))
+        return np.zeros_like
+    return lambda gap: np.asarray(factors.solve(gap))

@@ -189,9 +189,12 @@ def _unwrapped(surface: Surface, wanted: bool | None) -> tuple[Floats | None, di
             raise
         return None, {}
     motion = Motion(unwound)
-    between = motion.stations(_MOST_SHAPES)[1:-1] if len(surface.vertices) < _MANY_VERTICES else []
-    shapes = {f"unwinding {number + 1}": motion.at(time) for number, time in enumerate(between)}
-    return unwound.uv, {"flat": motion.at(1.0), **shapes, "disk": motion.at(0.0)}
+    if len(surface.vertices) < _MANY_VERTICES:
+        drawn, *between, disk = motion.shapes(_MOST_SHAPES)
+    else:
+        drawn, between, disk = unwound.plane, [], motion.disk
+    named = {"flat": drawn, **{f"unwinding {number + 1}": shape for number, shape in enumerate(between)}, "disk": disk}
+    return unwound.uv, {name: np.pad(shape, ((0, 0), (0, 1))) for name, shape in named.items()}
 
 
 def _refuse_colouring(colours: str) -> None:
