@@ -8,9 +8,9 @@ import pytest
 import shapely
 
 import plyfold as pf
-from plyfold.errors import NotImmersibleError
+from plyfold.errors import NotImmersibleError, PrecisionError
 from plyfold.flat import decompose
-from plyfold.gallery import CURVES
+from plyfold.gallery import CURVES, ribbon
 from reference import random_curves
 
 # Found to be the least by hand: one more than the places where the ribbon must be cut, or what a deep cell needs.
@@ -90,6 +90,28 @@ def test_thousands_of_crossings():
     assert all(piece.is_valid for piece in pieces)
     assert sum(piece.area for piece in pieces) == pytest.approx(signed_area(points))
     assert len(pieces) < drawn.n_crossings / 4
+
+
+def test_a_spiral_of_many_turns_is_settled_at_once(monkeypatch):
+    """Cuts move on from turn to turn, but overlaps with the next turn are looked for at the same time."""
+    t = np.linspace(0, 10 * math.pi, 800)
+    radius = 4 + 0.2 * t / t[-1] + 0.1 * np.sin((6 + 5**0.5) * t)
+    points = ribbon(np.stack([radius * np.cos(t), radius * np.sin(t)], axis=1), 1.2)
+    module = sys.modules["plyfold.flat.decompose"]
+    look, found = module._overlaps, []
+    monkeypatch.setattr(module, "_overlaps", lambda *given: found.append(look(*given)) or found[-1])
+    pieces = decompose(points)
+    assert len(found) <= 2
+    assert len(pieces) == 6
+    assert all(piece.is_valid for piece in pieces)
+    assert sum(piece.area for piece in pieces) == pytest.approx(abs(signed_area(points)))
+
+
+def test_polygons_that_cannot_be_mended_are_refused(monkeypatch):
+    """None is valid, though no two triangles of one piece overlap; those of neighbouring pieces do."""
+    monkeypatch.setattr(shapely, "is_valid", lambda polygons: np.zeros(len(polygons), dtype=bool))
+    with pytest.raises(PrecisionError):
+        decompose(CURVES["exit-ramp"].curve)
 
 
 def test_bow_ties_are_no_disks():
