@@ -6,6 +6,7 @@ import sys
 import numpy as np
 import pytest
 
+from plyfold import compiled
 from plyfold.compiled import run_in_python
 from plyfold.flat.delaunay import delaunay_triangles, inner_edges
 from plyfold.flat.flips import flip_edges
@@ -77,6 +78,19 @@ def test_the_same_as_flips_find(seed):
     drawn = immersion.arrangement.curve.points
     faces = sweep_triangles(immersion)
     assert as_set(delaunay_triangles(drawn, faces)) == as_set(flip_edges(drawn, faces))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_plain_python_and_machine_code_give_the_same(seed, monkeypatch):
+    pytest.importorskip("numba")
+    points = np.array(random_curves.ribbon_outline(np.random.default_rng(seed), 200), dtype=np.float64)
+    immersion = next(immersions(points))
+    drawn, faces = immersion.arrangement.curve.points, sweep_triangles(immersion)
+    found = []
+    for machine_code in (False, True):
+        monkeypatch.setattr(compiled, "_machine_code_pays", lambda steps, yes=machine_code: yes)
+        found.append(delaunay_triangles(drawn, faces).tolist())
+    assert found[0] == found[1]
 
 
 def test_tiny_coordinates_take_fractions():

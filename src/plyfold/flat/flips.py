@@ -31,7 +31,7 @@ def flip_edges(points: Floats, faces: Ints) -> Ints:
     Returns
     -------
     (m, 3) int
-        Triangles of the same disk, counter-clockwise, exactly. Cost: O(m) as a rule.
+        Triangles of the same disk, counter-clockwise, exactly. Cost: O(m) if they are round already, O(m²) at worst.
     """
     places = Places(*(numbers.tolist() for numbers in as_places(points)))
     # No two edges join the same points: between them would lie a disk of two straight sides, without angles.

@@ -33,7 +33,7 @@ class Narrowed:
     partners : list of list of int
         The plus letters that are left for each label.
     regions : list of list of int
-        The letters still in play, in order along the curve, region by region: no chord joins or crosses two regions.
+        The letters still in play, in order along the curve, region by region: no chord of one joins or crosses another.
     removed_by : dict of int to int
         For each plus letter out of play, the label that removed it.
     """
