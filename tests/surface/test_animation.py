@@ -79,14 +79,13 @@ def test_turned_over_counts_what_a_fine_sampling_finds():
 
 
 def test_shapes_are_no_more_than_allowed():
-    """Its helix turns so far that a few shapes do not do."""
+    """A helix turns so far that a few shapes do not do."""
     angle = np.linspace(0, 8 * np.pi, 240)
     way = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     helix = np.concatenate([(3 + 0.05 * angle)[:, None] * way, ((2 + 0.05 * angle)[:, None] * way)[::-1]])
     motion = Motion(pf.unwrap(helix, triangles=1))
     assert len(motion.shapes(4)) == 5
-    assert len(motion.shapes(6)) == 6
-    assert len(motion.shapes(16)) > 6
+    assert 6 < len(motion.shapes(17)) <= 17
 
 
 def test_uneven_cloth_loses_single_triangles_at_most():

@@ -31,7 +31,7 @@ _PALE_INK = "#0b0f17"
 _PALE = "#b4bccb"
 # So many positions on the way from the disk to the drawing go into a page, and only two if it would grow too large.
 _FRAMES = 10
-_MANY_VERTICES = 50_000
+_MANY_VERTICES = 20_000
 
 
 def page(surface: Surface, title: str = "plyfold", figures: Mapping[str, object] | None = None) -> str:

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -93,14 +94,13 @@ class Motion:
         """
         times = [1.0, 0.75, 0.5, 0.25, 0.0]
         shapes = [self._flat(time) for time in times]
-        step = 0
-        while step < len(times) - 1:
-            if len(times) < most and turned_over(shapes[step], shapes[step + 1], self.unwound.faces):
+        while True:
+            folded = [i for i, pair in enumerate(pairwise(shapes)) if turned_over(*pair, self.unwound.faces)]
+            if not folded or len(times) + len(folded) > most:
+                return shapes
+            for step in reversed(folded):
                 times.insert(step + 1, (times[step] + times[step + 1]) / 2)
                 shapes.insert(step + 1, self._flat(times[step + 1]))
-            else:
-                step += 1
-        return shapes
 
     @cached_property
     def disk(self) -> Floats:

@@ -22,7 +22,7 @@ __all__ = ["angles_of", "flattened", "thin"]
 
 # How far from a full turn the angles around a vertex may be in the end, in radians.
 _TOLERANCE = 1e-10
-_MOST_STEPS, _MOST_HALVINGS = 60, 12
+_MOST_STEPS, _MOST_HALVINGS = 16, 12
 # The same factors serve while the gaps shrink to less than this share at each step.
 _SLOWLY = 0.1
 # Triangles whose longest side is, but for this share, as long as the two others have no angles that count.

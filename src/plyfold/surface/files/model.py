@@ -27,8 +27,8 @@ _FINER = 10
 _DETAIL = 1e-3
 # Shapes from the flat drawing to the disk are so many that no cloth folds over on the straight way between them, up to
 # a number; larger surfaces do without those between.
-_MOST_SHAPES = 16
-_MANY_VERTICES = 50_000
+_MOST_SHAPES = 17
+_MANY_VERTICES = 20_000
 
 
 @dataclass(frozen=True)
