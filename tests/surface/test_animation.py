@@ -9,6 +9,7 @@ import plyfold as pf
 from plyfold.errors import InputError
 from plyfold.gallery import CURVES
 from plyfold.surface.animation import Motion, turned_over
+from reference import random_curves
 
 
 def motion_of(name, triangles=300):
@@ -76,6 +77,29 @@ def test_turned_over_counts_what_a_fine_sampling_finds():
     found = turned_over(before, after, faces)
     assert 20 < found < 180
     assert abs(found - (least <= 0).sum()) <= 1
+
+
+@pytest.mark.parametrize("scale", [1e-120, 1e120])
+def test_scale_changes_nothing(scale):
+    points = CURVES["exit-ramp"].curve.points
+    plain, scaled = (Motion(pf.unwrap(outline, triangles=1)) for outline in (points, scale * points))
+    assert scaled.at(0.4) == pytest.approx(scale * plain.at(0.4), abs=1e-6 * scale * np.ptp(points))
+    assert len(scaled.shapes(17)) == len(plain.shapes(17))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_random_disks(seed):
+    """Sharp corners, thin cells and long ribbons."""
+    rng = np.random.default_rng(seed)
+    for outline in (random_curves.glued_disk(rng, 12), random_curves.ribbon_outline(rng, 40)):
+        motion = Motion(pf.unwrap(outline, triangles=300))
+        for time in (0.2, 0.5, 0.8):
+            assert (areas(motion.at(time), motion.unwound.faces) > 0).all()
+
+
+def test_one_triangle():
+    motion = Motion(pf.unwrap([(0, 0), (2, 0), (0, 1)], triangles=1))
+    assert all((areas(shape, motion.unwound.faces) > 0).all() for shape in motion.shapes(17))
 
 
 def test_shapes_are_no_more_than_allowed():

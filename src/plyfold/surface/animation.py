@@ -2,8 +2,8 @@
 
 Moving every point straight to its place would fold the cloth over. Instead the lengths of all sides go from those in
 the disk to those in the drawing, and at each time the triangles with these lengths are laid out in the plane, as in
-[CWKB13]_. They fit together after small changes (:mod:`plyfold.surface.flatten`), so at no time any is turned over, and
-a spiral unrolls by as many turns as it has.
+[CWKB13]_. They fit together after small changes (:mod:`plyfold.surface.flatten`), so none is turned over, and a
+spiral unrolls by as many turns as it has.
 
 References
 ----------
@@ -179,17 +179,15 @@ def turned_over(before: Floats, after: Floats, faces: Ints) -> int:
 
     Examples
     --------
-    >>> triangle, turned = np.array([(0.0, 0), (2, 0), (0, 1)]), np.array([(0.0, 0), (-2, 0), (0, -1)])
-    >>> turned_over(triangle, triangle[[1, 2, 0]], np.array([(0, 1, 2)]))
-    0
-    >>> turned_over(triangle, turned, np.array([(0, 1, 2)]))
-    1
+    >>> triangle = np.array([(0.0, 0), (2, 0), (0, 1)])
+    >>> [turned_over(triangle, triangle[corners], np.array([(0, 1, 2)])) for corners in ([1, 2, 0], [0, 2, 1])]
+    [0, 1]
     """
-    sides = [points[faces[:, 1:]] - points[faces[:, :1]] for points in (before, after)]
+    sides = [(points[faces[:, 1:]] - points[faces[:, :1]]) / np.ptp(points, axis=0).max() for points in (before, after)]
     first, last = (_cross(side[:, 0], side[:, 1]) for side in sides)
     mixed = (_cross(sides[0][:, 0], sides[1][:, 1]) + _cross(sides[1][:, 0], sides[0][:, 1])) / 2
     # On the way the area is first (1 − t)² + 2 mixed t (1 − t) + last t².
-    stays = (first > 0) & (last > 0) & (mixed > -np.sqrt(first.clip(0) * last.clip(0)))
+    stays = (first > 0) & (last > 0) & (mixed > -np.sqrt(first.clip(0)) * np.sqrt(last.clip(0)))
     return int(len(faces) - stays.sum())
 
 
