@@ -25,6 +25,8 @@ __all__ = ["Distances", "Problem", "forced_heights", "least_forces"]
 _MOST_PLACES = 3000
 # Forces below this fraction of the largest are rounding errors.
 _NO_FORCE = 1e-11
+# Places that miss less than this part of the worst are left for later: mostly, they come right without a force.
+_WORTH_A_FORCE = 0.3
 _ROUNDS_PER_PLACE = 5
 # Answers found together: of more, the caches and the threads of BLAS make up to eight times as slow work.
 _AT_ONCE = 8
@@ -128,8 +130,9 @@ def _worst(wanted: Distances, missing: Floats, places: Ints, tolerance: float) -
     peak = (missing >= most) & (missing > tolerance)
     peak[places] = False
     peaks = np.flatnonzero(peak)
-    by_size = np.argsort(-missing[peaks], kind="stable")
-    return peaks[by_size[: 1 + len(places) // 2]]
+    by_size = peaks[np.argsort(-missing[peaks], kind="stable")]
+    large = by_size[missing[by_size] >= _WORTH_A_FORCE * missing[by_size[:1]]]
+    return np.asarray(large[: 1 + len(places) // 2])
 
 
 def _columns(rows: Any, respond: Response, places: Ints, added: Ints) -> Floats:
