@@ -293,3 +293,8 @@ def test_what_the_page_begins_with(tmp_path):
 def test_what_cannot_be_opened_is_named(file):
     with pytest.raises(InputError, match=file.rpartition(":")[2].replace(".", r"\.")):
         start(file)
+
+
+@pytest.mark.parametrize("content", [b'{"strokes": [[[0, 0], [4, 0], [4, 4]]]}', b"[[[0, 0], [4, 0], [4, 4]]]"])
+def test_strokes_that_do_not_join_open_as_they_are(content):
+    assert open_file("drawing.json", content).strokes == (Stroke(((0.0, 0.0), (4.0, 0.0), (4.0, 4.0)), closed=False),)

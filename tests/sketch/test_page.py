@@ -362,3 +362,64 @@ def test_all_actions_have_names_and_no_key_is_used_twice(sketch):
     assert len(keys) == len(set(keys))
     assert len({action["name"] for action in actions}) == len(actions)
     assert all(re.search(r"\w", action["label"]) and action["hint"] for action in actions)
+
+
+def test_points_that_were_taken_back_come_again(sketch):
+    sketch.keyboard.press("p")
+    for place in places(sketch, [(-100, -80), (100, -80), (0, 120)]):
+        sketch.mouse.click(*place)
+        sketch.wait_for_timeout(350)
+    sketch.keyboard.press("Control+z")
+    sketch.keyboard.press("Control+z")
+    sketch.keyboard.press("Control+y")
+    sketch.keyboard.press("Control+y")
+    assert sketch.locator("[data-action=redo]").is_disabled()
+    sketch.keyboard.press("Enter")
+    assert verdict(sketch, WORD["immersible"])
+    assert len(saved(sketch)["strokes"][0]["points"]) == 3
+
+
+def test_escape_gives_up_a_stroke(sketch):
+    way = places(sketch, named("exit-ramp"))
+    sketch.mouse.move(*way[0])
+    sketch.mouse.down()
+    for place in way[1:20]:
+        sketch.mouse.move(*place)
+    sketch.keyboard.press("Escape")
+    for place in way[20:40]:
+        sketch.mouse.move(*place)
+    sketch.mouse.up()
+    assert sketch.locator("[data-action=undo]").is_disabled()
+
+
+def test_help_begins_at_the_top(sketch):
+    sketch.keyboard.press("?")
+    assert sketch.locator("#dialog h3").first.is_visible()
+    assert sketch.evaluate("document.getElementById('dialog').scrollTop") == 0
+
+
+def test_a_loop_that_is_no_disk_has_no_surface_to_save(sketch):
+    draw(sketch, eight())
+    verdict(sketch, WORD["none"])
+    assert "no surface" in sketch.locator("#surface [role=status]").inner_text()
+    sketch.keyboard.press("Control+e")
+    assert sketch.locator("[data-action=export-glb]").is_disabled()
+    assert sketch.locator("[data-action=export-svg]").is_enabled()
+
+
+def test_joining_keeps_the_direction(sketch):
+    draw(sketch, [(-150, -100), (-150, 100), (150, 100)])
+    draw(sketch, [(150, 90), (150, -100), (-140, -100)])
+    verdict(sketch, WORD["immersible"])
+    assert "clockwise" in figure(sketch, "turning number")
+    sketch.keyboard.press("j")
+    sketch.wait_for_function("() => document.querySelector('[data-action=join]').disabled")
+    settled(sketch)
+    assert "clockwise" in figure(sketch, "turning number")
+
+
+@pytest.mark.parametrize("fragment", ["#%%%", "#d=broken", "#z=AAAA"])
+def test_a_damaged_link_is_told_and_forgotten(sketch, fragment):
+    sketch.evaluate("fragment => { location.hash = fragment }", fragment)
+    sketch.wait_for_function("() => document.getElementById('notice').textContent.includes('not complete')")
+    assert sketch.evaluate("location.hash") == ""

@@ -12,7 +12,7 @@ from typing import Any
 from urllib.parse import unquote
 
 from plyfold.curve import Curve
-from plyfold.errors import FileFormatError, InputError
+from plyfold.errors import FileFormatError, InputError, StrokeError
 from plyfold.gallery import CURVES
 from plyfold.io import read
 from plyfold.sketch.embedding import PNG_START, png_document, svg_document
@@ -65,7 +65,7 @@ def open_file(name: str, content: bytes) -> Document:
     if carried is not None:
         return read_document(carried)
     kind = next((kind for start, kind in _PICTURES if content.startswith(start)), None)
-    return _tracing(content, kind) if kind else _document_of(_read(name, content))
+    return _tracing(content, kind) if kind else _drawn(name, content)
 
 
 def opened(content: bytes, headers: Mapping[str, str]) -> dict[str, Any]:
@@ -147,6 +147,27 @@ def _tracing(content: bytes, kind: str) -> Document:
     if len(content) > _LARGEST_PICTURE:
         raise InputError(f"the picture is larger than {_LARGEST_PICTURE // 2**20} MiB", hint="make it smaller")
     return Document((), Image(f"data:image/{kind};base64,{base64.b64encode(content).decode()}"))
+
+
+def _drawn(name: str, content: bytes) -> Document:
+    """Return the loop of a file, or its strokes as they are, to be gone on with, where they do not join."""
+    try:
+        return _document_of(_read(name, content))
+    except StrokeError:
+        strokes = _json_strokes(content)
+        if strokes is None:
+            raise
+        return read_document(
+            {"plyfold": VERSION, "strokes": [{"points": points, "closed": False} for points in strokes]}
+        )
+
+
+def _json_strokes(content: bytes) -> Any:
+    """Return the strokes of a JSON file that can be read; None for other files."""
+    if not content.lstrip().startswith((b"{", b"[")):
+        return None
+    value = parse(content)
+    return value.get("strokes") if isinstance(value, dict) else value
 
 
 def _read(name: str, content: bytes) -> Curve:

@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import { crossingCode, mayStraighten } from "../../../src/plyfold/sketch/static/crossings.js";
 import { distanceToSegment, edges } from "../../../src/plyfold/sketch/static/geometry.js";
-import { simplified, thinned, tidied } from "../../../src/plyfold/sketch/static/strokes.js";
+import { divided, penStroke, simplified, thinned, tidied } from "../../../src/plyfold/sketch/static/strokes.js";
 
 const curve = (n, place) => ({ closed: true, points: Array.from({ length: n }, (_, i) => place((2 * Math.PI * i) / n)) });
 const eight = curve(120, (t) => [100 * Math.sin(t), 60 * Math.sin(2 * t + 0.01)]);
@@ -85,4 +85,24 @@ test("thinned points are apart, and the pen ends where it was lifted", () => {
   const kept = thinned(points, 3);
   assert.equal(kept.at(-1), points.at(-1));
   assert.ok(kept.slice(1, -1).every((point, i) => point[0] - kept[i][0] >= 3));
+});
+
+test("a divided path goes the same way", () => {
+  const { points } = divided({ points: [[0, 0], [10, 0], [10, 4]], closed: false }, 3);
+  assert.deepEqual(points, [[0, 0], [2.5, 0], [5, 0], [7.5, 0], [10, 0], [10, 2], [10, 4]]);
+  assert.equal(divided({ points: [[0, 0], [4, 0], [4, 4]], closed: true }, 2).points.length, 7);
+});
+
+/** The sharpest turn of a closed path, in degrees. */
+function sharpestTurn({ points }) {
+  const directions = points.map(([x, y], i) => { const [u, v] = points[(i + 1) % points.length]; return Math.atan2(v - y, u - x); });
+  return Math.max(...directions.map((angle, i) => Math.abs(Math.atan2(Math.sin(angle - directions.at(i - 1)), Math.cos(angle - directions.at(i - 1)))))) * 180 / Math.PI;
+}
+
+test("what a quick pen left as a few points becomes round, with the same crossings", () => {
+  const few = curve(24, (t) => [200 * Math.sin(t), 120 * Math.sin(2 * t + 0.01)]);
+  const drawn = penStroke([...few.points, few.points[0]], 1);
+  assert.ok(sharpestTurn(few) > 40);
+  assert.ok(sharpestTurn(drawn) < 20);
+  assert.equal(crossingCode([drawn]), crossingCode([few]));
 });

@@ -11,6 +11,8 @@ import { zoomed } from "./camera.js";
 const drawn = (state) => state.history.present.strokes.length > 0;
 const several = (count) => count !== null && count !== undefined && count !== "0" && count !== "1";
 const present = (page) => page.store.state.history.present;
+/** Points of an answer in the direction in which the loop was drawn; answers run with the disk on the left. */
+const asDrawn = ({ points, reversed: turned }, given = points) => (turned ? [given[0], ...given.slice(1).reverse()] : given);
 const toggle = (field) => (page) => page.store.set({ [field]: !page.store.state[field] });
 
 const tool = (name, label, key, hint) => ({
@@ -33,11 +35,14 @@ const zooming = (name, label, keys, factor) => ({
   perform: ({ store, size }) => store.set({ camera: zoomed(store.state.camera, factor, [size().width / 2, size().height / 2]) }),
 });
 
-const exporting = (format, label) => ({
+const exporting = (format, label, enabled = drawn) => ({
   name: `export-${format}`, label, keys: [], group: "exports", hint: label,
   perform: (page) => commands.exportAs(page, format),
-  enabled: drawn,
+  enabled,
 });
+
+/** Whether there may be a surface: what is known of the loop does not rule it out. */
+const liftable = (state) => drawn(state) && answerShown(state)?.verdict.immersible !== false;
 
 export const ACTIONS = [
   tool("draw", "Draw", "D", "Draw with mouse, pen or finger"),
@@ -49,15 +54,15 @@ export const ACTIONS = [
   { name: "undo", label: "Undo", keys: ["Ctrl+Z"], group: "history", hint: "Take the last change back", perform: commands.undoStep,
     enabled: (state) => (canUndo(state.history) || state.path.length > 0) },
   { name: "redo", label: "Redo", keys: ["Ctrl+Shift+Z", "Ctrl+Y"], group: "history", hint: "Do again what was taken back",
-    perform: commands.redoStep, enabled: (state) => canRedo(state.history) },
+    perform: commands.redoStep, enabled: (state) => canRedo(state.history) || state.ahead.length > 0 },
 
   { name: "reverse", label: "Reverse", keys: ["R"], group: "change", hint: "Draw it in the other direction",
     perform: (page) => commands.edit(page, reversed(present(page))), enabled: drawn },
-  { name: "close", label: "Close", keys: ["C"], group: "change", hint: "Join the ends of a stroke, or open a loop",
+  { name: "close", label: "Close or open", keys: ["C"], group: "change", hint: "Join the ends of a stroke, or open a loop",
     perform: (page) => (page.store.state.path.length ? commands.finishPath(page, true) : commands.edit(page, toggleClosed(present(page)))),
     enabled: (state) => drawn(state) || state.path.length > 2 },
   { name: "join", label: "Join", keys: ["J"], group: "change", hint: "Make one loop of all strokes",
-    perform: (page) => commands.edit(page, withStrokes(present(page), loop(answerShown(page.store.state).points).strokes)),
+    perform: (page) => commands.edit(page, withStrokes(present(page), loop(asDrawn(answerShown(page.store.state))).strokes)),
     enabled: (state) => Boolean(answerShown(state)) && state.history.present.strokes.some(({ closed }) => !closed) },
   { name: "smooth", label: "Smooth", keys: ["M"], group: "change", hint: "Smooth and simplify; the crossings stay as they are",
     perform: (page) => commands.edit(page, smoothedDrawing(page)), enabled: drawn },
@@ -81,7 +86,7 @@ export const ACTIONS = [
   walking("layeringDown", "Previous layering", "ArrowDown", "layering", -1),
   walking("layeringUp", "Next layering", "ArrowUp", "layering", 1),
   { name: "removeKink", label: "Remove the kink", keys: ["Shift+K"], group: "answers", hint: "Draw the loop without the small kink",
-    perform: (page) => commands.edit(page, withStrokes(present(page), loop(page.store.state.answer.verdict.kink.points).strokes)),
+    perform: (page) => commands.edit(page, withStrokes(present(page), loop(asDrawn(page.store.state.answer, page.store.state.answer.verdict.kink.points)).strokes)),
     enabled: (state) => smallKink(state) !== null },
   { name: "closeLoop", label: "Close the loop", keys: ["Shift+J"], group: "answers", hint: "Bridge the gap between the ends",
     perform: (page) => commands.edit(page, closedAll(present(page))),
@@ -110,12 +115,12 @@ export const ACTIONS = [
 
   exporting("svg", "SVG · drawing, opens again"),
   exporting("png", "PNG · drawing, opens again"),
-  exporting("html", "HTML · page with the surface"),
-  exporting("glb", "GLB · surface"),
-  exporting("obj", "OBJ · surface"),
-  exporting("stl", "STL · surface"),
-  exporting("ply", "PLY · surface"),
-  exporting("3mf", "3MF · surface"),
+  exporting("html", "HTML · page with the surface", liftable),
+  exporting("glb", "GLB · surface", liftable),
+  exporting("obj", "OBJ · surface", liftable),
+  exporting("stl", "STL · surface", liftable),
+  exporting("ply", "PLY · surface", liftable),
+  exporting("3mf", "3MF · surface", liftable),
   exporting("tikz", "TikZ · drawing"),
 ];
 

@@ -5,6 +5,7 @@ import { errorShown, isAnswered, shown } from "./store.js";
 
 const PAGE = crypto.getRandomValues(new Uint32Array(2)).join("-");
 const TRIANGLES = 3000;
+const NO_SURFACE = "There is no surface: the loop is the outline of no disk.";
 const RETRY = 2000; // milliseconds
 const AWAY = { kind: "away", where: [], hint: "start plyfold sketch again; the drawing is kept in this browser" };
 
@@ -50,7 +51,7 @@ async function look(store, question, signal) {
   const same = answer.gauss !== undefined && answer.gauss === store.state.answer?.gauss;
   const disk = answer.verdict?.immersible;
   const { immersion, layering } = same || !store.state.answer ? store.state : { immersion: "0", layering: "0" };
-  const gone = disk ? {} : { mesh: null, unlifted: null };
+  const gone = disk ? {} : { mesh: null, unlifted: answer.verdict ? NO_SURFACE : null };
   store.set({ answer, answered: document, lie: same ? store.state.lie : null, asking: Boolean(disk), immersion, layering, ...gone });
   return disk ? lie(store, question, signal) : undefined;
 }

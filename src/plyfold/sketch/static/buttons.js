@@ -3,6 +3,7 @@
 import { ACTIONS, actionNamed, actionOf, isEnabled } from "./actions.js";
 import { hasIcon, icon } from "./icons.js";
 import { keyName, shownKey } from "./keys.js";
+import { cancel } from "./tools.js";
 
 /** Do what an action says, if it can be done now. */
 export function perform(page, action) {
@@ -53,6 +54,7 @@ const WRITING = "input:not([type=range]), textarea, select";
 export function listenToKeys(page, pressFirst) {
   document.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || event.target.closest(WRITING) || document.querySelector("dialog[open]")) return;
+    if (event.key === "Escape" && page.store.state.busy) return cancel(page);
     if (pressFirst(event)) return event.preventDefault();
     const isArrow = event.key.startsWith("Arrow");
     if (isArrow && event.target.closest("[type=range], [role=tab], #surface")) return undefined;

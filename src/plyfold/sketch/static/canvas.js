@@ -102,6 +102,7 @@ function listen(page, canvas) {
   });
 
   canvas.addEventListener("pointermove", (event) => {
+    if (!page.store.state.busy) tool = null; // it was given up
     if (!fingers.has(event.pointerId)) return hover(page, drawn(event), reach(event));
     if (fingers.size > 1) pinch(page, fingers, event.pointerId, place(event));
     const before = fingers.get(event.pointerId);
@@ -113,7 +114,7 @@ function listen(page, canvas) {
 
   const lift = (event) => {
     if (!fingers.delete(event.pointerId)) return;
-    const ended = tool;
+    const ended = page.store.state.busy ? tool : null;
     tool = null;
     page.store.set({ busy: false });
     if (event.type === "pointercancel") cancel(page);

@@ -14,7 +14,7 @@ export const tell = ({ store }, text, actions = []) => store.set({ notice: { tex
 // ---- editing ------------------------------------------------------------------------------------------------------
 
 export function edit({ store }, document) {
-  store.set({ history: record(store.state.history, document), preview: null });
+  store.set({ history: record(store.state.history, document), preview: null, ahead: [] });
 }
 
 /** The joins of the drawing as it is, as far as they are known. */
@@ -43,16 +43,17 @@ export function editIfAllowed(page, document) {
 /** Put the points in the making into the drawing. */
 export function finishPath(page, closed) {
   const { path, history } = page.store.state;
-  page.store.set({ path: [] });
+  page.store.set({ path: [], ahead: [] });
   if (path.length > 1) edit(page, addStroke(history.present, { points: path, closed: closed && path.length > 2 }));
 }
 
 export function step(page, direction) {
   const { store } = page;
-  const { path, busy, history } = store.state;
+  const { path, ahead, busy, history } = store.state;
   if (busy) return;
-  if (path.length && direction === undo) store.set({ path: path.slice(0, -1) });
-  else store.set({ history: direction(history), preview: null, selected: null, carried: null });
+  if (path.length && direction === undo) store.set({ path: path.slice(0, -1), ahead: [path.at(-1), ...ahead] });
+  else if (ahead.length && direction === redo) store.set({ path: [...path, ahead[0]], ahead: ahead.slice(1) });
+  else store.set({ history: direction(history), preview: null, selected: null, carried: null, ahead: [] });
 }
 
 export const undoStep = (page) => step(page, undo);
@@ -88,7 +89,7 @@ export function openDrawing(page, document, name = null, id = newId()) {
   page.id = id;
   const { immersion = "0", layering = "0", gap = null } = document.view ?? {};
   store.set({
-    history: begin(document), name, preview: null, path: [], selected: null, carried: null, answer: null, answered: null, lie: null,
+    history: begin(document), name, preview: null, path: [], ahead: [], selected: null, carried: null, answer: null, answered: null, lie: null,
     mesh: null, unlifted: null, immersion, layering, gap, hover: null, notice: null,
   });
   fit(page);

@@ -20,6 +20,8 @@ function show(title, ...content) {
   find("dialog-title").textContent = title;
   find("dialog-body").replaceChildren(...content);
   find("dialog").showModal();
+  find("dialog").scrollTop = 0;
+  find("dialog-body").scrollTop = 0;
 }
 
 export const closeDialog = () => find("dialog").close();

@@ -5,7 +5,8 @@ const PREFIX = "#d=";
 /** Links beyond this length are cut by mail programs and chats: the drawing goes into a file instead. */
 export const LONGEST_LINK = 8000;
 
-export const hasDrawing = (fragment) => fragment.startsWith(PREFIX);
+/** Whatever stands there may be meant as a drawing: if it is none, the page says so. */
+export const hasDrawing = (fragment) => fragment.length > 1;
 
 export async function encode(document) {
   const { strokes, view, image } = document;
@@ -15,6 +16,7 @@ export async function encode(document) {
 
 /** @returns the document. @throws if the fragment is not a whole drawing. */
 export async function decode(fragment) {
+  if (!fragment.startsWith(PREFIX)) throw new Error("this is no drawing");
   const letters = fragment.slice(PREFIX.length).replaceAll("-", "+").replaceAll("_", "/");
   const bytes = Uint8Array.from(atob(letters), (letter) => letter.charCodeAt(0));
   const text = new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), bytes));

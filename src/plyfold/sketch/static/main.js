@@ -78,6 +78,7 @@ async function openLink() {
     if (JSON.stringify(drawing.strokes) !== JSON.stringify(store.state.history.present.strokes)) openDrawing(page, drawing, "The drawing of the link");
     history.replaceState(null, "", fragment);
   } catch {
+    history.replaceState(null, "", location.pathname);
     tell(page, "The link is not complete: it holds no drawing.");
   }
 }
@@ -192,7 +193,7 @@ function followNotices() {
     if (!state.notice) return;
     box.replaceChildren(Object.assign(document.createElement("span"), { textContent: state.notice.text }));
     box.append(...state.notice.actions.map((name) => button(page, actionNamed(name))));
-    leaving = setTimeout(() => store.set({ notice: null }), state.notice.actions.length ? 15000 : 5000);
+    leaving = setTimeout(() => store.set({ notice: null }), state.notice.actions.length ? 10000 : 5000);
   });
 }
 

@@ -12,6 +12,7 @@ export const START = Object.freeze({
   tool: "draw", // draw, points, edit, erase or hand
   busy: false, // a stroke or drag is under way
   path: [], // the points of the stroke or polyline in the making
+  ahead: [], // points of the polyline that were taken back, the next one first
   cursor: null, // where the keyboard draws
   carried: null, // the vertex that the keyboard moves, {stroke, vertex}
   refused: false, // the lock held a move back

@@ -4,6 +4,10 @@ import { mayStraighten } from "./crossings.js";
 import { add, cross, distance, distanceToSegment, meetingPlace, mix, scaled } from "./geometry.js";
 
 const SMOOTHINGS = 3;
+// Where a quick pen left few points: this far apart, in pixels, and so many parts and rounds for each edge.
+const SPARSE = 8;
+const PARTS = 4;
+const SPARSE_SMOOTHINGS = 16;
 
 /** Leave out points that are nearer than `spacing` to the one kept before; the last one always stays. */
 export function thinned(points, spacing) {
@@ -62,9 +66,9 @@ function removeIfFree(kept, i, closed, tolerance, obstacles) {
 }
 
 /** Smooth and simplify, with the crossings of the path as it is. */
-export function tidied(path, tolerance, obstacles = []) {
+export function tidied(path, tolerance, obstacles = [], rounds = SMOOTHINGS) {
   let tidy = path;
-  for (let round = 0; round < SMOOTHINGS; round++) tidy = smoothed(tidy, obstacles);
+  for (let round = 0; round < rounds; round++) tidy = smoothed(tidy, obstacles);
   return simplified(tidy, tolerance, obstacles);
 }
 
@@ -72,7 +76,27 @@ export function tidied(path, tolerance, obstacles = []) {
 export function penStroke(raw, pixel, obstacles = []) {
   const points = thinned(raw, 1.5 * pixel);
   const loop = closedLoop(points, 22 * pixel);
-  return tidied({ points: loop ?? points, closed: loop !== null }, 0.5 * pixel, obstacles);
+  const path = { points: loop ?? points, closed: loop !== null };
+  const spacing = middleSpacing(path.points);
+  if (spacing <= SPARSE * pixel) return tidied(path, 0.5 * pixel, obstacles);
+  return tidied(divided(path, spacing / PARTS), 0.5 * pixel, obstacles, SPARSE_SMOOTHINGS);
+}
+
+/** The distance from point to point that half of the distances do not exceed. */
+function middleSpacing(points) {
+  const spacings = points.slice(1).map((point, i) => distance(points[i], point)).sort((a, b) => a - b);
+  return spacings[spacings.length >> 1] ?? 0;
+}
+
+/** The same path with points on its edges, at least as dense as `spacing`. */
+export function divided({ points, closed }, spacing) {
+  const next = (i) => points[(i + 1) % points.length];
+  const edges = points.slice(0, closed ? points.length : -1);
+  const dense = edges.flatMap((point, i) => {
+    const parts = Math.ceil(distance(point, next(i)) / spacing) || 1;
+    return Array.from({ length: parts }, (_, part) => mix(point, next(i), part / parts));
+  });
+  return { points: closed ? dense : [...dense, points.at(-1)], closed };
 }
 
 /** The stroke as a loop if its ends are near, or null. Ends that shoot past each other are cut at their crossing. */

@@ -5,7 +5,7 @@ import { distance } from "./geometry.js";
 import { addStroke, deletePoint, edgeAt, insertPoint, movePoint, snapped, vertexAt, withStrokes } from "./document.js";
 import { allowed, currentJoins, edit, editIfAllowed, finishPath, tell } from "./commands.js";
 import { erased } from "./erasing.js";
-import { penStroke } from "./strokes.js";
+import { penStroke, thinned } from "./strokes.js";
 
 const ERASER = 12;
 const CLICK = 5;
@@ -19,7 +19,10 @@ export function placed({ store }, place) {
 
 const draw = {
   down: (page, place) => page.store.set({ path: [placed(page, place)] }),
-  move: (page, places) => page.store.set({ path: [...page.store.state.path, ...places] }),
+  move({ store }, places) {
+    const { path, camera } = store.state;
+    store.set({ path: [...path, ...thinned([path.at(-1), ...places], 1 / camera.scale).slice(1)] });
+  },
   up(page) {
     const { path, camera, history } = page.store.state;
     page.store.set({ path: [] });
@@ -35,7 +38,7 @@ const points = {
     const { path } = page.store.state;
     const point = placed(page, place);
     if (path.length > 2 && distance(point, path[0]) < reach) finishPath(page, true);
-    else if (!path.length || distance(point, path.at(-1)) > 0) page.store.set({ path: [...path, point] });
+    else if (!path.length || distance(point, path.at(-1)) > 0) page.store.set({ path: [...path, point], ahead: [] });
   },
   double: (page) => finishPath(page, false),
 };
@@ -90,4 +93,4 @@ const hand = { move: (page) => page.pan() };
 export const TOOLS = { draw, points, edit: editing, erase, hand };
 
 /** Give up what is under way; nothing is changed. */
-export const cancel = ({ store }) => store.set({ preview: null, path: [], busy: false, refused: false });
+export const cancel = ({ store }) => store.set({ preview: null, path: [], ahead: [], busy: false, refused: false });
