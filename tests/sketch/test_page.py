@@ -296,7 +296,7 @@ def test_a_link_holds_the_drawing_and_overwrites_nothing(sketch, server):
     )
     assert work["strokes"] in shared
     assert drawing["strokes"] in shared
-    sketch.click("text=Back to the drawing before")
+    sketch.click("[data-action=back]")
     verdict(sketch, WORD["none"])
 
 

@@ -12,6 +12,7 @@ from plyfold.arrays import Floats, Ints
 from plyfold.curve import Curve, as_curve
 from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError, PlyfoldError
 from plyfold.flat.cells import refuse_max_area
+from plyfold.flat.delaunay import delaunay_triangles
 from plyfold.flat.flips import flip_edges
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.immersion import Immersion, find_immersion
@@ -161,8 +162,10 @@ def _refined(immersion: Immersion, max_area: float) -> tuple[Floats, Ints]:
     if isinstance(max_area, bool) or not isinstance(max_area, int | float | np.number):
         raise InputError(f"the largest area of a triangle must be a number, not {max_area!r}")
     refuse_max_area(drawn.curve.points, max_area)
-    number = _input_order(drawn)
-    return _split_large(drawn.curve.points[number], number[sweep_triangles(immersion)], max_area)
+    number, points = _input_order(drawn), drawn.curve.points
+    # Flips alone would take quadratic time where triangles are long.
+    round_triangles = delaunay_triangles(points, sweep_triangles(immersion))
+    return _split_large(points[number], number[round_triangles], max_area)
 
 
 def _split_large(points: Floats, faces: Ints, max_area: float) -> tuple[Floats, Ints]:

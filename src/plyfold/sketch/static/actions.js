@@ -9,6 +9,7 @@ import { answerShown, errorShown, lieShown, smallKink } from "./store.js";
 import { zoomed } from "./camera.js";
 
 const drawn = (state) => state.history.present.strokes.length > 0;
+const allClosed = (state) => drawn(state) && !state.path.length && state.history.present.strokes.every(({ closed }) => closed);
 const several = (count) => count !== null && count !== undefined && count !== "0" && count !== "1";
 const present = (page) => page.store.state.history.present;
 /** Points of an answer in the direction in which the loop was drawn; answers run with the disk on the left. */
@@ -58,7 +59,7 @@ export const ACTIONS = [
 
   { name: "reverse", label: "Reverse", keys: ["R"], group: "change", hint: "Draw it in the other direction",
     perform: (page) => commands.edit(page, reversed(present(page))), enabled: drawn },
-  { name: "close", label: "Close or open", keys: ["C"], group: "change", hint: "Join the ends of a stroke, or open a loop",
+  { name: "close", label: "Close", labelNow: (state) => (allClosed(state) ? "Cut open" : "Close"), keys: ["C"], group: "change", hint: "Join the ends of a stroke, or open a loop",
     perform: (page) => (page.store.state.path.length ? commands.finishPath(page, true) : commands.edit(page, toggleClosed(present(page)))),
     enabled: (state) => drawn(state) || state.path.length > 2 },
   { name: "join", label: "Join", keys: ["J"], group: "change", hint: "Make one loop of all strokes",
@@ -108,7 +109,7 @@ export const ACTIONS = [
   { name: "help", label: "Help", keys: ["?"], group: "file", hint: "All keys", perform: (page) => page.showHelp() },
   { name: "theme", label: "Theme", keys: ["Shift+D"], group: "file", hint: "Change between light and dark", perform: (page) => page.changeTheme() },
   { name: "saveFile", label: "Save the drawing", keys: ["Ctrl+S"], group: "exports", hint: "Save as JSON; no server is needed", perform: commands.saveFile, enabled: drawn },
-  { name: "back", label: "Back to the drawing before", keys: ["Shift+B"], group: "exports", hidden: true, hint: "Open the drawing before again",
+  { name: "back", label: "Go back", keys: ["Shift+B"], group: "exports", hidden: true, hint: "Open the drawing before again",
     perform: commands.goBack },
   { name: "dropImage", label: "Take the picture away", keys: ["Shift+P"], group: "exports", hidden: true, hint: "Take away the picture to draw after",
     perform: (page) => commands.edit(page, withImage(present(page), null)), enabled: (state) => Boolean(state.history.present.image) },

@@ -29,6 +29,7 @@ const tip = ({ hint, keys }) => (keys.length ? `${hint} (${shownKey(keys[0])})` 
 function refresh(made, action, state) {
   const disabled = !isEnabled(action, state);
   if (made.disabled !== disabled) made.disabled = disabled;
+  if (action.labelNow) made.lastChild.textContent = action.labelNow(state);
   if (action.pressed) made.setAttribute("aria-pressed", String(action.pressed(state)));
 }
 
