@@ -41,10 +41,18 @@ class Case(NamedTuple):
     repeats: int
 
 
+def helix(turns: int) -> Any:
+    """Return a band of 60 points a side and turn that winds ever a little further out: two crossings for each turn."""
+    t = np.linspace(0, 2 * np.pi * turns + 0.3, 60 * turns)
+    direction = np.column_stack([np.cos(t), np.sin(t)])
+    return np.vstack([(3 + 0.01 * t)[:, None] * direction, ((2 + 0.01 * t)[:, None] * direction)[::-1]])
+
+
 def cases(largest: int) -> Iterator[Case]:
     """Yield sketches, and then one curve with ever more triangles."""
     sketches = {name: named.curve.points for name, named in CURVES.items() if named.embeddable}
     sketches |= {"ribbon of 300": ribbon_disk(300), "dense disk of 60": glued_disk(60), "chain of 370": chain(370)}
+    sketches |= {f"helix of {turns} turns": helix(turns) for turns in (5, 10, 15)}
     for name, points in sketches.items():
         if pf.arrangement(points).n_crossings <= MOST_CROSSINGS:
             yield Case(name, points, 4_000, 5)

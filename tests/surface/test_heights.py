@@ -22,6 +22,13 @@ def glued(points, triangles=150):
     return planar.points, glue_sheets(layering, planar)
 
 
+def helix(turns, per_turn=60):
+    """A band that winds around and around, ever a little further out; sheets lie on each other everywhere."""
+    t = np.linspace(0, 2 * np.pi * turns + 0.3, per_turn * turns)
+    direction = np.column_stack([np.cos(t), np.sin(t)])
+    return np.vstack([(3 + 0.01 * t)[:, None] * direction, ((2 + 0.01 * t)[:, None] * direction)[::-1]])
+
+
 def kept_apart(z, mesh, gap):
     lower, upper = mesh.stacked.T
     return (z[lower] + gap <= z[upper]).all()
@@ -63,6 +70,28 @@ def test_least_energy(name, options):
     assert z @ energy @ z / 2 == pytest.approx(
         dual_energy(energy, differences(mesh), np.ones(len(mesh.stacked))), rel=3e-6
     )
+
+
+@pytest.mark.parametrize("turns", [2, 3, 5])
+def test_least_energy_of_long_stacks(turns):
+    points, mesh = glued(helix(turns, 16))
+    z = smooth_heights(points, mesh, 1.0)
+    assert kept_apart(z, mesh, 1.0)
+    assert mesh.level.max() >= turns - 1
+    energy = plain_cloth(points, mesh).stiffness.toarray()
+    least = dual_energy(energy, differences(mesh), np.ones(len(mesh.stacked)))
+    assert z @ energy @ z / 2 == pytest.approx(least, rel=3e-6)
+
+
+@pytest.mark.parametrize("turns", [5, 8])
+def test_long_stacks_take_few_triangles_and_rounds(turns):
+    """Good angles take at most about three times the triangles of the curve alone; contacts need a few dozen rounds."""
+    (points, mesh), (_, plain) = glued(helix(turns), triangles=4000), glued(helix(turns), triangles=0)
+    assert 4000 <= len(mesh.faces) <= 1.5 * max(4000, 3 * len(plain.faces))
+    told = []
+    z = smooth_heights(points, mesh, 1.0, progress=lambda stage, done: told.append(done))
+    assert kept_apart(z, mesh, 1.0)
+    assert len(told) <= 60
 
 
 @pytest.mark.parametrize("gap", [1e-12, 0.1, 1.0, 1e5])
