@@ -144,10 +144,14 @@ def _plain(outline: Outline) -> PlanarMesh:
 
 
 def _refined(arrangement: Arrangement, outline: Outline, size: Size, finest: float) -> PlanarMesh:
-    """Triangulate, and refine what the surface covers."""
-    library = constrained(outline)
-    plain = planar_mesh(library, outline.points, outline.chain, outline.chain_border)
-    refine(library, outline, arrangement.winding[_cells(arrangement, plain)[0]], size, finest)
+    """Triangulate, and refine what the surface covers; the library cannot take back steps that were too many."""
+    while True:
+        library = constrained(outline)
+        plain = planar_mesh(library, outline.points, outline.chain, outline.chain_border)
+        affordable = refine(library, outline, arrangement.winding[_cells(arrangement, plain)[0]], size, finest)
+        if affordable <= finest:
+            break
+        finest = affordable
     corners = library.vertices_array()[ENCLOSING:]
     unit_points = np.stack([corners["x"], corners["y"]], axis=1)
     points = outline.centre + unit_points * outline.scale

@@ -2,10 +2,11 @@
 
 Refinement after Ruppert takes as many triangles as the drawing's features are fine: a few dozen around a cell a
 billionth of the drawing's size, but a billion along a strip as thin. So edges are split only down to a shortest
-length, and that is made shorter step by step, the more boldly the fewer bad triangles are left: they vanish around
-tiny cells, and multiply in thin strips. When the triangles that a further step may cost are no longer there, it ends,
-and the triangles in the thinnest places stay as they are. At sharp corners of the drawing no angles are good, and
-there the step by step approach to the corner, that would never end, counts as done.
+length, and that is made shorter step by step: bad triangles vanish around tiny cells, and multiply in thin strips. A
+step that takes more triangles than there may be would end midway and leave bad triangles far from the strip, where the
+points at its sides ask for more. So all starts again, and ends before that step: the triangles in the thinnest places
+stay as they are. At sharp corners of the drawing no angles are good, and there the step by step approach to the corner,
+that would never end, counts as done.
 
 Only then the triangles that are larger than the size asked for are split, so that the number asked for includes those
 around features.
@@ -30,10 +31,12 @@ _USUAL_SHARE = 0.6
 _MOST_GROWTH = 3
 # The shortest length that is tried first, by the root of the usual area: a third of the usual edge.
 _FIRST_LENGTH = 0.5
-# A step that may not make the shortest length half as long is not worth its triangles.
-_SMALLEST_STEP = 2.0
-# A step may overrun what its bad triangles predict.
-_SLACK = 1.5
+# The shortest length becomes shorter by this factor, step by step.
+_STEP = 4.0
+# A step is not worth trying if there are fewer points for each bad triangle.
+_FEWEST_POINTS = 2.0
+# Where all angles are good, splitting large triangles may need edges this many times shorter to keep them so.
+_FINER = 16.0
 _MOST_POINTS = 20_000_000
 # Corners sharper than this have no triangles with good angles at them, or only just.
 _SHARP = np.cos(np.radians(30.0))
@@ -76,7 +79,7 @@ def usual_area(outline: Outline, triangles: int, max_area: float | None) -> Size
     return Size(max(1.0, outline.covered / (_USUAL_SHARE * most)), most)
 
 
-def refine(library: Any, outline: Outline, winding: Ints, size: Size, finest: float) -> None:
+def refine(library: Any, outline: Outline, winding: Ints, size: Size, finest: float) -> float:
     """Add points to a constrained triangulation where the surface is, for good angles and the size asked for.
 
     Parameters
@@ -88,7 +91,13 @@ def refine(library: Any, outline: Outline, winding: Ints, size: Size, finest: fl
         The winding number of each triangle of the library; those with 0 or less are left alone.
     size : Size
     finest : float
-        No edge shorter than this is split, in the unit square.
+        No edge shorter than this is split for the sake of thin places, in the unit square.
+
+    Returns
+    -------
+    float
+        The shortest length with which there are triangles enough. If it is larger than ``finest``, the triangulation
+        is unfinished, and has to be made again with this length as ``finest``.
     """
     covered = _Covered(library, outline, set(np.flatnonzero(winding <= 0).tolist()))
     fewest = int(winding[winding > 0].sum())
@@ -96,23 +105,40 @@ def refine(library: Any, outline: Outline, winding: Ints, size: Size, finest: fl
     # A planar point more makes two planar triangles more.
     affordable = (max(size.wanted, _MOST_GROWTH * fewest) - fewest) / (2 * layers)
     first = float(_FIRST_LENGTH * np.sqrt(outline.covered / size.wanted))
-    shortest = _good_angles(covered, max(first, finest), finest, affordable)
+    reached = _good_angles(covered, max(first, finest), finest, affordable)
+    if reached.unaffordable:
+        return reached.shortest
     most = _even_area(covered, size.wanted) if size.most is None else size.most
     if most > 0:
+        shortest = reached.shortest if reached.bad else reached.shortest / _FINER
         limit = int(size.wanted) + library.vertices_count()
         covered.add_points("LARGEST_AREA", most, shortest, limit)
         covered.improve_angles(shortest, limit)
+    return finest
 
 
-def _good_angles(covered: _Covered, shortest: float, finest: float, affordable: float) -> float:
-    """Split triangles with sharp angles; return the length below which no edge was split."""
+class _Reached(NamedTuple):
+    """The length below which no edge was split, and how many bad triangles are left.
+
+    Or, if there were not points enough, a length with which there may be.
+    """
+
+    shortest: float
+    bad: int
+    unaffordable: bool
+
+
+def _good_angles(covered: _Covered, shortest: float, finest: float, affordable: float) -> _Reached:
+    """Split triangles with sharp angles, down to a shortest length that becomes shorter step by step."""
     while True:
-        affordable -= covered.improve_angles(shortest, int(_SLACK * affordable) + 1)
+        added = covered.improve_angles(shortest, int(affordable) + 1)
+        if added > affordable:
+            return _Reached(_STEP * shortest, 0, unaffordable=True)
+        affordable -= added
         bad = _bad_triangles(covered)
-        if not bad or shortest <= finest or affordable < _SMALLEST_STEP * bad:
-            return shortest
-        # In a strip, each bad triangle becomes as many as the length becomes shorter.
-        shortest = max(shortest * bad / affordable, finest)
+        if not bad or shortest <= finest or affordable < _FEWEST_POINTS * bad:
+            return _Reached(shortest, bad, unaffordable=False)
+        shortest = max(shortest / _STEP, finest)
 
 
 def _corners(library: Any, triangles: Ints) -> tuple[Ints, Floats]:
@@ -138,7 +164,9 @@ def _bad_triangles(covered: _Covered) -> int:
     row = np.arange(len(found))
     ends = np.stack([triangles[row, side], triangles[row, (side + 1) % 3]], axis=1)
     beside = _neighbours_on_curve(covered.library, covered.outline)
-    return sum(not _across_sharp_corner(points, u, v, beside) for u, v in ends.tolist())
+    known = len(covered.outline.points)
+    apart = [(u, v) for u, v in ends.tolist() if not _on_one_piece(known, u, v, beside)]
+    return len(found) - sum(_across_sharp_corner(points, u, v, beside) for u, v in apart)
 
 
 def _neighbours_on_curve(library: Any, outline: Outline) -> dict[int, set[int]]:
@@ -151,6 +179,12 @@ def _neighbours_on_curve(library: Any, outline: Outline) -> dict[int, set[int]]:
     for piece, vertex in split_points(library, outline).tolist():
         beside[vertex] = set(pieces[piece])
     return beside
+
+
+def _on_one_piece(known: int, u: int, v: int, beside: dict[int, set[int]]) -> bool:
+    """Tell whether two vertices lie on the same piece of the outline; those from the number ``known`` on are added."""
+    at_u, at_v = beside.get(u, set()), beside.get(v, set())
+    return u in at_v or v in at_u or (min(u, v) >= known and at_u == at_v)
 
 
 def _across_sharp_corner(points: Floats, u: int, v: int, beside: dict[int, set[int]]) -> bool:
