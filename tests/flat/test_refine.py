@@ -68,6 +68,11 @@ def test_good_angles_around_tiny_cells(exponent):
     assert smallest_angle(triangulate_cells(arrangement(dipping(9 * 10.0**-exponent)))) > 25 - 1e-6
 
 
+def test_good_angles_in_a_right_triangle():
+    """Points added for the size leave no short edges on the long side that would spoil angles there."""
+    assert smallest_angle(triangulate_cells(arrangement([(0, 0), (1, 0), (0, 1)]))) > 25 - 1e-6
+
+
 @pytest.mark.parametrize("width", [1e-4, 1e-9])
 def test_thin_strips_spoil_nothing_around_them(width):
     """All points of triangles with sharp angles lie at the strip, and they are few."""

@@ -112,7 +112,7 @@ def refine(library: Any, outline: Outline, winding: Ints, size: Size, finest: fl
     if most > 0:
         shortest = reached.shortest if reached.bad else reached.shortest / _FINER
         limit = int(size.wanted) + library.vertices_count()
-        covered.add_points("LARGEST_AREA", most, shortest, limit)
+        covered.add_points("LARGEST_AREA", most, reached.shortest, limit)
         covered.improve_angles(shortest, limit)
     return finest
 
