@@ -197,6 +197,14 @@ def test_browser_shows_the_surface_without_a_complaint_or_a_request(shown):
     assert all(address.startswith(("file:", "blob:")) for address in shown.asked)
 
 
+def test_keys_need_no_click_first(shown):
+    shown.keyboard.press("x")
+    shown.locator("[aria-keyshortcuts=X][aria-pressed=true]").wait_for()
+    shown.locator("input[type=range]").first.focus()
+    shown.keyboard.press("x")
+    shown.locator("[aria-keyshortcuts=X][aria-pressed=false]").wait_for()
+
+
 def test_top_view_equals_the_drawing(shown):
     shown.keyboard.press("Tab")
     shown.keyboard.press("t")

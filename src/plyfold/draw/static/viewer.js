@@ -428,10 +428,10 @@ class Viewer {
   }
 
   press(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("input, select")) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("select")) return;
     const action = ACTIONS.find(({ key }) => key === event.key.toLowerCase());
     if (action) this.perform(action);
-    else if (!this.steer(event.key)) return;
+    else if (event.target.matches("input") || !this.steer(event.key)) return; // arrows are the slider's
     event.preventDefault();
   }
 
