@@ -6,7 +6,7 @@ import pytest
 from plyfold import find_immersion, find_layering, immersions
 from plyfold.certify import check_surface
 from plyfold.curve import Curve
-from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError
+from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, PrecisionError
 from plyfold.gallery import CURVES
 from plyfold.surface import lift
 from reference import random_curves
@@ -202,3 +202,10 @@ def test_surface_cannot_be_changed():
 def test_max_area():
     surface = lift(CURVES["exit-ramp"].curve, max_area=0.2)
     assert max(area(surface.vertices[face, :2]) for face in surface.faces) <= 0.2
+
+
+def test_drawings_too_small_for_a_mesh_are_refused():
+    square = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], dtype=float)
+    lift(square * 1e-150).check()
+    with pytest.raises(PrecisionError, match="too small"):
+        lift(square * 1e-160)

@@ -35,6 +35,8 @@ __all__ = [
     "triangulate_cells",
 ]
 
+# Squares of this size are doubles still.
+_SMALLEST_SIZE = 1e-152
 DEFAULT_TRIANGLES = 4000
 MOST_TRIANGLES = 10_000_000
 # No edge shorter than so many roundings is split: points on it would not lie well enough on a line.
@@ -101,7 +103,8 @@ def triangulate_cells(
     Raises
     ------
     PrecisionError
-        If the crossings, rounded to doubles, no longer draw the same cells; it names the place.
+        If the crossings, rounded to doubles, no longer draw the same cells; it names the place. Or if the whole drawing
+        is so small that areas of triangles are no doubles.
 
     Notes
     -----
@@ -116,6 +119,7 @@ def triangulate_cells(
     >>> mesh.points[:4].tolist(), mesh.chain[0]
     ([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]], np.int64(0))
     """
+    _refuse_tiny(arrangement)
     outline = outline_of(arrangement)
     if triangles:
         size = usual_area(outline, triangles, max_area)
@@ -124,6 +128,18 @@ def triangulate_cells(
             with suppress(PrecisionError):
                 return _verified(arrangement, _refined(arrangement, outline, size, finest * outline.rounding))
     return _verified(arrangement, _plain(outline))
+
+
+def _refuse_tiny(arrangement: Arrangement) -> None:
+    if arrangement.curve is None:
+        return
+    points = arrangement.curve.points
+    if (size := float(np.ptp(points, axis=0).max())) < _SMALLEST_SIZE:
+        raise PrecisionError(
+            f"a drawing of size {size:.3g} is too small for a mesh: areas have no double",
+            where=points[:1],
+            hint=f"scale it up, to at least {_SMALLEST_SIZE:g}",
+        )
 
 
 def refuse_max_area(points: Floats, max_area: float) -> None:
