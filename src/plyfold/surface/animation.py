@@ -3,8 +3,8 @@
 Moving every point straight to its place would fold the cloth over. Instead the lengths of all sides go from those in
 the disk to those in the drawing, and at each time the triangles with these lengths are laid out in the plane, as in
 [CWKB13]_. They fit together after small changes (:mod:`plyfold.surface.flatten`), so none is turned over, and a
-spiral unrolls by as many turns as it has. Where a coarse mesh of thin cells leaves no lengths that fit, single triangles
-are turned over on the way: 1 of 259 in one of forty random disks, 5 of 2,952 in *seven-flaps*.
+spiral unrolls by as many turns as it has. Where a coarse mesh of thin cells leaves no lengths that fit, single
+triangles are turned over on the way: 1 of 259 in one of forty random disks, 5 of 2,952 in *seven-flaps*.
 
 References
 ----------
@@ -90,8 +90,8 @@ class Motion:
     def shapes(self, most: int) -> list[Floats]:
         """Return the cloth from the drawing to the disk, each (n, 2), at so many times that it can move straight.
 
-        Between one shape and the next no triangle turns over (see above for the exceptions). But there are no more than ``most`` (or 5) shapes: if
-        they do not suffice, triangles turn over in the end.
+        Between one shape and the next no triangle turns over, or hardly one in a coarse mesh of thin cells. But there
+        are no more than ``most`` (or 5) shapes: if they do not suffice, triangles turn over in the end.
         """
         times = [1.0, 0.75, 0.5, 0.25, 0.0]
         shapes = [self._flat(time) for time in times]
