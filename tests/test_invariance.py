@@ -65,3 +65,32 @@ def test_large_integer_shifts(points):
     except pf.errors.PlyfoldError:
         return
     assert answers(points + np.array([2**40, -(2**35)])) == expected
+
+
+def lying(layering):
+    """How the cloth lies, in coordinates: the edges that pass over others, and the borders that share a sheet."""
+    immersion = layering.immersion
+    drawn = immersion.arrangement
+    points = drawn.curve.points
+    edges = [frozenset((tuple(points[e]), tuple(points[(e + 1) % len(points)]))) for e in drawn.visit_edge.tolist()]
+    crossed = [(edges[visit], edges[partner]) for visit, partner in enumerate(drawn.partner.tolist())]
+    over = {crossed[visit] for visit in np.flatnonzero(layering.casing)}
+    borders = [frozenset(ends) for ends in zip(crossed, crossed[1:] + crossed[:1], strict=True)] or [frozenset()]
+    return over, {frozenset(borders[b] for b in group.borders) for group in immersion.disk_layout()}
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_the_first_answer_belongs_to_the_drawing(name):
+    points = np.array(CURVES[name].curve.points)
+    expected = [lying(found) for found in map(pf.find_layering, pf.immersions(points)) if found]
+    for start in range(1, len(points), -(-len(points) // 7)):
+        for changed in (np.roll(points, start, axis=0), np.roll(points, start, axis=0)[::-1]):
+            assert [lying(found) for found in map(pf.find_layering, pf.immersions(changed)) if found] == expected
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 2**32), st.integers(1, 200), st.booleans())
+def test_the_first_answer_of_random_disks_belongs_to_the_drawing(seed, start, backward):
+    points = np.array(glued_disk(np.random.default_rng(seed), 40), dtype=float)
+    changed = np.roll(points, start, axis=0)[:: -1 if backward else 1]
+    assert lying(pf.find_layering(pf.find_immersion(changed))) == lying(pf.find_layering(pf.find_immersion(points)))

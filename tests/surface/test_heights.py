@@ -160,7 +160,7 @@ def test_narrow_ribbons_do_not_tower(seed):
     """Where narrow strips touch they bend locally, instead of climbing dozens of gaps."""
     surface = lift(random_curves.ribbon_outline(np.random.default_rng(seed), 60), triangles=1000)
     levels = surface.layering.level.max()
-    assert np.ptp(surface.vertices[:, 2]) < 4 * levels * surface.gap
+    assert np.ptp(surface.vertices[:, 2]) < 5 * levels * surface.gap
 
 
 def test_energy_of_a_plane():

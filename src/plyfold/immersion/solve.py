@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
 
 from plyfold.arrangement import Arrangement, arrangement
+from plyfold.arrangement.base import base_visit, numbered_from
 from plyfold.arrangement.core import CurveLike
 from plyfold.errors import InputError
 from plyfold.immersion.dual_tree import DualTree, grow_dual_tree
@@ -261,9 +262,11 @@ def best_immersion(curve: CurveLike, key: Callable[[Immersion], Any]) -> Immersi
 
 @dataclass(frozen=True, eq=False)
 class _Family:
-    """All immersions of a curve."""
+    """All immersions of a curve; tree and word are those of its map as numbered from the base visit."""
 
     arrangement: Arrangement
+    base: int
+    numbered: Arrangement
     tree: DualTree
     groupings: Groupings
 
@@ -272,17 +275,32 @@ def _family(curve: CurveLike) -> _Family | None:
     arranged = arrangement(curve)
     if visible_obstruction(arranged) is not None:
         return None
-    tree = grow_dual_tree(arranged)
+    base = base_visit(arranged)
+    numbered = numbered_from(arranged, base)
+    tree = grow_dual_tree(numbered)
     groupings = find_groupings(write_word(tree))
-    return _Family(arranged, tree, groupings) if isinstance(groupings, Groupings) else None
+    return _Family(arranged, base, numbered, tree, groupings) if isinstance(groupings, Groupings) else None
 
 
 def _glued(family: _Family, grouping: Grouping) -> Immersion:
     word, link = family.groupings.word, family.tree.link.tolist()
     partner = {link[word.cells[label]]: word.border[letter] for label, letter in grouping.items()}
-    immersion = glue_sheets(family.arrangement, family.tree, partner)
+    immersion = _numbered_back(glue_sheets(family.numbered, family.tree, partner), family)
     immersion.check()
     return immersion
+
+
+def _numbered_back(immersion: Immersion, family: _Family) -> Immersion:
+    """Return the immersion with borders numbered as in the curve's own arrangement; cells are numbered alike."""
+    first = np.searchsorted(immersion.gluing[:, 0], family.arrangement.n_borders - family.base)
+    gluing = np.roll(immersion.gluing, -first, axis=0)
+    gluing[:, 0] = (gluing[:, 0] + family.base) % family.arrangement.n_borders
+    return replace(
+        immersion,
+        arrangement=family.arrangement,
+        own_sheet=np.roll(immersion.own_sheet, family.base),
+        gluing=gluing,
+    )
 
 
 def _random_below(limit: int, rng: np.random.Generator) -> int:

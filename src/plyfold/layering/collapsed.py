@@ -129,7 +129,7 @@ def edge_collapsed_graph(immersion: Immersion, cell: int) -> CollapsedGraph:
     >>> ramp = find_immersion([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)])
     >>> graph = edge_collapsed_graph(ramp, cell=1)
     >>> [(node.sheet, node.borders) for node in graph.nodes], graph.edges
-    ([(1, (0, 6)), (0, (2, 4))], ((0, 1),))
+    ([(0, (0, 6)), (1, (2, 4))], ((0, 1),))
     """
     n_cells = immersion.arrangement.n_cells
     if not 0 <= cell < n_cells:

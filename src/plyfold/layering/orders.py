@@ -14,9 +14,10 @@ from itertools import combinations
 
 import numpy as np
 
+from plyfold.arrangement.base import visits_from_base
 from plyfold.arrays import Ints
 from plyfold.immersion import Immersion
-from plyfold.layering.layering import Layering
+from plyfold.layering.layering import Layering, meeting_sheets
 from plyfold.layering.sheet_pairs import PairGraph, chain_to_reverse, pair_graph, pair_of
 from plyfold.obstruction import Obstruction
 
@@ -124,18 +125,28 @@ def places_of_cells(immersion: Immersion, cells: Iterable[int]) -> tuple[tuple[f
 
 
 def _problem(immersion: Immersion, graph: PairGraph) -> OrderProblem:
-    literal = _literals(graph)
+    literal = _literals(immersion, graph)
     return OrderProblem(immersion, graph, literal, *_triples(immersion, graph, literal))
 
 
-def _literals(graph: PairGraph) -> Ints:
-    """Return a signed variable for each ordered pair, numbered without gaps."""
-    mirrored = graph.label[graph.reverse]
-    representative = np.minimum(graph.label, mirrored)
-    is_pair = graph.lower != graph.upper
-    literal = np.zeros(len(graph.label), dtype=np.int64)
-    literal[is_pair] = np.unique(representative[is_pair], return_inverse=True)[1] + 1
-    return np.where(graph.label == representative, literal, -literal)
+def _literals(immersion: Immersion, graph: PairGraph) -> Ints:
+    """Return a signed variable for each ordered pair, numbered without gaps.
+
+    The classes are numbered in the order in which the curve, from its base visit on, meets their sheets at a crossing,
+    and a variable is true if the strand that comes first passes over. So equal drawings get equal problems, and equal
+    solutions, wherever their lists of points begin.
+    """
+    representative = np.minimum(graph.label, graph.label[graph.reverse])
+    here, there = (sheets[visits_from_base(immersion.arrangement)] for sheets in meeting_sheets(immersion))
+    met = pair_of(immersion, graph.first_pair, there, here)
+    met_first = np.concatenate([met, np.flatnonzero(graph.lower != graph.upper)])
+    classes, place = np.unique(representative[met_first], return_index=True)
+    variable = np.zeros(len(graph.label), dtype=np.int64)
+    variable[classes[np.argsort(place)]] = 1 + np.arange(len(classes))
+    true = np.zeros(len(graph.label), dtype=np.int64)
+    true[classes] = graph.label[met_first[place]]
+    literal = variable[representative]
+    return np.where(graph.label == true[representative], literal, -literal)
 
 
 def _triples(immersion: Immersion, graph: PairGraph, literal: Ints) -> tuple[Ints, Ints]:
