@@ -209,7 +209,8 @@ def _refuse_points_without_room(pins: Pins, points: Floats, mesh: LiftedMesh, ro
 def _refuse_meeting_itself(worst: int, pins: Pins, points: Floats, mesh: LiftedMesh) -> None:
     """Raise InputError if all that is pinned over a vertex's point belongs to a single sheet."""
     there = np.flatnonzero((mesh.planar_vertex == mesh.planar_vertex[worst]) & pins.held)
-    sheets = [set(mesh.sheet[(mesh.faces == vertex).any(axis=1)].tolist()) for vertex in there]
+    loose = set(mesh.sheet[~pins.held[mesh.faces].all(axis=1)].tolist())
+    sheets = [set(mesh.sheet[(mesh.faces == vertex).any(axis=1)].tolist()) - loose for vertex in there]
     if set.intersection(*sheets):
         raise InputError(
             "a pinned sheet comes to lie over itself at a crossing, so it cannot be level",
