@@ -189,3 +189,21 @@ def test_interrupted_from_the_keyboard():
     points, mesh = glued(RAMP)
     with pytest.raises(KeyboardInterrupt):
         smooth_heights(points, mesh, 1.0, progress=interrupt)
+
+
+def heights_at(surface, points):
+    """The heights of all sheets over some points, from below."""
+    of_point = {}
+    for x, y, z in surface.vertices.tolist():
+        of_point.setdefault((x, y), []).append(z)
+    return np.array([z for point in map(tuple, points.tolist()) for z in sorted(of_point[point])])
+
+
+@pytest.mark.parametrize("name", ["exit-ramp", "pretzel", "stacked-spiral", "milnor"])
+@pytest.mark.parametrize("backward", [False, True])
+def test_the_starting_point_does_not_matter(name, backward):
+    points = np.array(CURVES[name].curve.points)
+    changed = np.roll(points, len(points) // 3, axis=0)[:: -1 if backward else 1]
+    first, second = lift(points, triangles=2000), lift(changed, triangles=2000)
+    difference = heights_at(first, points) - heights_at(second, points)
+    assert np.ptp(difference) < 0.05 * first.gap
