@@ -16,8 +16,9 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.curve import Curve, as_curve
+from plyfold.errors import InputError
 
-__all__ = ["CURVES", "NamedCurve", "chain", "ribbon", "rounded"]
+__all__ = ["CURVES", "NamedCurve", "chain", "named_curve", "ribbon", "rounded"]
 
 Points = npt.NDArray[np.float64]
 
@@ -281,3 +282,21 @@ CURVES: Mapping[str, NamedCurve] = {
         NamedCurve("seven-flaps", "one immersion, and no order of its sheets fits", _seven_flaps, 158, 1, 1, 0),
     )
 }
+
+
+def named_curve(name: str) -> NamedCurve:
+    """Return a curve of the gallery.
+
+    Raises
+    ------
+    InputError
+        If there is none of this name; it lists those there are.
+
+    Examples
+    --------
+    >>> named_curve("milnor").immersions
+    2
+    """
+    if name not in CURVES:
+        raise InputError(f"the gallery has no curve {name!r}", hint=f"it has {', '.join(CURVES)}")
+    return CURVES[name]

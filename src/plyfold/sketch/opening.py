@@ -114,7 +114,7 @@ def start(file: str | None) -> dict[str, Any]:
 
 def _started_with(file: str) -> Document:
     if file.startswith("gallery:"):
-        from plyfold.cli_gallery import named_curve
+        from plyfold.gallery import named_curve
 
         return _document_of(named_curve(file.removeprefix("gallery:")).curve)
     if file == "-":

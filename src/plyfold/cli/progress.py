@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 
-__all__ = ["Stopwatch", "clear_progress"]
+__all__ = ["Stopwatch", "clear_progress", "timing"]
 
 _CLEAR_LINE = "\r\x1b[K"
 
@@ -43,3 +43,8 @@ class Stopwatch:
             self.seconds[self._stage] = self.seconds.get(self._stage, 0.0) + now - self._since
             clear_progress()
         self._stage, self._since = "", now
+
+
+def timing(watch: Stopwatch) -> str:
+    """Return a line that tells how long each stage took."""
+    return "  seconds: " + ", ".join(f"{stage} {seconds:.3f}" for stage, seconds in watch.seconds.items())

@@ -10,7 +10,7 @@ from typing import Any
 from plyfold.errors import InputError
 from plyfold.io.saving import refuse_existing, refuse_output, save_bytes
 
-__all__ = ["add_gallery_command", "named_curve"]
+__all__ = ["add_gallery_command"]
 
 
 def add_gallery_command(commands: Any) -> None:
@@ -28,24 +28,17 @@ def add_gallery_command(commands: Any) -> None:
     gallery.add_argument("--force", action="store_true", help="replace existing files")
 
 
-def named_curve(name: str) -> Any:
-    """Return a curve of the gallery, or raise InputError with the names it has."""
-    from plyfold.gallery import CURVES
-
-    if name not in CURVES:
-        raise InputError(f"the gallery has no curve {name!r}", hint=f"it has {', '.join(CURVES)}")
-    return CURVES[name]
-
-
 def _gallery(options: argparse.Namespace) -> int:
     if options.all is not None:
         _save_gallery(options)
     elif options.name is None:
         _list_gallery(options)
     elif options.output is None:
+        from plyfold.gallery import named_curve
+
         print(_as_csv(named_curve(options.name).curve.points.tolist()), end="")
     else:
-        _savenamed_curve(options)
+        _save_curve(options)
     return 0
 
 
@@ -60,7 +53,9 @@ def _list_gallery(options: argparse.Namespace) -> None:
         print(f"{curve.name:<18}{figures}  {curve.title}")
 
 
-def _savenamed_curve(options: argparse.Namespace) -> None:
+def _save_curve(options: argparse.Namespace) -> None:
+    from plyfold.gallery import named_curve
+
     points = named_curve(options.name).curve.points.tolist()
     writers = {".csv": _as_csv, ".json": _as_json, ".svg": _as_svg}
     refuse_output(options.output, tuple(writers), options.force)

@@ -1,0 +1,5 @@
+"""The command line: a room for each subcommand. The library does the work; only these modules print."""
+
+from plyfold.cli.commands import main
+
+__all__ = ["main"]

@@ -1,0 +1,116 @@
+"""The command line: which subcommand runs, and what its errors mean to the shell."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+
+from plyfold import __version__
+from plyfold.cli.check import add_check_command
+from plyfold.cli.draw import add_draw_command
+from plyfold.cli.flat import add_flat_commands
+from plyfold.cli.gallery import add_gallery_command
+from plyfold.cli.inputs import NO_DISK
+from plyfold.cli.lift import add_lift_command
+from plyfold.cli.progress import clear_progress
+from plyfold.cli.sketch import add_sketch_command
+from plyfold.errors import NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
+
+__all__ = ["main"]
+
+BAD_INPUT, UNKNOWN, INTERRUPTED, BROKEN_PIPE = 2, 3, 130, 141
+
+_COMMANDS = (
+    add_check_command,
+    add_lift_command,
+    add_draw_command,
+    add_flat_commands,
+    add_gallery_command,
+    add_sketch_command,
+)
+
+_GUIDE = """\
+examples:
+  plyfold check loop.svg                     is it the outline of a disk of cloth? in how many ways?
+  plyfold check loop.svg --json              the same for a program
+  plyfold lift loop.svg -o loop.html         the layered surface, as a 3D page for any browser
+  plyfold lift loop.csv -o a.glb -o a.obj    as meshes; the ending chooses the format
+  plyfold draw loop.svg -o loop.png          cells, disk layout, layers and surface in one picture
+  plyfold split loop.svg -o pieces.geojson   simple polygons that cover the disk once
+  plyfold word loop.svg                      Blank's word and its groupings
+  plyfold gallery                            named curves to begin with
+  plyfold sketch                             draw in the browser, and see at once how it lies
+  plyfold lift gallery:exit-ramp -o ramp.glb
+
+FILE is an SVG, CSV, TXT, NPY, JSON, WKT or GeoJSON file, "-" for standard input, or gallery:NAME.
+
+exit codes: 0 a disk (or written), 1 no disk or not to be lifted, 2 bad input,
+3 unknown whether it can be lifted (lift, draw: time limit), 130 interrupted
+"""
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command line.
+
+    Parameters
+    ----------
+    arguments : list of str, optional
+        The words after ``plyfold``; those of the process by default.
+
+    Returns
+    -------
+    int
+        The exit code.
+
+    Examples
+    --------
+    >>> main(["gallery", "circle", "-o", "no/such/folder/circle.csv"])
+    2
+    """
+    options = _parser().parse_args(arguments)
+    try:
+        code = int(options.run(options))
+        print(end="", flush=True)
+        return code
+    except (NotImmersibleError, NotEmbeddableError) as error:
+        return _complain(options, error, NO_DISK)
+    except TimeLimitError as error:
+        return _complain(options, error, UNKNOWN)
+    except BrokenPipeError:
+        # The reader has gone; give the interpreter somewhere to flush to.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return BROKEN_PIPE
+    except (PlyfoldError, OSError, MemoryError) as error:
+        return _complain(options, error, BAD_INPUT)
+    except KeyboardInterrupt:
+        clear_progress()
+        print("plyfold: interrupted; nothing was left half-written", file=sys.stderr)
+        return INTERRUPTED
+
+
+def _complain(options: argparse.Namespace, error: Exception, code: int) -> int:
+    clear_progress()
+    message = str(error) or type(error).__name__
+    if getattr(options, "json", False):
+        where = [list(place) for place in getattr(error, "where", ())]
+        short = getattr(error, "message", message)
+        print(json.dumps({"error": short, "where": where, "hint": getattr(error, "hint", "")}))
+    else:
+        print(f"plyfold: {message}", file=sys.stderr)
+    return code
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="plyfold",
+        description="Closed curves that cross themselves: are they outlines of disks of cloth, and how do these lie?",
+        epilog=_GUIDE,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="version", version=f"plyfold {__version__}")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    for add in _COMMANDS:
+        add(commands)
+    return parser

@@ -1,0 +1,110 @@
+"""``plyfold draw``: a picture of every stage, and over/under drawings."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from plyfold.cli.inputs import DISK, NO_DISK, add_command, add_outputs, add_time_limit, prepare, write_texts
+from plyfold.cli.progress import Stopwatch
+from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError
+
+if TYPE_CHECKING:
+    from plyfold.arrangement import Arrangement
+
+__all__ = ["add_draw_command"]
+
+
+def add_draw_command(commands: Any) -> None:
+    """Add the subcommand to a parser."""
+    draw = add_command(commands, "draw", _draw, "draw the arrangement, the disk layout, the layers and the surface")
+    add_time_limit(draw)
+    add_outputs(draw, ".svg .png .pdf; of the view over-under .svg .tikz .tex")
+    draw.add_argument(
+        "--what",
+        choices=["all", "arrangement", "layout", "layers", "surface", "over-under"],
+        default="all",
+        help="one panel only, or the surface from above with what is hidden removed",
+    )
+    draw.add_argument(
+        "--hidden",
+        choices=["removed", "dashed"],
+        default="removed",
+        help="over-under: what is covered (default: %(default)s)",
+    )
+    draw.add_argument(
+        "--colours",
+        choices=["cloth", "layers", "sheets"],
+        default="cloth",
+        help="over-under: of what (default: %(default)s)",
+    )
+
+
+def _draw(options: argparse.Namespace) -> int:
+    if options.what == "over-under":
+        return _draw_over_under(options)
+    from plyfold.draw.figures import save
+
+    watch = Stopwatch()
+    arranged = prepare(options, (".svg", ".png", ".pdf"), watch)
+    value, obstruction = _furthest(arranged, options, watch)
+    watch("drawing")
+    figure = _figure(value, obstruction, options.what)
+    for path in options.output:
+        save(figure, path, options.force)
+    watch.stop()
+    if obstruction is not None:
+        print(f"plyfold: {obstruction}", file=sys.stderr)
+    for path in options.output:
+        print(f"wrote {path}")
+    return DISK if obstruction is None else NO_DISK
+
+
+def _draw_over_under(options: argparse.Namespace) -> int:
+    from plyfold.draw.over_under_files import OVER_UNDER_WRITERS
+    from plyfold.surface.surface import layering_of
+
+    watch = Stopwatch()
+    arranged = prepare(options, tuple(OVER_UNDER_WRITERS), watch)
+    layering = layering_of(arranged, False, options.time_limit, watch)
+    watch.stop()
+    choices = {"colours": options.colours, "hidden": options.hidden}
+    write_texts(options, {ending: partial(write, layering, **choices) for ending, write in OVER_UNDER_WRITERS.items()})
+    return DISK
+
+
+def _furthest(arranged: Arrangement, options: argparse.Namespace, watch: Stopwatch) -> tuple[Any, Any]:
+    """Return the furthest stage that the curve reaches, and the obstruction that ended it."""
+    from plyfold.immersion import find_immersion
+    from plyfold.surface import lift
+
+    try:
+        return lift(arranged, time_limit=options.time_limit, progress=watch), None
+    except NotEmbeddableError as error:
+        return find_immersion(arranged), error.obstruction
+    except NotImmersibleError as error:
+        return arranged, error.obstruction
+
+
+def _figure(value: Any, obstruction: Any, what: str) -> Any:
+    from plyfold import draw
+    from plyfold.draw.figures import overview
+
+    if what == "all":
+        return overview(value, obstruction)
+    layering = getattr(value, "layering", None)
+    immersion = getattr(layering, "immersion", value)
+    panels: dict[str, tuple[Any, Callable[..., Any]]] = {
+        "arrangement": (getattr(immersion, "arrangement", immersion), draw.plot_arrangement),
+        "layout": (immersion if hasattr(immersion, "disk_layout") else None, draw.plot_layout),
+        "layers": (layering, draw.plot_layers),
+        "surface": (value if layering is not None else None, draw.plot_surface),
+    }
+    subject, plot = panels[what]
+    if subject is None:
+        raise InputError(f"this curve has no {what} to draw: {obstruction}")
+    ax = plot(subject, obstruction=obstruction) if what == "arrangement" else plot(subject)
+    return ax.figure

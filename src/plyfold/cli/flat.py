@@ -1,0 +1,78 @@
+"""What lies flat: ``plyfold split``, ``plyfold triangulate`` and ``plyfold word``."""
+
+from __future__ import annotations
+
+import argparse
+from functools import partial
+from typing import Any
+
+from plyfold.cli.inputs import DISK, NO_DISK, add_command, add_outputs, prepare, read_arrangement, write_texts
+from plyfold.cli.progress import Stopwatch
+
+__all__ = ["add_flat_commands"]
+
+
+def add_flat_commands(commands: Any) -> None:
+    """Add the subcommands to a parser."""
+    split = add_command(commands, "split", _split, "cut a disk into simple polygons, or any curve into its cells")
+    add_outputs(split, ".geojson .wkt .svg")
+    split.add_argument(
+        "--cells", action="store_true", help="the cells with their winding numbers, of a curve that need be no disk"
+    )
+    triangles = add_command(
+        commands, "triangulate", _triangulate, "cut a disk into triangles on the points of the curve"
+    )
+    add_outputs(triangles, ".obj .csv")
+    add_command(commands, "word", _word, "print Blank's word of a curve, and its groupings").add_argument(
+        "--most", type=int, default=20, help="how many groupings to print (default: %(default)s)"
+    )
+
+
+def _split(options: argparse.Namespace) -> int:
+    from plyfold.flat import coverage, decompose
+    from plyfold.io.pieces import POLYGON_WRITERS
+
+    watch = Stopwatch()
+    arranged = prepare(options, tuple(POLYGON_WRITERS), watch)
+    watch("cutting")
+    if options.cells:
+        cells = coverage(arranged)
+        polygons, told = [cell.polygon for cell in cells], [{"winding": cell.winding} for cell in cells]
+    else:
+        polygons = decompose(arranged)
+        told = [{"piece": number} for number in range(len(polygons))]
+    watch.stop()
+    print(f"{len(polygons)} {'cell(s)' if options.cells else 'simple polygon(s)'}")
+    write_texts(options, {ending: partial(write, polygons, told) for ending, write in POLYGON_WRITERS.items()})
+    return DISK
+
+
+def _triangulate(options: argparse.Namespace) -> int:
+    from plyfold.curve import as_curve
+    from plyfold.flat import triangulate
+    from plyfold.io.pieces import TRIANGLE_WRITERS
+
+    watch = Stopwatch()
+    arranged = prepare(options, tuple(TRIANGLE_WRITERS), watch)
+    watch("triangulating")
+    faces = triangulate(arranged)
+    watch.stop()
+    drawn = as_curve(arranged)
+    points = (drawn.reversed() if arranged.reversed else drawn).points
+    print(f"{len(faces):,} triangles")
+    write_texts(options, {ending: partial(write, points, faces) for ending, write in TRIANGLE_WRITERS.items()})
+    return DISK
+
+
+def _word(options: argparse.Namespace) -> int:
+    from itertools import islice
+
+    from plyfold.immersion import blank_word
+
+    word = blank_word(read_arrangement(options, watch := Stopwatch()))
+    watch.stop()
+    print(word)
+    groupings = word.groupings()
+    shown = [word.bracketed(grouping) for grouping in islice(groupings, max(options.most, 0))]
+    print(f"\n{len(shown)}{' or more' if next(groupings, None) else ''} grouping(s)", *shown, sep="\n  ")
+    return DISK if shown else NO_DISK

@@ -1,0 +1,103 @@
+"""What the subcommands have in common: the drawing they read, the files they write, and how they end."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from plyfold.cli.progress import Stopwatch
+from plyfold.io.saving import refuse_output, save_bytes
+
+if TYPE_CHECKING:
+    from plyfold.arrangement import Arrangement
+
+__all__ = [
+    "DISK",
+    "NO_DISK",
+    "add_command",
+    "add_outputs",
+    "add_time_limit",
+    "prepare",
+    "read_arrangement",
+    "title",
+    "write_texts",
+]
+
+# Exit codes.
+DISK, NO_DISK = 0, 1
+
+
+def add_command(commands: Any, name: str, run: Callable[..., int], summary: str) -> argparse.ArgumentParser:
+    """Add a subcommand that reads a drawing, with the options for reading it."""
+    command: argparse.ArgumentParser = commands.add_parser(
+        name, help=summary, description=summary[0].upper() + summary[1:] + "."
+    )
+    command.set_defaults(run=run)
+    command.add_argument("file", metavar="FILE", help='a drawing, "-" for standard input, or gallery:NAME')
+    command.add_argument("--id", help="the element of an SVG to read")
+    command.add_argument("--tolerance", type=float, help="how far a Bézier or arc may be from its polyline")
+    command.add_argument(
+        "--general-position",
+        choices=["perturb", "raise"],
+        default="perturb",
+        help="where strands touch: move vertices a little and say so, or refuse (default: %(default)s)",
+    )
+    return command
+
+
+def add_time_limit(command: argparse.ArgumentParser) -> None:
+    """Give a subcommand the option ``--time-limit``."""
+    command.add_argument(
+        "--time-limit", type=_seconds, metavar="S", help="seconds for the search for a layering; then it is unknown"
+    )
+
+
+def _seconds(text: str) -> float:
+    seconds = float(text)
+    if not seconds >= 0:
+        raise argparse.ArgumentTypeError(f"{text} is not a number of seconds from 0 on")
+    return seconds
+
+
+def add_outputs(command: argparse.ArgumentParser, endings: str) -> None:
+    """Give a subcommand the options ``-o``, of which there must be one, and ``--force``."""
+    command.add_argument("-o", "--output", action="append", required=True, metavar="OUT", help=f"one of {endings}")
+    command.add_argument("--force", action="store_true", help="replace existing files")
+
+
+def read_arrangement(options: argparse.Namespace, watch: Stopwatch) -> Arrangement:
+    """Return the arrangement of the drawing that is named."""
+    from plyfold.arrangement import arrangement
+    from plyfold.io import read
+
+    watch("reading")
+    if options.file.startswith("gallery:"):
+        from plyfold.gallery import named_curve
+
+        curve = named_curve(options.file.removeprefix("gallery:")).curve
+    else:
+        curve = read(options.file, id=options.id, tolerance=options.tolerance)
+    watch("finding the crossings")
+    return arrangement(curve, options.general_position)
+
+
+def prepare(options: argparse.Namespace, endings: tuple[str, ...], watch: Stopwatch) -> Arrangement:
+    """Refuse outputs that cannot be written, then read the input."""
+    options.output = list(dict.fromkeys(options.output))
+    for path in options.output:
+        refuse_output(path, endings, options.force)
+    return read_arrangement(options, watch)
+
+
+def write_texts(options: argparse.Namespace, content: dict[str, Callable[[], str]]) -> None:
+    """Write the outputs, each by its ending, and say so."""
+    for path in options.output:
+        save_bytes(path, content[Path(path).suffix.lower()]().encode(), options.force)
+        print(f"  wrote {path}")
+
+
+def title(file: str) -> str:
+    """Return what a picture or page of a drawing is called."""
+    return "plyfold" if file == "-" else Path(file.removeprefix("gallery:")).stem
