@@ -39,6 +39,7 @@ examples:
   plyfold lift loop.csv -o a.glb -o a.obj    as meshes; the ending chooses the format
   plyfold draw loop.svg -o loop.png          cells, disk layout, layers and surface in one picture
   plyfold split loop.svg -o pieces.geojson   simple polygons that cover the disk once
+  plyfold unwrap loop.svg -o loop.obj        texture coordinates: the disk one-to-one onto the round one
   plyfold word loop.svg                      Blank's word and its groupings
   plyfold gallery                            named curves to begin with
   plyfold sketch                             draw in the browser, and see at once how it lies

@@ -1,4 +1,4 @@
-"""What lies flat: ``plyfold split``, ``plyfold triangulate`` and ``plyfold word``."""
+"""What lies flat: ``plyfold split``, ``plyfold triangulate``, ``plyfold unwrap`` and ``plyfold word``."""
 
 from __future__ import annotations
 
@@ -23,6 +23,12 @@ def add_flat_commands(commands: Any) -> None:
         commands, "triangulate", _triangulate, "cut a disk into triangles on the points of the curve"
     )
     add_outputs(triangles, ".obj .csv")
+    unwrap = add_command(commands, "unwrap", _unwrap, "map a disk one-to-one onto the round disk: texture coordinates")
+    add_outputs(unwrap, ".obj .ply .glb")
+    unwrap.add_argument(
+        "--immersion", type=int, default=0, metavar="N", help="which of several, from 0 (the default) on"
+    )
+    unwrap.add_argument("--triangles", type=int, default=4000, help="roughly how many triangles (default: %(default)s)")
     add_command(commands, "word", _word, "print Blank's word of a curve, and its groupings").add_argument(
         "--most", type=int, default=20, help="how many groupings to print (default: %(default)s)"
     )
@@ -61,6 +67,28 @@ def _triangulate(options: argparse.Namespace) -> int:
     points = (drawn.reversed() if arranged.reversed else drawn).points
     print(f"{len(faces):,} triangles")
     write_texts(options, {ending: partial(write, points, faces) for ending, write in TRIANGLE_WRITERS.items()})
+    return DISK
+
+
+def _unwrap(options: argparse.Namespace) -> int:
+    from plyfold.immersion import find_immersion, nth_immersion
+    from plyfold.surface.unwrap import DISK_ENDINGS, unwrap
+
+    watch = Stopwatch()
+    arranged = prepare(options, DISK_ENDINGS, watch)
+    watch("finding the immersion")
+    found = find_immersion(arranged)
+    if found and options.immersion != 0:
+        found = nth_immersion(arranged, options.immersion)
+    watch("unwinding")
+    unwound = unwrap(found or arranged, triangles=options.triangles)
+    watch("writing")
+    for path in options.output:
+        unwound.export(path, options.force)
+    watch.stop()
+    print(f"{len(unwound.faces):,} triangles in {unwound.immersion.n_sheets} sheets, none of them flipped in the disk")
+    for path in options.output:
+        print(f"  wrote {path}")
     return DISK
 
 

@@ -12,8 +12,10 @@ References
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -36,7 +38,10 @@ if TYPE_CHECKING:
     from plyfold.surface.lookup import Missing
     from plyfold.surface.surface import Surface
 
-__all__ = ["UnwoundDisk", "map_disk", "unwrap"]
+__all__ = ["DISK_ENDINGS", "UnwoundDisk", "map_disk", "unwrap"]
+
+# The files that hold texture coordinates.
+DISK_ENDINGS = (".obj", ".ply", ".glb")
 
 # How far beyond the circle a point may be by rounding.
 _ROUNDING = 4e-16
@@ -202,6 +207,34 @@ class UnwoundDisk:
         there = np.full(wanted.shape, np.nan)
         there[found] = places.of(self.disk, self.faces)
         return there
+
+    def export(self, path: str | os.PathLike[str], force: bool = False) -> None:
+        """Write the disk flat on the table to a file, with its places in the round disk as texture coordinates.
+
+        Parameters
+        ----------
+        path : path
+            The ending chooses the format: ``.obj`` and ``.ply`` have vertices, triangles and texture coordinates in
+            double precision; ``.glb`` has the round disk as a morph target, too, and an animation that unwinds it.
+            Sheets have names and colours, in an ``.mtl`` file beside an OBJ.
+        force : bool
+            Replace existing files.
+
+        Raises
+        ------
+        InputError
+            If the ending is none of these.
+        FileExistsError
+            If a file exists and ``force`` is not set.
+        """
+        from plyfold.surface.files import model_of_disk, save_model
+
+        if Path(path).suffix.lower() not in DISK_ENDINGS:
+            raise InputError(
+                f"{Path(path).name}: a disk with texture coordinates cannot be written so",
+                hint=f"use one of {' '.join(DISK_ENDINGS)}",
+            )
+        save_model(lambda: model_of_disk(self), path, force)
 
     def check(self) -> None:
         """Prove with the independent checkers of :mod:`plyfold.certify` that the map is one-to-one.

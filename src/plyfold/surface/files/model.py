@@ -16,8 +16,18 @@ from plyfold.surface.animation import Motion
 if TYPE_CHECKING:
     from plyfold.surface.surface import Surface
     from plyfold.surface.thicken import Solid
+    from plyfold.surface.unwrap import UnwoundDisk
 
-__all__ = ["Colouring", "Material", "Model", "model_of_solid", "model_of_surface", "single_precision", "vertex_normals"]
+__all__ = [
+    "Colouring",
+    "Material",
+    "Model",
+    "model_of_disk",
+    "model_of_solid",
+    "model_of_surface",
+    "single_precision",
+    "vertex_normals",
+]
 
 Colouring: TypeAlias = Literal["layers", "sheets"]
 
@@ -123,6 +133,31 @@ def model_of_surface(surface: Surface, colours: Colouring = "layers", unwrapped:
     )
 
 
+def model_of_disk(unwound: UnwoundDisk) -> Model:
+    """Return the model of an immersed disk flat on the table, a material for each sheet; its shapes lead to the disk.
+
+    Examples
+    --------
+    >>> from plyfold import unwrap
+    >>> list(model_of_disk(unwrap([(0, 0), (1, 0), (0, 1)], max_area=1.0)).shapes)
+    ['unwinding 1', 'unwinding 2', 'unwinding 3', 'disk']
+    """
+    from plyfold.draw.colours import sheet_colour
+
+    flat, *others = _shapes(unwound).items()
+    return Model(
+        vertices=flat[1],
+        faces=unwound.faces,
+        material=unwound.sheet,
+        materials=tuple(Material(f"sheet_{i}", sheet_colour(i)) for i in range(unwound.immersion.n_sheets)),
+        smooth=np.zeros(len(unwound.faces), dtype=np.int64),
+        closed=False,
+        detail=_DETAIL * _size(unwound.plane),
+        uv=unwound.uv,
+        shapes=dict(others),
+    )
+
+
 def model_of_solid(solid: Solid, colours: Colouring = "layers", unwrapped: bool | None = None) -> Model:
     """Return the model of a solid; see :func:`model_of_surface`. Its walls are not smoothed."""
     surface = solid.surface
@@ -188,13 +223,18 @@ def _unwrapped(surface: Surface, wanted: bool | None) -> tuple[Floats | None, di
         if wanted:
             raise
         return None, {}
+    return unwound.uv, _shapes(unwound)
+
+
+def _shapes(unwound: UnwoundDisk) -> dict[str, Floats]:
+    """Return the disk flat on the table, on its way to be round, and round."""
     motion = Motion(unwound)
-    if len(surface.vertices) < _MANY_VERTICES:
+    if len(unwound.plane) < _MANY_VERTICES:
         drawn, *between, disk = motion.shapes(_MOST_SHAPES)
     else:
         drawn, between, disk = unwound.plane, [], motion.disk
     named = {"flat": drawn, **{f"unwinding {number + 1}": shape for number, shape in enumerate(between)}, "disk": disk}
-    return unwound.uv, {name: np.pad(shape, ((0, 0), (0, 1))) for name, shape in named.items()}
+    return {name: np.pad(shape, ((0, 0), (0, 1))) for name, shape in named.items()}
 
 
 def _refuse_colouring(colours: str) -> None:
