@@ -10,6 +10,7 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import InputError, PrecisionError
+from plyfold.flat.chains import left_of_chain, split_chain
 from plyfold.flat.constrained import (
     ENCLOSING,
     Outline,
@@ -20,6 +21,7 @@ from plyfold.flat.constrained import (
     planar_mesh,
     too_close,
 )
+from plyfold.flat.mend import FREE, GIVEN, Edged, mend_angles
 from plyfold.flat.refine import Size, refine, split_points, usual_area
 from plyfold.predicates import orient
 
@@ -41,6 +43,8 @@ DEFAULT_TRIANGLES = 4000
 MOST_TRIANGLES = 10_000_000
 # No edge shorter than so many roundings is split: points on it would not lie well enough on a line.
 _FINEST = (2.0**10, 2.0**24)
+# Angles outside thin strips may take so many triangles more, as a share of those that were asked for, or there are.
+_MENDING = 0.28
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +130,9 @@ def triangulate_cells(
         for finest in _FINEST:
             # Added points are rounded too, and may not fit where the cells are as thin as rounding errors.
             with suppress(PrecisionError):
-                return _verified(arrangement, _refined(arrangement, outline, size, finest * outline.rounding))
+                shortest = finest * outline.rounding
+                refined = _verified(arrangement, _refined(arrangement, outline, size, shortest))
+                return _mended(arrangement, outline, refined, size, shortest)
     return _verified(arrangement, _plain(outline))
 
 
@@ -172,18 +178,45 @@ def _refined(arrangement: Arrangement, outline: Outline, size: Size, finest: flo
     unit_points = np.stack([corners["x"], corners["y"]], axis=1)
     points = outline.centre + unit_points * outline.scale
     points[: len(outline.points)] = outline.points
-    return planar_mesh(library, points, *_split_chain(outline, unit_points, split_points(library, outline)))
+    return planar_mesh(library, points, *split_chain(outline, unit_points, split_points(library, outline)))
 
 
-def _split_chain(outline: Outline, unit_points: Floats, added: Ints) -> tuple[Ints, Ints]:
-    """Return the chain along the curve with the points that refinement has put on it, and the borders."""
-    starts, ends = outline.chain, np.roll(outline.chain, -1)
-    piece, vertex = added.T
-    direction = unit_points[ends[piece]] - unit_points[starts[piece]]
-    advance = ((unit_points[vertex] - unit_points[starts[piece]]) * direction).sum(axis=1)
-    every_piece = np.concatenate([np.arange(len(starts)), piece])
-    order = np.lexsort((np.concatenate([np.full(len(starts), -np.inf), advance]), every_piece))
-    return np.concatenate([starts, vertex])[order], outline.chain_border[every_piece[order]]
+def _mended(
+    arrangement: Arrangement, outline: Outline, mesh: CellTriangulation, size: Size, finest: float
+) -> CellTriangulation:
+    """Mend triangles with sharp angles outside thin strips, if it does not take many more triangles."""
+    winding = arrangement.winding[mesh.cell]
+    more = max((1 + _MENDING) * size.wanted - winding.sum(), _MENDING * winding.sum())
+    most = int(more / (2 * winding.mean()))
+    mended = mend_angles(_edged(outline, mesh), (outline.chain, np.roll(outline.chain, -1)), most, finest)
+    if mended is None:
+        return mesh
+    unit_points = np.stack([mended.x, mended.y], axis=1)
+    points = outline.centre + unit_points * outline.scale
+    points[: len(mesh.points)] = mesh.points
+    triangles = mended.start.reshape(-1, 3)
+    if (orient(*points[triangles].swapaxes(0, 1)) <= 0).any():
+        return mesh
+    added = np.flatnonzero(mended.on >= 0)
+    chain, chain_border = split_chain(outline, unit_points, np.stack([mended.on[added], added], axis=1))
+    left = left_of_chain(triangles, chain)
+    return CellTriangulation(points, triangles, mended.beyond, mended.cell, chain, chain_border, left)
+
+
+def _edged(outline: Outline, mesh: CellTriangulation) -> Edged:
+    """Return triangles in the unit square, with the pieces of the outline that points and half-edges are on."""
+    known = len(outline.points)
+    piece_of_chain = np.cumsum(mesh.chain < known) - 1
+    on = np.full(len(mesh.points), FREE)
+    on[mesh.chain] = piece_of_chain
+    on[:known] = GIVEN
+    piece = np.full(len(mesh.twin), -1)
+    covered = mesh.left >= 0
+    right = mesh.twin[mesh.left[covered]]
+    piece[mesh.left[covered]] = piece_of_chain[covered]
+    piece[right[right >= 0]] = piece_of_chain[covered][right >= 0]
+    x, y = ((mesh.points - outline.centre) / outline.scale).T.copy()
+    return Edged(x, y, on, mesh.triangles.ravel(), mesh.twin, piece, mesh.cell)
 
 
 def _verified(arrangement: Arrangement, mesh: PlanarMesh) -> CellTriangulation:
@@ -208,7 +241,7 @@ def _cells(arrangement: Arrangement, mesh: PlanarMesh) -> tuple[Ints, Ints]:
     every component of triangles has only the borders of one cell on its sides, the right way round, and every cell
     only one component, the drawing is the exact one.
     """
-    left = _left_of_chain(mesh)
+    left = left_of_chain(mesh.triangles, mesh.chain)
     if len(missing := np.flatnonzero(left < 0)):
         raise too_close(mesh.points[mesh.chain[missing]])
     right = mesh.twin[left]
@@ -223,20 +256,6 @@ def _cells(arrangement: Arrangement, mesh: PlanarMesh) -> tuple[Ints, Ints]:
     if wrong.any() or (cell_of_component < 0).any():
         raise too_close(mesh.points[np.concatenate([mesh.chain, mesh.chain])[wrong]])
     return np.asarray(cell_of_component[component]), left
-
-
-def _left_of_chain(mesh: PlanarMesh) -> Ints:
-    """Return the half-edge along each piece of the chain; a point is the start of at most two pieces."""
-    start, end = mesh.triangles.ravel(), mesh.triangles[:, [1, 2, 0]].ravel()
-    pieces = np.arange(len(mesh.chain))
-    left = np.full(len(pieces), -1)
-    for order in (pieces, pieces[::-1]):
-        piece_from, next_point = np.full((2, len(mesh.points)), -1)
-        piece_from[mesh.chain[order]] = order
-        next_point[mesh.chain[order]] = np.roll(mesh.chain, -1)[order]
-        along = np.flatnonzero(next_point[start] == end)
-        left[piece_from[start[along]]] = along
-    return left
 
 
 def _components(mesh: PlanarMesh, left: Ints, right: Ints) -> Ints:

@@ -33,8 +33,12 @@ _MOST_GROWTH = 3
 _FIRST_LENGTH = 0.5
 # The shortest length becomes shorter by this factor, step by step.
 _STEP = 4.0
+# A length a little below a side lets it be split.
+_BELOW = 0.99
 # A step is not worth trying if there are fewer points for each bad triangle.
 _FEWEST_POINTS = 2.0
+# So much of the number asked for is there for the size at least; the rest may be needed to mend bad triangles.
+_LEAST_SHARE = 0.75
 # Where all angles are good, splitting large triangles may need edges this many times shorter to keep them so.
 _FINER = 16.0
 _MOST_POINTS = 20_000_000
@@ -103,12 +107,14 @@ def refine(library: Any, outline: Outline, winding: Ints, size: Size, finest: fl
     fewest = int(winding[winding > 0].sum())
     layers = max(1, fewest) / max(1, int((winding > 0).sum()))
     # A planar point more makes two planar triangles more.
-    affordable = (max(size.wanted, _MOST_GROWTH * fewest) - fewest) / (2 * layers)
+    usual = (max(size.wanted, _MOST_GROWTH * fewest) - fewest) / (2 * layers)
+    budget = _Budget(usual, max(usual, (size.wanted - fewest / layers) / 2))
     first = float(_FIRST_LENGTH * np.sqrt(outline.covered / size.wanted))
-    reached = _good_angles(covered, max(first, finest), finest, affordable)
-    if reached.unaffordable:
+    reached = _good_angles(covered, max(first, finest), finest, budget)
+    if reached.unfinished:
         return reached.shortest
-    most = _even_area(covered, size.wanted) if size.most is None else size.most
+    left = max(size.wanted - 2 * layers * reached.bad, _LEAST_SHARE * size.wanted)
+    most = _even_area(covered, left) if size.most is None else size.most
     if most > 0:
         shortest = reached.shortest if reached.bad else reached.shortest / _FINER
         limit = int(size.wanted) + library.vertices_count()
@@ -117,28 +123,54 @@ def refine(library: Any, outline: Outline, winding: Ints, size: Size, finest: fl
     return finest
 
 
+class _Budget(NamedTuple):
+    """How many points good angles may take as a rule, and how many if that makes all angles good.
+
+    Then there may be as many triangles in the plane as were asked for, whatever number lies over each other.
+    """
+
+    usual: float
+    luxury: float
+
+
 class _Reached(NamedTuple):
     """The length below which no edge was split, and how many bad triangles are left.
 
-    Or, if there were not points enough, a length with which there may be.
+    If unfinished, all is to be made again with this length: there are too many points or bad triangles.
     """
 
     shortest: float
     bad: int
-    unaffordable: bool
+    unfinished: bool
 
 
-def _good_angles(covered: _Covered, shortest: float, finest: float, affordable: float) -> _Reached:
-    """Split triangles with sharp angles, down to a shortest length that becomes shorter step by step."""
+def _good_angles(covered: _Covered, shortest: float, finest: float, budget: _Budget) -> _Reached:
+    """Split triangles with sharp angles, down to a shortest length that becomes shorter step by step.
+
+    In a strip too thin, steps make ever more bad triangles. So those count that leave half as many, or none.
+    """
+    taken, best, fewest = 0, _STEP * shortest, np.inf
     while True:
-        added = covered.improve_angles(shortest, int(affordable) + 1)
-        if added > affordable:
-            return _Reached(_STEP * shortest, 0, unaffordable=True)
-        affordable -= added
-        bad = _bad_triangles(covered)
-        if not bad or shortest <= finest or affordable < _FEWEST_POINTS * bad:
-            return _Reached(shortest, bad, unaffordable=False)
-        shortest = max(shortest / _STEP, finest)
+        added = covered.improve_angles(shortest, int(budget.luxury - taken) + 1)
+        taken += added
+        if taken > budget.luxury:
+            return _Reached(best, 0, unfinished=True)
+        sides = _bad_sides(covered)
+        bad = len(sides)
+        if not bad or (bad <= fewest / 2 and taken <= budget.usual):
+            best, fewest = shortest, bad
+        finer = _finer(shortest, sides, added)
+        if not bad or finer < finest or budget.luxury - taken < _FEWEST_POINTS * bad:
+            return _Reached(best, bad, unfinished=best > shortest)
+        shortest = finer
+
+
+def _finer(shortest: float, sides: Floats, added: int) -> float:
+    """Return the next length to try: steps that would change nothing are left out, and 0 means that all would."""
+    if added or not len(sides):
+        return shortest / _STEP
+    below = sides[sides <= shortest]
+    return min(shortest / _STEP, float(below.max()) * _BELOW) if len(below) else 0.0
 
 
 def _corners(library: Any, triangles: Ints) -> tuple[Ints, Floats]:
@@ -149,24 +181,27 @@ def _corners(library: Any, triangles: Ints) -> tuple[Ints, Floats]:
     return numbers, np.roll(points, -ENCLOSING, axis=0)
 
 
-def _bad_triangles(covered: _Covered) -> int:
-    """Return how many triangles have sharp angles, other than those that a sharp corner of the drawing makes."""
+def _bad_sides(covered: _Covered) -> Floats:
+    """Return the shortest sides of triangles with sharp angles that no sharp corner of the drawing makes."""
     import pythoncdt as cdt
 
     threshold = float(np.radians(_SMALLEST_ANGLE))
     found = covered.library.find_unrefined_triangles(cdt.RefinementCriterion.SMALLEST_ANGLE, threshold)
     found = [number for number in found if number not in covered.uncovered]
     if not found:
-        return 0
+        return np.zeros(0)
     triangles, points = _corners(covered.library, np.array(found))
     sides = points[np.roll(triangles, -1, axis=1)] - points[triangles]
-    side = np.hypot(*sides.transpose(2, 0, 1)).argmin(axis=1)
+    lengths = np.hypot(*sides.transpose(2, 0, 1))
+    side = lengths.argmin(axis=1)
     row = np.arange(len(found))
     ends = np.stack([triangles[row, side], triangles[row, (side + 1) % 3]], axis=1)
     beside = _neighbours_on_curve(covered.library, covered.outline)
     known = len(covered.outline.points)
-    apart = [(u, v) for u, v in ends.tolist() if not _on_one_piece(known, u, v, beside)]
-    return len(found) - sum(_across_sharp_corner(points, u, v, beside) for u, v in apart)
+    across = [
+        not _on_one_piece(known, u, v, beside) and _across_sharp_corner(points, u, v, beside) for u, v in ends.tolist()
+    ]
+    return np.asarray(lengths[row, side][~np.array(across)])
 
 
 def _neighbours_on_curve(library: Any, outline: Outline) -> dict[int, set[int]]:
