@@ -10,6 +10,7 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import InputError, PrecisionError
+from plyfold.flat.cavity import FREE, GIVEN, Edged
 from plyfold.flat.chains import left_of_chain, split_chain
 from plyfold.flat.constrained import (
     ENCLOSING,
@@ -21,7 +22,7 @@ from plyfold.flat.constrained import (
     planar_mesh,
     too_close,
 )
-from plyfold.flat.mend import FREE, GIVEN, Edged, mend_angles
+from plyfold.flat.mend import mend_angles
 from plyfold.flat.refine import Size, refine, split_points, usual_area
 from plyfold.predicates import orient
 
