@@ -1,39 +1,28 @@
 // What must not change while a drawing is smoothed or its points are moved: which strands cross which, in what order.
 
-import { cross, distance, edges, meetingPlace, orientation } from "./geometry.js";
+import { bounds, cross, distance, edges, meetingPlace, orientation } from "./geometry.js";
 
 /**
- * Whether the way a–b–c may be exchanged for the straight line a–c so that no crossing with any edge of `paths` is
- * made or lost, and none changes its place in the order along any strand. Edges that end at b are the way itself. In
- * doubt, where something touches, the answer is no.
+ * Whether the way a–b–c may be exchanged for the straight line a–c so that no crossing with any of `edges`, pairs of
+ * points, is made or lost, and none changes its place in the order along any strand. Edges that end at b are the way
+ * itself. In doubt, where something touches, the answer is no.
  */
-export function mayStraighten(a, b, c, paths) {
+export function mayStraighten(a, b, c, edges) {
   const turn = orientation(a, b, c);
   if (turn === 0) return between(a, b, c);
-  const corner = { a, b, c, turn, box: box(a, b, c) };
+  const corner = { a, b, c, turn, box: bounds([a, b, c]) };
   const passages = [];
-  for (const { points, closed } of paths) {
-    const last = closed ? points.length : points.length - 1;
-    for (let i = 0; i < last; i++) {
-      const p = points[i];
-      const q = points[i + 1 < points.length ? i + 1 : 0];
-      if (p === b || q === b || apart(p, q, corner.box)) continue;
-      const passage = passageThrough(p, q, corner);
-      if (passage === BLOCKED) return false;
-      if (passage) passages.push(passage);
-    }
+  for (const [p, q] of edges) {
+    if (p === b || q === b || apart(p, q, corner.box)) continue;
+    const passage = passageThrough(p, q, corner);
+    if (passage === BLOCKED) return false;
+    if (passage) passages.push(passage);
   }
   return inSameOrder(passages);
 }
 
 const BLOCKED = "blocked";
 const between = (a, b, c) => distance(a, b) + distance(b, c) <= distance(a, c) * (1 + 1e-12);
-
-function box(a, b, c) {
-  return [
-    Math.min(a[0], b[0], c[0]), Math.min(a[1], b[1], c[1]), Math.max(a[0], b[0], c[0]), Math.max(a[1], b[1], c[1]),
-  ];
-}
 
 function apart(p, q, [left, bottom, right, top]) {
   return (p[0] < left && q[0] < left) || (p[0] > right && q[0] > right)

@@ -1,7 +1,8 @@
 // From what the pen did to a stroke worth keeping: thinned, smoothed, simplified, with the crossings it was drawn with.
 
 import { mayStraighten } from "./crossings.js";
-import { add, cross, distance, distanceToSegment, meetingPlace, mix, scaled } from "./geometry.js";
+import { add, bounds, cross, distance, distanceToSegment, meetingPlace, mix, scaled } from "./geometry.js";
+import { gridOver, linked, unlink } from "./nearby.js";
 
 const SMOOTHINGS = 3;
 // Where a quick pen left few points: this far apart, in pixels, and so many parts and rounds for each edge.
@@ -20,56 +21,61 @@ export function thinned(points, spacing) {
   return kept;
 }
 
-/** Indices of the points with two neighbours. */
-const inner = (points, closed) => (closed ? [...points.keys()] : [...points.keys()].slice(1, -1));
-
-const neighbours = (points, i) => [points.at(i - 1), points[i], points[(i + 1) % points.length]];
-
 /**
  * Move every point towards its neighbours, one after the other, and only where no crossing changes: the new place lies
  * in the triangle of the three, so it is enough that the triangle may be straightened.
  */
-export function smoothed({ points, closed }, obstacles = []) {
-  const moved = [...points];
-  const paths = [{ points: moved, closed }, ...obstacles];
-  for (const i of inner(moved, closed)) {
-    const [a, b, c] = neighbours(moved, i);
-    if (mayStraighten(a, b, c, paths)) moved[i] = add(scaled(b, 0.5), scaled(add(a, c), 0.25));
+function smooth({ links, grid }) {
+  for (const link of links) {
+    if (!link.before || !link.after) continue;
+    const [a, b, c] = [link.before.point, link.point, link.after.point];
+    if (!mayStraighten(a, b, c, grid.near(bounds([a, b, c])))) continue;
+    link.point = add(scaled(b, 0.5), scaled(add(a, c), 0.25));
+    grid.hold(link.before);
+    grid.hold(link);
   }
-  return { points: moved, closed };
 }
 
 /**
  * Take out points one by one, as long as every point taken stays within `tolerance` of the line and no crossing is
- * made, lost or moved past another (with the path itself, or with `obstacles`).
+ * made, lost or moved past another (with the path itself, or with obstacles).
  */
-export function simplified({ points, closed }, tolerance, obstacles = []) {
-  const kept = points.map((point) => ({ point, passed: [] })); // with the points left out after it
+function simplify({ links, grid }, tolerance) {
+  const passed = new Map(links.map((link) => [link, []])); // the points left out after each link
+  let kept = links;
   let before;
   do {
     before = kept.length;
-    for (let i = closed ? 0 : 1; i < kept.length - (closed ? 0 : 1) && kept.length > 3; i++) {
-      removeIfFree(kept, i, closed, tolerance, obstacles);
+    let left = before;
+    let justRemoved = false;
+    for (const link of kept) {
+      justRemoved = !justRemoved && left > 3 && removeIfFree(link, tolerance, grid, passed);
+      if (justRemoved) left -= 1;
     }
+    kept = kept.filter((link) => passed.has(link));
   } while (kept.length < before);
-  return { points: kept.map(({ point }) => point), closed };
+  return kept;
 }
 
-function removeIfFree(kept, i, closed, tolerance, obstacles) {
-  const [before, here, after] = neighbours(kept, i);
-  const passed = [...before.passed, here.point, ...here.passed];
-  if (passed.some((point) => distanceToSegment(point, before.point, after.point) > tolerance)) return;
-  const paths = [{ points: kept.map(({ point }) => point), closed }, ...obstacles];
-  if (!mayStraighten(before.point, here.point, after.point, paths)) return;
-  before.passed = passed;
-  kept.splice(i, 1);
+function removeIfFree(link, tolerance, grid, passed) {
+  const { before, after } = link;
+  if (!before || !after) return false;
+  const out = [...passed.get(before), link.point, ...passed.get(link)];
+  if (out.some((point) => distanceToSegment(point, before.point, after.point) > tolerance)) return false;
+  const corner = [before.point, link.point, after.point];
+  if (!mayStraighten(...corner, grid.near(bounds(corner)))) return false;
+  unlink(link);
+  passed.set(before, out).delete(link);
+  grid.hold(before);
+  return true;
 }
 
-/** Smooth and simplify, with the crossings of the path as it is. */
+/** Smooth and simplify, with the crossings of the path as it is, also with `obstacles`, other paths. */
 export function tidied(path, tolerance, obstacles = [], rounds = SMOOTHINGS) {
-  let tidy = path;
-  for (let round = 0; round < rounds; round++) tidy = smoothed(tidy, obstacles);
-  return simplified(tidy, tolerance, obstacles);
+  const links = linked(path);
+  const work = { links, grid: gridOver([links, ...obstacles.map(linked)]) };
+  for (let round = 0; round < rounds; round++) smooth(work);
+  return { points: simplify(work, tolerance).map(({ point }) => point), closed: path.closed };
 }
 
 /** What the pen did, as a stroke: `pixel` is the size of one. Where its end comes back to its beginning it is closed. */
