@@ -22,7 +22,7 @@ from plyfold.flat.constrained import (
     planar_mesh,
     too_close,
 )
-from plyfold.flat.mend import mend_angles
+from plyfold.flat.mend import Limits, mend_angles, sharp_triangles
 from plyfold.flat.refine import Size, refine, split_points, usual_area
 from plyfold.predicates import orient
 
@@ -46,6 +46,8 @@ MOST_TRIANGLES = 10_000_000
 _FINEST = (2.0**10, 2.0**24)
 # Angles outside thin strips may take so many triangles more, as a share of those that were asked for, or there are.
 _MENDING = 0.28
+# Shares of the number asked for that are tried for the rest.
+_SHARES = (1.0, 0.5, 0.25)
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,9 +133,7 @@ def triangulate_cells(
         for finest in _FINEST:
             # Added points are rounded too, and may not fit where the cells are as thin as rounding errors.
             with suppress(PrecisionError):
-                shortest = finest * outline.rounding
-                refined = _verified(arrangement, _refined(arrangement, outline, size, shortest))
-                return _mended(arrangement, outline, refined, size, shortest)
+                return _with_good_angles(arrangement, outline, size, finest * outline.rounding)
     return _verified(arrangement, _plain(outline))
 
 
@@ -182,16 +182,36 @@ def _refined(arrangement: Arrangement, outline: Outline, size: Size, finest: flo
     return planar_mesh(library, points, *split_chain(outline, unit_points, split_points(library, outline)))
 
 
+def _with_good_angles(arrangement: Arrangement, outline: Outline, size: Size, finest: float) -> CellTriangulation:
+    """Refine, and mend; if that takes too many triangles, larger ones elsewhere leave room for more."""
+    found: list[CellTriangulation] = []
+    for share in _SHARES:
+        sparser = size._replace(wanted=share * size.wanted)
+        found.append(_verified(arrangement, _refined(arrangement, outline, sparser, finest)))
+        mended = _mended(arrangement, outline, found[-1], size.wanted, finest)
+        if mended:
+            return mended
+        if size.most or len(found[-1].points) == len(outline.points):
+            break
+    return found[0]
+
+
 def _mended(
-    arrangement: Arrangement, outline: Outline, mesh: CellTriangulation, size: Size, finest: float
-) -> CellTriangulation:
-    """Mend triangles with sharp angles outside thin strips, if it does not take many more triangles."""
-    winding = arrangement.winding[mesh.cell]
-    more = max((1 + _MENDING) * size.wanted - winding.sum(), _MENDING * winding.sum())
-    most = int(more / (2 * winding.mean()))
-    mended = mend_angles(_edged(outline, mesh), (outline.chain, np.roll(outline.chain, -1)), most, finest)
-    if mended is None:
+    arrangement: Arrangement, outline: Outline, mesh: CellTriangulation, wanted: float, finest: float
+) -> CellTriangulation | None:
+    """Mend triangles with sharp angles outside thin strips, unless it takes too many triangles."""
+    sharp = sharp_triangles((mesh.points - outline.centre) / outline.scale, mesh.triangles)
+    if not len(sharp):
         return mesh
+    winding = arrangement.winding[mesh.cell]
+    more = max((1 + _MENDING) * wanted - winding.sum(), _MENDING * winding.sum())
+    limits = Limits(int(more / (2 * winding.mean())), finest)
+    mended = mend_angles(_edged(outline, mesh), sharp, (outline.chain, np.roll(outline.chain, -1)), limits)
+    return _drawn(outline, mesh, mended) if mended else None
+
+
+def _drawn(outline: Outline, mesh: CellTriangulation, mended: Edged) -> CellTriangulation:
+    """Return a mesh with the points that mending has added, if they are as good with the drawing's rounding errors."""
     unit_points = np.stack([mended.x, mended.y], axis=1)
     points = outline.centre + unit_points * outline.scale
     points[: len(mesh.points)] = mesh.points

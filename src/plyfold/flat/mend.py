@@ -17,10 +17,11 @@ References
 from __future__ import annotations
 
 from math import hypot, sqrt
+from typing import NamedTuple
 
 import numpy as np
 
-from plyfold.arrays import Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.compiled import called_from_loops, run_loop
 from plyfold.flat.cavity import (
     FREE,
@@ -39,7 +40,7 @@ from plyfold.flat.cavity import (
     wait,
 )
 
-__all__ = ["mend_angles"]
+__all__ = ["Limits", "mend_angles", "sharp_triangles"]
 
 _COSINE, _SINE = float(np.cos(np.radians(25.0))), float(np.sin(np.radians(25.0)))
 # A point so far from the shortest side, by its length, makes an angle a little larger than needed.
@@ -51,37 +52,51 @@ _LONGEST_WALK = 1000
 _STEPS_FOR_EACH = 30
 
 
-def mend_angles(mesh: Edged, ends: tuple[Ints, Ints], most: int, finest: float) -> Edged | None:
+class Limits(NamedTuple):
+    """How many points may be added, and the length below which parts of the curve are not split."""
+
+    points: int
+    finest: float
+
+
+def sharp_triangles(unit_points: Floats, triangles: Ints) -> Ints:
+    """Return the numbers of triangles with sharp angles, by the sine rule."""
+    x, y = unit_points.T.copy()
+    a, b, c = triangles.T.copy()
+    ab_x, ab_y, bc_x, bc_y, ca_x, ca_y = x[b] - x[a], y[b] - y[a], x[c] - x[b], y[c] - y[b], x[a] - x[c], y[a] - y[c]
+    ab, bc, ca = np.sqrt(ab_x**2 + ab_y**2), np.sqrt(bc_x**2 + bc_y**2), np.sqrt(ca_x**2 + ca_y**2)
+    area = ab_x * bc_y - ab_y * bc_x
+    return np.flatnonzero(area * np.minimum(np.minimum(ab, bc), ca) < _SINE * ab * bc * ca)
+
+
+def mend_angles(mesh: Edged, sharp: Ints, ends: tuple[Ints, Ints], limits: Limits) -> Edged | None:
     """Add points until no more triangles can be mended.
 
     Parameters
     ----------
     mesh : Edged
+    sharp : (b,) int
+        The triangles with sharp angles.
     ends : tuple of (s,) int
         The points at both ends of each piece of the outline.
-    most : int
-        How many points may be added.
-    finest : float
-        Parts of the curve shorter than this are not split.
+    limits : Limits
 
     Returns
     -------
     Edged or None
-        None if there is nothing to mend, or it takes too many points. Triangles are counter-clockwise, exactly, if
-        those of the mesh are. O(n) for n triangles, and about O(1) for each point.
+        None if it takes too many points. Triangles are counter-clockwise, exactly, if those of the mesh are. O(n) for
+        n triangles, and about O(1) for each point.
     """
-    bad = _bad_triangles(mesh)
-    if not len(bad) or most < 1:
-        return None
+    most = max(0, limits.points)
     points, triangles = len(mesh.x), len(mesh.cell)
     more = (most, most, most, 6 * most, 6 * most, 6 * most, 2 * most)
     padded = Edged(*(np.pad(column, (0, number)) for column, number in zip(mesh, more, strict=True)))
     grown = Grown(*padded, total=np.array([points, triangles]))
-    pieces, room = Pieces(*ends, np.array([finest])), _room_for(bad, len(grown.cell), len(grown.x))
+    pieces, room = Pieces(*ends, np.array([limits.finest])), _room_for(sharp, len(grown.cell), len(grown.x))
     work = Work(pieces, room, grown)
-    if all(_side_to_mend(work, triangle) < 0 for triangle in bad.tolist()):
-        return None
-    made = run_loop(_mend, _STEPS_FOR_EACH * len(bad), (pieces, room), grown)
+    if all(_side_to_mend(work, triangle) < 0 for triangle in sharp.tolist()):
+        return mesh
+    made = run_loop(_mend, _STEPS_FOR_EACH * len(sharp), (pieces, room), grown)
     points, triangles = made.total
     if points == len(grown.x):
         return None
@@ -90,21 +105,11 @@ def mend_angles(mesh: Edged, ends: tuple[Ints, Ints], most: int, finest: float) 
     return Edged(x[:points], y[:points], on[:points], start[:sides], beyond[:sides], piece[:sides], cell[:triangles])
 
 
-def _bad_triangles(mesh: Edged) -> Ints:
-    """Return the triangles with sharp angles, by the sine rule."""
-    corners = mesh.start.reshape(-1, 3)
-    x, y = mesh.x[corners], mesh.y[corners]
-    to_x, to_y = np.roll(x, -1, axis=1) - x, np.roll(y, -1, axis=1) - y
-    length = np.hypot(to_x, to_y)
-    area = to_x[:, 0] * to_y[:, 1] - to_y[:, 0] * to_x[:, 1]
-    return np.flatnonzero(area * length.min(axis=1) < _SINE * length.prod(axis=1))
-
-
-def _room_for(bad: Ints, triangles: int, points: int) -> Room:
+def _room_for(sharp: Ints, triangles: int, points: int) -> Room:
     waiting, waits, *notes = np.zeros((9, triangles + 2), dtype=np.int64)
-    waiting[: len(bad)] = bad
-    waits[bad] = 1
-    sizes, spoke = np.array([0, len(bad), 0, 0]), np.full(points, -1)
+    waiting[: len(sharp)] = sharp
+    waits[sharp] = 1
+    sizes, spoke = np.array([0, len(sharp), 0, 0]), np.full(points, -1)
     return Room(np.zeros(12), np.zeros(2), spoke, sizes, waiting, waits, *notes)
 
 
