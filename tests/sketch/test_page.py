@@ -423,3 +423,24 @@ def test_a_damaged_link_is_told_and_forgotten(sketch, fragment):
     sketch.evaluate("fragment => { location.hash = fragment }", fragment)
     sketch.wait_for_function("() => document.getElementById('notice').textContent.includes('not complete')")
     assert sketch.evaluate("location.hash") == ""
+
+
+def test_a_dragged_point_of_a_smooth_loop_takes_its_neighbours_along(sketch):
+    t = np.linspace(0, 2 * np.pi, 90, endpoint=False)
+    draw(sketch, 150 * np.c_[np.cos(t), np.sin(t)])
+    verdict(sketch, "A disk of cloth")
+    before = np.array(saved(sketch)["strokes"][0]["points"])
+    middle = (before.min(axis=0) + before.max(axis=0)) / 2
+    top = before[np.argmax(before[:, 1])] - middle
+    sketch.keyboard.press("e")
+
+    def moved_points():
+        drag(sketch, *places(sketch, [top, top + [0, 40]]))
+        return (np.array(saved(sketch)["strokes"][0]["points"]) != before).any(axis=1).sum()
+
+    assert moved_points() > 4
+    sketch.keyboard.press("Control+z")
+    assert (np.array(saved(sketch)["strokes"][0]["points"]) == before).all()
+    sketch.keyboard.down("Alt")
+    assert moved_points() == 1
+    sketch.keyboard.up("Alt")

@@ -48,7 +48,7 @@ const liftable = (state) => drawn(state) && answerShown(state)?.verdict.immersib
 export const ACTIONS = [
   tool("draw", "Draw", "D", "Draw with mouse, pen or finger"),
   tool("points", "Points", "P", "Place points one by one; the first point again closes the loop, a double click ends it"),
-  tool("edit", "Edit", "E", "Drag points; drag a line to insert one; double click to delete one"),
+  tool("edit", "Edit", "E", "Drag points, with Alt a single one of a smooth line; drag a line to insert one; double click to delete one"),
   tool("erase", "Erase", "X", "Rub out parts of strokes"),
   tool("hand", "Move", "H", "Move the paper (also with Space held, or two fingers)"),
 

@@ -107,6 +107,7 @@ function listen(page, canvas) {
     if (fingers.size > 1) pinch(page, fingers, event.pointerId, place(event));
     const before = fingers.get(event.pointerId);
     fingers.set(event.pointerId, place(event));
+    page.altHeld = event.altKey;
     page.pan = () => page.store.set({ camera: panned(page.store.state.camera, minus(place(event), before)) });
     const events = event.getCoalescedEvents?.() ?? [];
     return tool?.move?.(page, (events.length ? events : [event]).map(drawn));

@@ -27,6 +27,7 @@ const page = {
   id: sessionStorage.getItem("plyfold.id") ?? newId(),
   former: null,
   spaceHeld: false,
+  altHeld: false,
   size: () => ({ width: canvas.clientWidth, height: canvas.clientHeight }),
   pan: () => {},
   focusDrawing: () => canvas.focus(),

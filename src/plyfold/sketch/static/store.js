@@ -9,6 +9,7 @@ export const START = Object.freeze({
   history: begin(EMPTY),
   name: null, // of the file or curve that the drawing came from
   preview: null, // the document while something is dragged
+  grabbed: null, // the document as it was when a point was taken hold of
   tool: "draw", // draw, points, edit, erase or hand
   busy: false, // a stroke or drag is under way
   path: [], // the points of the stroke or polyline in the making

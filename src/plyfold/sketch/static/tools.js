@@ -4,11 +4,14 @@
 import { distance } from "./geometry.js";
 import { addStroke, deletePoint, edgeAt, insertPoint, movePoint, snapped, vertexAt, withStrokes } from "./document.js";
 import { allowed, currentJoins, edit, editIfAllowed, finishPath, tell } from "./commands.js";
+import { dragPoint } from "./dragging.js";
 import { erased } from "./erasing.js";
 import { penStroke, thinned } from "./strokes.js";
 
 const ERASER = 12;
 const CLICK = 5;
+// How far along a smooth stroke the points around a dragged one come along, in pixels.
+const DRAGGED = 60;
 
 const present = ({ store }) => store.state.history.present;
 
@@ -47,17 +50,19 @@ const editing = {
   down(page, place, reach) {
     const { store } = page;
     const vertex = vertexAt(present(page), place, reach);
-    if (vertex) return store.set({ selected: vertex });
+    if (vertex) return store.set({ selected: vertex, grabbed: present(page) });
     const edge = edgeAt(present(page), place, reach);
     if (!edge) return store.set({ selected: null });
     const at = { stroke: edge.stroke, vertex: edge.vertex };
-    return store.set({ preview: insertPoint(present(page), at, edge.point), selected: at });
+    const grabbed = insertPoint(present(page), at, edge.point);
+    return store.set({ preview: grabbed, selected: at, grabbed });
   },
   move(page, places) {
     const { store } = page;
-    const { selected, preview } = store.state;
+    const { selected, grabbed, camera } = store.state;
     if (!selected) return page.pan();
-    const moved = movePoint(preview ?? present(page), selected, placed(page, places.at(-1)));
+    const place = placed(page, places.at(-1));
+    const moved = page.altHeld ? movePoint(grabbed, selected, place) : dragPoint(grabbed, selected, place, DRAGGED / camera.scale);
     return store.set(allowed(page, moved) ? { preview: moved, refused: false } : { refused: true });
   },
   up(page) {
