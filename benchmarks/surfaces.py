@@ -41,11 +41,29 @@ class Case(NamedTuple):
     repeats: int
 
 
+def band(t: Any, outer: Any, inner: Any) -> Any:
+    """Return the outline of a band around the origin, of two radii at each angle."""
+    direction = np.column_stack([np.cos(t), np.sin(t)])
+    return np.vstack([outer[:, None] * direction, (inner[:, None] * direction)[::-1]])
+
+
 def helix(turns: int) -> Any:
     """Return a band of 60 points a side and turn that winds ever a little further out: two crossings for each turn."""
     t = np.linspace(0, 2 * np.pi * turns + 0.3, 60 * turns)
-    direction = np.column_stack([np.cos(t), np.sin(t)])
-    return np.vstack([(3 + 0.01 * t)[:, None] * direction, ((2 + 0.01 * t)[:, None] * direction)[::-1]])
+    return band(t, 3 + 0.01 * t, 2 + 0.01 * t)
+
+
+def kiss(height: float) -> Any:
+    """Return a band whose ends lie on each other for a sixth of a turn, with strands so close."""
+    t = np.linspace(0, 2 * np.pi + 0.8, 260)
+    sway = height * np.sin(6 * np.pi * np.clip((t - 2 * np.pi + 0.9) / 1.7, 0, 1))
+    return band(t, 3 + sway, 2 + 0.7 * sway)
+
+
+def strip(width: float) -> Any:
+    """Return a frame whose ends overlap: between them is a strip of this width, and half a unit long."""
+    outer = [(0, 0), (10, 0), (10, 10), (0, 10), (0, 5), (1, 5), (1, 9), (9, 9), (9, 1)]
+    return np.array([*outer, (1.5, 1), (1.5, 5 + width), (0.5, 5 + width), (0.5, 2)])
 
 
 def cases(largest: int) -> Iterator[Case]:
@@ -53,6 +71,8 @@ def cases(largest: int) -> Iterator[Case]:
     sketches = {name: named.curve.points for name, named in CURVES.items() if named.embeddable}
     sketches |= {"ribbon of 300": ribbon_disk(300), "dense disk of 60": glued_disk(60), "chain of 370": chain(370)}
     sketches |= {f"helix of {turns} turns": helix(turns) for turns in (5, 10, 15)}
+    sketches |= {f"strands {height:g} apart": kiss(height) for height in (1e-2, 1e-3)}
+    sketches |= {f"strip of {width:g}": strip(width) for width in (1e-4, 1e-9)}
     for name, points in sketches.items():
         if pf.arrangement(points).n_crossings <= MOST_CROSSINGS:
             yield Case(name, points, 4_000, 5)

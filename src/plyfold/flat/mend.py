@@ -6,7 +6,8 @@ see. The other side of a strip does not, so however thin it is, its sides do not
 
 Three kinds of bad triangles are left alone: with the sharp angle between two edges of the curve; with the shortest side
 across a corner sharper than 60°; and with the shortest side across a strip, where two edges of the curve run side by
-side for several times that length.
+side for four times their distance. Good triangles there would take points in proportion to length by width, and to the
+logarithm of that everywhere else.
 
 References
 ----------
@@ -48,7 +49,7 @@ _FAR = 0.475 * sqrt((1 + _COSINE) / (1 - _COSINE))
 # Two edges of the curve make a strip if they are side by side for so many times their distance.
 _THIN = 4.0
 _LONGEST_WALK = 1000
-# A step is a few microseconds of plain Python.
+# A step is a few microseconds of plain Python; so long it takes to make lists of each triangle, too.
 _STEPS_FOR_EACH = 30
 
 
@@ -96,7 +97,7 @@ def mend_angles(mesh: Edged, sharp: Ints, ends: tuple[Ints, Ints], limits: Limit
     work = Work(pieces, room, grown)
     if all(_side_to_mend(work, triangle) < 0 for triangle in sharp.tolist()):
         return mesh
-    made = run_loop(_mend, _STEPS_FOR_EACH * len(sharp), (pieces, room), grown)
+    made = run_loop(_mend, _STEPS_FOR_EACH * len(sharp) + triangles, (pieces, room), grown)
     points, triangles = made.total
     if points == len(grown.x):
         return None

@@ -1,12 +1,12 @@
 """Points added for the quality of triangles: good angles first, then the size asked for.
 
 Refinement after Ruppert takes as many triangles as the drawing's features are fine: a few dozen around a cell a
-billionth of the drawing's size, but a billion along a strip as thin. So edges are split only down to a shortest
-length, and that is made shorter step by step: bad triangles vanish around tiny cells, and multiply in thin strips. A
-step that takes more triangles than there may be would end midway and leave bad triangles far from the strip, where the
-points at its sides ask for more. So all starts again, and ends before that step: the triangles in the thinnest places
-stay as they are. At sharp corners of the drawing no angles are good, and there the step by step approach to the corner,
-that would never end, counts as done.
+billionth of the drawing's size, but a billion along a strip as thin, for each point on one of its sides asks for one on
+the other. So edges are split only down to a shortest length, and that is made shorter step by step: bad triangles
+vanish around tiny cells, and multiply in thin strips. If a step takes more triangles than there may be, or leaves more
+bad ones than an earlier step, all starts again and ends before it. The bad triangles that are left, in strips and
+around them, are for :mod:`plyfold.flat.mend`. At sharp corners of the drawing no angles are good, and there the step by
+step approach to the corner, that would never end, counts as done.
 
 Only then the triangles that are larger than the size asked for are split, so that the number asked for includes those
 around features.
