@@ -13,6 +13,7 @@ import pytest
 import plyfold as pf
 from plyfold.draw.viewer import frame, mesh_data, page
 from plyfold.errors import PrecisionError
+from plyfold.gallery import CURVES
 
 
 def small_surface(scale=1.0, shift=0.0):
@@ -180,14 +181,35 @@ def shown(browser, written, tmp_path):
     tab.close()
 
 
-def colour_at(tab, x, y):
-    """Red, green and blue of a pixel of a screenshot."""
+def picture(tab):
+    """The colours of a screenshot, shape (height, width, 3), without heading, buttons and focus."""
     from io import BytesIO
 
     from PIL import Image
 
+    bare = ".viewer :is(header, [role=toolbar]) { visibility: hidden } .viewer canvas { box-shadow: none !important }"
+    hide = tab.add_style_tag(content=bare)
     tab.wait_for_timeout(300)
-    return Image.open(BytesIO(tab.screenshot())).convert("RGB").getpixel((x, y))
+    shot = Image.open(BytesIO(tab.screenshot())).convert("RGB")
+    hide.evaluate("style => style.remove()")
+    return np.asarray(shot, dtype=int)
+
+
+def colour_at(tab, x, y):
+    """Red, green and blue of a pixel."""
+    return picture(tab)[y, x]
+
+
+def cloth(tab):
+    """Which pixels are blue cloth, shape (height, width)."""
+    red, _, blue = np.moveaxis(picture(tab), -1, 0)
+    return blue > red + 40
+
+
+def box(mask):
+    """The first and last column, and the first and last row, of what is true."""
+    columns, rows = (np.flatnonzero(mask.any(axis=axis)) for axis in (0, 1))
+    return (columns[0], columns[-1]), (rows[0], rows[-1])
 
 
 def test_browser_shows_the_surface_without_a_complaint_or_a_request(shown):
@@ -209,11 +231,12 @@ def test_top_view_equals_the_drawing(shown):
     shown.keyboard.press("Tab")
     shown.keyboard.press("t")
     assert shown.get_by_role("button", name="Top view").get_attribute("aria-pressed") == "true"
-    # The drawing is 4 wide and 3 tall; the view fits 3 / 0.78 into 500 pixels.
-    pixels = 500 * 0.78 / 3
-    for x, y, inside in [(-1.9, 0.9, True), (1.9, -1.0, True), (0, 1.6, False), (2.1, 0, False)]:
-        red, _, blue = colour_at(shown, round(350 + pixels * x), round(250 - pixels * y))
-        assert (blue > red + 40) == inside
+    mask = cloth(shown)
+    (left, right), (top, bottom) = box(mask)
+    pixels = (right - left) / 4  # the drawing is 4 wide and 3 tall
+    assert (bottom - top) / pixels == pytest.approx(3, abs=0.05)
+    assert mask[top:bottom, left:right].mean() > 0.97
+    assert abs((left + right) / 2 - 350) < 3
 
 
 def test_intersections_are_red_lines(browser, tmp_path):
@@ -223,8 +246,8 @@ def test_intersections_are_red_lines(browser, tmp_path):
     file.write_text(page(surface))
     tab = browser.new_page(viewport={"width": 700, "height": 500})
     tab.goto(file.as_uri())
-    red, green, blue = colour_at(tab, 350, 250)
-    assert red > max(green, blue) + 100
+    red, green, blue = np.moveaxis(picture(tab), -1, 0)
+    assert (red > np.maximum(green, blue) + 100).sum() > 400
     tab.close()
 
 
@@ -234,9 +257,9 @@ def test_see_through_lets_light_through(shown):
     assert sum(colour_at(shown, 350, 250)) > sum(solid) + 60
 
 
-def open_ramp(browser, tmp_path):
+def open_ramp(browser, tmp_path, curve=RAMP):
     file = tmp_path / "ramp.html"
-    pf.lift(RAMP, triangles=800).export(file)
+    pf.lift(curve, triangles=800).export(file)
     tab = browser.new_page(viewport={"width": 700, "height": 700})
     tab.goto(file.as_uri())
     tab.get_by_role("button", name="Top view").click()
@@ -244,21 +267,17 @@ def open_ramp(browser, tmp_path):
 
 
 def covered(tab):
-    """The share of the upper part of the picture that is cloth."""
-    from io import BytesIO
-
-    from PIL import Image
-
-    tab.wait_for_timeout(400)
-    pixels = np.asarray(Image.open(BytesIO(tab.screenshot())).convert("RGB"), dtype=int)[80:560]
-    return float((pixels[..., 2] > pixels[..., 0] + 40).mean())
+    """The share of its box in the picture that cloth covers."""
+    mask = cloth(tab)
+    (left, right), (top, bottom) = box(mask)
+    return float(mask[top : bottom + 1, left : right + 1].mean())
 
 
 def test_the_slider_unwinds_the_surface_to_a_round_disk(browser, tmp_path):
     tab = open_ramp(browser, tmp_path)
     lifted = covered(tab)
     tab.get_by_label("Disk to surface").fill("0")
-    assert covered(tab) > 1.4 * lifted
+    assert covered(tab) == pytest.approx(np.pi / 4, abs=0.02) != lifted
     tab.get_by_label("Disk to surface").fill("2")
     assert covered(tab) == pytest.approx(lifted, abs=0.01)
     tab.close()
@@ -281,7 +300,129 @@ def test_the_sheet_under_the_pointer_lights_up_and_is_told(browser, tmp_path):
 
 
 def place_on_screen(tab, point):
-    """Where the top view shows a point of the ramp, whose box is 9 wide and 9 tall."""
-    size = tab.viewport_size
-    pixels = min(0.78 * size["height"], 0.92 * size["width"]) / 9
-    return size["width"] / 2 + (point[0] - 4.5) * pixels, size["height"] / 2 - (point[1] - 1.5) * pixels
+    """Where the top view shows a point of the ramp, whose box is from 0 to 9 and from -3 to 6."""
+    (left, right), (top, bottom) = box(cloth(tab))
+    return left + point[0] * (right - left) / 9, bottom - (point[1] + 3) * (bottom - top) / 9
+
+
+# ---- layers torn apart -----------------------------------------------------------------------------------------------
+
+
+def torn_edges(surface):
+    """Directed edges of triangles that have none beside them, or one of another level: (rim, seams)."""
+    level = surface.layering.level[surface.sheet]
+    owner = {
+        (a, b): level[t] for t, face in enumerate(surface.faces) for a, b in zip(face, np.roll(face, -1), strict=True)
+    }
+    rim = {edge for edge in owner if edge[::-1] not in owner}
+    seams = {edge for edge, own in owner.items() if owner.get(edge[::-1], own) != own}
+    return rim, seams
+
+
+TEAR = """async () => {
+  const { clothGeometry, decode, moveTo, openEdges } = await import("cloth");
+  const surface = decode(JSON.parse(document.getElementById("surface").textContent));
+  const geometry = clothGeometry(surface);
+  const heights = (apart) => {
+    moveTo(geometry, surface, surface.vertices, apart);
+    return [...geometry.getAttribute("position").array].filter((_, i) => i % 3 === 2);
+  };
+  return { ...openEdges(surface), before: heights(0), after: heights(0.5) };
+}"""
+
+
+def test_each_layer_moves_as_a_piece_and_tears_at_its_borders(browser, tmp_path):
+    surface = pf.lift(RAMP, triangles=300)
+    (tmp_path / "ramp.html").write_text(page(surface))
+    tab = browser.new_page()
+    tab.goto((tmp_path / "ramp.html").as_uri())
+    torn = tab.evaluate(TEAR)
+    tab.close()
+    level = surface.layering.level[surface.sheet]
+    assert np.allclose(np.subtract(torn["after"], torn["before"]), np.repeat(0.5 * (level - 1.5), 3), atol=1e-6)
+    ends = [(face[i], face[(i + 1) % 3]) for face in surface.faces for i in range(3)]
+    rim, seams = torn_edges(surface)
+    assert {ends[corner] for corner in torn["rim"]} == rim
+    assert {ends[corner] for corner in torn["seams"]} == seams
+    assert len(rim) == len(surface.boundary)
+    assert len(seams) > 2
+
+
+def test_exploding_parts_the_layers_and_the_whole_stays_in_sight(browser, tmp_path):
+    tab = open_ramp(browser, tmp_path, CURVES["exit-ramp"].curve)
+    tab.get_by_role("button", name="Perspective").click()
+    tab.get_by_label("Explode layers").fill("1")
+    (left, right), (top, bottom) = box(cloth(tab))
+    assert 0 < left < right < 699
+    assert 0 < top < bottom < 699
+    tab.evaluate("document.querySelector('canvas').focus()")
+    for _ in range(4):
+        tab.keyboard.press("ArrowDown")  # to the height of the layers
+    tab.keyboard.press("f")
+    mask = cloth(tab)
+    _, (top, bottom) = box(mask)
+    assert not mask[top:bottom].any(axis=1).all()  # there is nothing between two layers
+    tab.close()
+
+
+# ---- windows, fingers and keys ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("view", ["p", "t"])
+@pytest.mark.parametrize("window", [(360, 740), (800, 560), (740, 360), (1280, 800)])
+def test_the_whole_surface_is_seen_between_heading_and_buttons(browser, tmp_path, window, view):
+    tab = open_ramp(browser, tmp_path)
+    tab.keyboard.press(view)
+    tab.set_viewport_size({"width": window[0], "height": window[1]})
+    tab.wait_for_timeout(200)
+    (left, right), (top, bottom) = box(cloth(tab))
+    heading = tab.locator("header").bounding_box()
+    bar = tab.get_by_role("toolbar").bounding_box()
+    free = bar["y"] - heading["y"] - heading["height"]
+    assert heading["y"] + heading["height"] < top < bottom < bar["y"]
+    assert 0 < left < right < window[0] - 1
+    assert (bottom - top) / free > 0.75 or (right - left) / window[0] > 0.75
+    assert (top + bottom) / 2 == pytest.approx(bar["y"] - free / 2, abs=0.06 * free)
+    assert (left + right) / 2 == pytest.approx(window[0] / 2, abs=0.04 * window[0])
+    tab.close()
+
+
+def test_fingers_have_room(browser, tmp_path, written):
+    (tmp_path / "page.html").write_text(written)
+    context = browser.new_context(viewport={"width": 360, "height": 740}, has_touch=True, is_mobile=True)
+    tab = context.new_page()
+    tab.goto((tmp_path / "page.html").as_uri())
+    for control in tab.locator(".viewer :is(button, input)").all():
+        room = control.bounding_box()
+        assert min(room["width"], room["height"]) >= 40
+        assert room["x"] >= 0
+        assert room["x"] + room["width"] <= 360
+    context.close()
+
+
+def test_a_chosen_colour_leaves_the_keys_free(shown):
+    shown.get_by_role("group", name="Colour").get_by_role("button", name="Sheets").click()
+    shown.keyboard.press("x")
+    shown.locator("[aria-keyshortcuts=X][aria-pressed=true]").wait_for()
+    shown.keyboard.press("2")
+    assert shown.get_by_role("button", name="Layers").get_attribute("aria-pressed") == "true"
+    assert shown.get_by_role("button", name="Sheets").get_attribute("aria-pressed") == "false"
+
+
+def test_the_back_of_a_sheet_has_a_darker_shade_of_its_colour(shown):
+    """Sheet 1 is orange; from below it is further to the right and behind."""
+
+    def orange():
+        red, green, blue = np.moveaxis(picture(shown), -1, 0)
+        of_sheet = (red > 1.2 * green) & (green > 1.2 * blue)
+        return picture(shown)[of_sheet]
+
+    shown.keyboard.press("3")
+    above = orange()
+    for _ in range(20):
+        shown.keyboard.press("ArrowDown")
+    below = orange()
+    assert min(len(above), len(below)) > 2000
+    assert np.median(below, axis=0)[0] < 0.85 * np.median(above, axis=0)[0]
+    red, _, blue = np.moveaxis(picture(shown), -1, 0)
+    assert (blue > red + 40).sum() > 2000  # sheet 0 is blue on both sides

@@ -35,7 +35,7 @@ _MANY_VERTICES = 20_000
 
 
 def page(surface: Surface, title: str = "plyfold", figures: Mapping[str, object] | None = None) -> str:
-    """Return a self-contained HTML page that shows the surface: orbit, zoom, top view, see-through, explode.
+    """Return a self-contained HTML page that shows the surface: orbit, zoom, top view, see-through, layers torn apart.
 
     Parameters
     ----------

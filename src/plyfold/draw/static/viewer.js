@@ -1,17 +1,22 @@
 // The 3D page: shows one surface, given as compact arrays by viewer.py. `show` returns a handle that can take another
 // surface later. Units in the scene: the drawing is about 2 across, centred at the origin, z up.
 
-import { clothGeometry, decode, moveTo, paint, positionsAt } from "cloth";
 import {
-  Color, DirectionalLight, DoubleSide, Group, HemisphereLight, Line2, LineGeometry, LineMaterial, Mesh,
-  MeshStandardMaterial, OrbitControls, OrthographicCamera, PCFShadowMap, PerspectiveCamera, PlaneGeometry, Raycaster,
-  Scene, ShadowMaterial, Vector2, Vector3, WebGLRenderer,
+  clothGeometry, clothMaterial, decode, edgePositions, extent, ground, keyLight, moveLines, moveTo, openEdges, paint,
+  pairs, positionsAt, setOwnBack, softLights, sortTriangles, spaceLines,
+} from "cloth";
+import {
+  Group, Mesh, OrbitControls, OrthographicCamera, PCFShadowMap, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3,
+  WebGLRenderer,
 } from "three";
 
 const FIELD_OF_VIEW = 32;
 const START_DIRECTION = new Vector3(-0.42, -1, 0.72).normalize();
 const NEARLY_UP = new Vector3(0, -1e-4, 1).normalize();
 const SEE_THROUGH = 0.42;
+// How far layers are torn apart from the next ones at most, and the part of the free picture that a surface fills.
+const APART = 1.1;
+const FILLED = 0.9;
 
 // One action: its name, its key, what it does, and whether it is on. Buttons and keys both come from this table.
 const ACTIONS = [
@@ -22,95 +27,26 @@ const ACTIONS = [
   { name: "Dark", key: "d", hint: "Dark or light", perform: (v) => v.set({ dark: !v.dark }), on: (v) => v.dark },
 ];
 
+const colouring = (value, name, key, hint) => ({
+  name, key, hint, perform: (v) => v.set({ colouring: value }), on: (v) => v.options.colouring === value,
+});
+
 const COLOURINGS = [
-  ["cloth", "Cloth"],
-  ["layer", "Layers"],
-  ["sheet", "Sheets"],
+  colouring("cloth", "Cloth", "1", "One cloth, lighter where it is higher, with a back of its own"),
+  colouring("layer", "Layers", "2", "A colour for each layer"),
+  colouring("sheet", "Sheets", "3", "A colour for each sheet, darker from below"),
 ];
 
-/** Reorder the triangles from far to near along `direction`, so that transparent ones blend in the right order. */
-function sortTriangles(geometry, direction) {
-  const positions = geometry.getAttribute("position").array;
-  const index = geometry.getIndex();
-  const depth = new Float32Array(index.count / 3);
-  for (let t = 0; t < depth.length; t++) {
-    for (let i = 9 * t; i < 9 * t + 9; i += 3) {
-      depth[t] += positions[i] * direction.x + positions[i + 1] * direction.y + positions[i + 2] * direction.z;
-    }
-  }
-  const order = Uint32Array.from(depth.keys()).sort((a, b) => depth[b] - depth[a]);
-  order.forEach((t, place) => index.array.set([3 * t, 3 * t + 1, 3 * t + 2], 3 * place));
-  index.needsUpdate = true;
-}
-
-/** The visible side has its own colour; the back is drawn in one warm tint. */
-function clothMaterial(backName) {
-  const back = new Color(backName);
-  const material = new MeshStandardMaterial({
-    vertexColors: true, side: DoubleSide, shadowSide: DoubleSide, roughness: 0.62, metalness: 0,
-    polygonOffset: true, polygonOffsetFactor: 1.5, polygonOffsetUnits: 2, forceSinglePass: true,
-  });
-  material.onBeforeCompile = (shader) => {
-    shader.uniforms.back = { value: back };
-    shader.fragmentShader = shader.fragmentShader
-      .replace("#include <common>", "#include <common>\nuniform vec3 back;")
-      .replace("#include <color_fragment>", "#include <color_fragment>\nif (!gl_FrontFacing) diffuseColor.rgb = mix(back, diffuseColor.rgb, 0.12);");
-  };
-  return material;
-}
-
-/** The coordinates of the boundary's vertices, once round. */
-function around({ boundary }, positions) {
-  return [...boundary, boundary[0]].flatMap((vertex) => [...positions.subarray(3 * vertex, 3 * vertex + 3)]);
-}
-
-function boundaryLine(surface) {
-  return spaceLine(around(surface, surface.vertices), surface.palette.ink);
-}
-
 /** Red lines where sheets pass through each other. */
-function intersectionLines(surface) {
-  return surface.intersections.map((polyline) => spaceLine(polyline, surface.palette.intersection));
+function intersectionLines({ intersections, palette }) {
+  return spaceLines(intersections.flatMap(pairs), palette.intersection);
 }
 
-function spaceLine(positions, color) {
-  const material = new LineMaterial({ color, linewidth: 2.4, alphaToCoverage: false });
-  return new Line2(new LineGeometry().setPositions(positions), material);
-}
-
-// ---- scene -----------------------------------------------------------------------------------------------------
-
-/** Light from the whole sky, and a little from below for those who look at the back. */
-function softLights() {
-  const sky = new HemisphereLight(0xffffff, 0xe6dccf, 1.55);
-  sky.position.set(0, 0, 1);
-  const below = new DirectionalLight(0xfff4e6, 1.7);
-  below.position.set(0.5, -0.8, -1.6);
-  return [sky, below];
-}
-
-function keyLight(radius) {
-  const light = new DirectionalLight(0xffffff, 2.3);
-  light.position.set(-0.9, 0.7, 2.6).setLength(4 * radius);
-  light.castShadow = true;
-  light.shadow.mapSize.set(2048, 2048);
-  light.shadow.radius = 5;
-  light.shadow.bias = -0.0006;
-  light.shadow.normalBias = 0.012 * radius;
-  const frame = light.shadow.camera;
-  [frame.left, frame.right, frame.bottom, frame.top, frame.near, frame.far] = [-1, 1, -1, 1, 1, 7].map((x) => x * radius);
-  return light;
-}
-
-function ground(radius) {
-  const plane = new Mesh(new PlaneGeometry(12 * radius, 12 * radius), new ShadowMaterial({ opacity: 0.16, depthWrite: false }));
-  plane.receiveShadow = true;
-  plane.renderOrder = -1;
-  return plane;
-}
-
-/** What `set` takes. A morph of 0 is the round disk, 1 laid flat over the drawing, 2 lifted. */
-const OPTIONS = { explode: 1, stretch: 1, seeThrough: false, morph: 2, colouring: "cloth", dark: null, highlightSheet: null };
+/**
+ * What `set` takes. `explode` goes from 0, the glued surface, to 1, its layers torn far apart; `stretch` scales heights.
+ * A morph of 0 is the round disk, 1 laid flat over the drawing, 2 lifted.
+ */
+const OPTIONS = { explode: 0, stretch: 1, seeThrough: false, morph: 2, colouring: "cloth", dark: null, highlightSheet: null };
 
 class Viewer {
   constructor(element, data) {
@@ -128,6 +64,7 @@ class Viewer {
     this.camera = this.deep;
     this.scale = 1;
     this.controls = this.makeControls();
+    this.night = matchMedia("(prefers-color-scheme: dark)");
     this.setSurface(data);
     this.buildToolbar();
     this.followPage();
@@ -166,16 +103,18 @@ class Viewer {
   // ---- the inside
 
   apply(changes) {
+    const move = () => this.move();
+    const paint = () => this.paint();
     const actions = {
-      explode: () => this.setScale(),
-      stretch: () => this.setScale(),
+      explode: move,
+      stretch: move,
       seeThrough: () => this.setSeeThrough(),
-      morph: () => this.move(),
-      colouring: () => this.paint(),
-      highlightSheet: () => this.paint(),
+      morph: move,
+      colouring: paint,
+      highlightSheet: paint,
       dark: () => this.setDark(),
     };
-    Object.keys(changes).forEach((name) => actions[name]?.());
+    new Set(Object.keys(changes).map((name) => actions[name])).forEach((action) => action?.());
     this.requestFrame();
   }
 
@@ -185,6 +124,7 @@ class Viewer {
     controls.dampingFactor = 0.12;
     controls.zoomToCursor = true;
     controls.addEventListener("change", () => this.requestFrame());
+    controls.addEventListener("start", () => (this.fitted = false));
     return controls;
   }
 
@@ -194,27 +134,38 @@ class Viewer {
     this.geometry = clothGeometry(this.surface);
     this.cloth = new Mesh(this.geometry, clothMaterial(this.surface.palette.back));
     this.cloth.castShadow = this.cloth.receiveShadow = true;
-    this.line = boundaryLine(this.surface);
-    this.passing = intersectionLines(this.surface);
-    this.body = new Group().add(this.cloth, this.line, ...this.passing);
+    this.setLines();
+    this.body = new Group().add(this.cloth, ...this.lines, this.passing);
     this.scene.add(this.body, ...softLights());
     this.move();
     this.paint();
   }
 
-  /** Put the cloth where it is at the time of its way that is to be seen. */
+  /** The drawing, the seams that are seen when layers are torn apart, and where sheets pass through each other. */
+  setLines() {
+    const { rim, seams } = openEdges(this.surface);
+    this.edges = [rim, seams];
+    this.lines = this.edges.map((corners) => spaceLines(edgePositions(this.geometry, corners), this.surface.palette.ink));
+    this.passing = intersectionLines(this.surface);
+    this.setDark();
+  }
+
+  /** Put the cloth where it is at the time of its way that is to be seen, torn as far as it is to be. */
   move() {
-    this.positions = positionsAt(this.surface, this.options.morph);
-    moveTo(this.geometry, this.surface, this.positions);
-    this.line.geometry.setPositions(around(this.surface, this.positions));
-    this.passing.forEach((line) => Object.assign(line, { visible: this.options.morph === 2 }));
+    const { morph, explode, stretch } = this.options;
+    this.scale = this.body.scale.z = this.surface.stretch * stretch;
+    moveTo(this.geometry, this.surface, positionsAt(this.surface, morph), (APART * explode) / this.scale);
+    this.edges.forEach((corners, i) => moveLines(this.lines[i], edgePositions(this.geometry, corners)));
+    this.lines[1].visible = explode > 0 && this.edges[1].length > 0;
+    this.passing.visible = morph === 2 && explode === 0 && this.surface.intersections.length > 0;
     this.sortedAlong = null;
-    this.setScale();
+    this.setLights();
   }
 
   paint() {
     const { colouring, highlightSheet } = this.options;
     paint(this.geometry, colouring, this.surface, highlightSheet === null ? [] : [highlightSheet].flat());
+    setOwnBack(this.cloth.material, colouring !== "cloth");
   }
 
   /** Half the diagonal of the surface at the current vertical scale: everything fits in this sphere. */
@@ -224,9 +175,7 @@ class Viewer {
     return Math.hypot(size.x, size.y, size.z * this.scale) / 2;
   }
 
-  setScale() {
-    const { explode, stretch } = this.options;
-    this.scale = this.body.scale.z = this.surface.stretch * explode * stretch;
+  setLights() {
     this.scene.remove(this.key, this.ground);
     this.key = keyLight(this.radius);
     this.ground = ground(this.radius);
@@ -273,50 +222,68 @@ class Viewer {
     this.look(this.deep, START_DIRECTION);
   }
 
-  /** Keep the direction of view, and choose distance or zoom so that the whole surface is seen. */
+  /** Keep the direction of view, and go where the whole surface is seen, as large as heading and buttons let it be. */
   fit() {
-    const direction = this.camera.position.clone().sub(this.controls.target).normalize();
-    this.controls.target.set(0, 0, 0);
-    this.shape();
-    this.camera.position.copy(direction).multiplyScalar(this.distance(direction));
+    this.stop();
+    const towards = this.camera.position.clone().sub(this.controls.target).normalize();
+    const right = new Vector3().crossVectors(this.camera.up, towards).normalize();
+    const up = new Vector3().crossVectors(towards, right);
+    const { wide, tall } = this.free();
+    const slope = this.camera === this.flat ? 0 : Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180));
+    const across = extent(this.geometry, this.scale, right, towards, slope * wide);
+    const upward = extent(this.geometry, this.scale, up, towards, slope * tall);
+    const half = Math.max(across.half / wide, upward.half / tall);
+    this.half = slope ? this.half : half;
+    this.controls.target.copy(right).multiplyScalar(across.middle).addScaledVector(up, upward.middle);
+    this.camera.position.copy(this.controls.target).addScaledVector(towards, slope ? half / slope : 4 * this.radius);
     this.camera.zoom = 1;
-    this.camera.updateProjectionMatrix();
+    this.shape();
     this.controls.update();
+    this.fitted = true;
     this.requestFrame();
   }
 
-  /** How far the eye must be for the whole boundary of the surface to lie inside the picture. */
-  distance(direction) {
-    if (this.camera === this.flat) return 4 * this.radius;
-    const tangent = Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180));
-    const right = new Vector3().crossVectors(this.camera.up, direction).normalize();
-    const up = new Vector3().crossVectors(direction, right);
-    const point = new Vector3();
-    let distance = 0;
-    for (const vertex of this.surface.boundary) {
-      point.fromArray(this.positions, 3 * vertex).multiply(this.body.scale);
-      const reach = Math.max(Math.abs(up.dot(point)) / 0.78, Math.abs(right.dot(point)) / (0.92 * this.aspect));
-      distance = Math.max(distance, direction.dot(point) + reach / tangent);
-    }
-    return distance;
+  /** Be at once where a turn that is under way would end. */
+  stop() {
+    const { enableDamping } = this.controls;
+    this.controls.enableDamping = false;
+    this.controls.update();
+    this.controls.enableDamping = enableDamping;
   }
 
+  /** The part of the picture that nothing lies over, and that a surface may fill, in parts of the picture's height. */
+  free() {
+    const { height, aspect, top, bottom } = this.size;
+    return { wide: FILLED * aspect, tall: FILLED * Math.max(1 - (top + bottom) / height, 0.25) };
+  }
+
+  /** Tell both cameras the shape of the picture, with the middle of its free part as their middle. */
   shape() {
-    const { min, max } = this.geometry.boundingBox;
-    const tall = Math.max((max.y - min.y) / 0.78, (max.x - min.x) / (0.92 * this.aspect)) / 2;
-    const wide = tall * this.aspect;
-    Object.assign(this.flat, { left: -wide, right: wide, top: tall, bottom: -tall, near: 0.01, far: 40 * this.radius });
-    Object.assign(this.deep, { aspect: this.aspect, near: 0.005 * this.radius, far: 60 * this.radius });
-    this.flat.updateProjectionMatrix();
-    this.deep.updateProjectionMatrix();
+    const { width, height, aspect, top, bottom } = this.size;
+    const { half = 1, radius } = this;
+    Object.assign(this.flat, { left: -half * aspect, right: half * aspect, top: half, bottom: -half, near: 0.01, far: 40 * radius });
+    Object.assign(this.deep, { aspect, near: 0.005 * radius, far: 60 * radius });
+    [this.flat, this.deep].forEach((camera) => camera.setViewOffset(width, height, 0, (bottom - top) / 2, width, height));
+  }
+
+  /** The size of the picture in pixels, and how much of it heading and buttons take at the top and at the bottom. */
+  measure() {
+    const { clientWidth, clientHeight } = this.element;
+    const [width, height] = [clientWidth || 1, clientHeight || 1];
+    const outer = this.element.getBoundingClientRect();
+    const header = this.element.querySelector("header")?.getBoundingClientRect();
+    const bar = this.element.querySelector("[role=toolbar]")?.getBoundingClientRect();
+    const top = header?.height ? header.bottom - outer.top : 0;
+    const bottom = bar?.height ? outer.bottom - bar.top : 0;
+    this.size = { width, height, aspect: width / height, top, bottom };
   }
 
   resize() {
-    const { clientWidth: width, clientHeight: height } = this.element;
-    this.aspect = width / height || 1;
+    this.measure();
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.renderer.setSize(width, height, false);
-    this.shape();
+    this.renderer.setSize(this.size.width, this.size.height, false);
+    if (this.fitted) this.fit();
+    else this.shape();
     this.requestFrame();
   }
 
@@ -339,20 +306,20 @@ class Viewer {
 
   setDark() {
     if (this.options.dark !== null) this.element.dataset.theme = this.options.dark ? "dark" : "light";
-    this.line.material.color.set(this.dark ? this.surface.palette.paleInk : this.surface.palette.ink);
+    const { ink, paleInk } = this.surface.palette;
+    this.lines.forEach(({ material }) => material.color.set(this.dark ? paleInk : ink));
     this.requestFrame();
   }
 
   /** The size and the theme of the page, and the pointer over the cloth. */
   followPage() {
-    this.night = matchMedia("(prefers-color-scheme: dark)");
     this.leaving = new AbortController();
     const { signal } = this.leaving;
     this.night.addEventListener("change", () => this.setDark(), { signal });
     this.canvas.addEventListener("pointermove", (event) => event.buttons === 0 && this.tell(this.sheetUnder(event)), { signal });
     this.canvas.addEventListener("pointerleave", () => this.tell(null), { signal });
     this.watching = new ResizeObserver(() => this.resize());
-    this.watching.observe(this.element);
+    [this.element, ...this.element.querySelectorAll("header, [role=toolbar]")].forEach((part) => this.watching.observe(part));
     this.setDark();
   }
 
@@ -377,10 +344,11 @@ class Viewer {
   /** Buttons and sliders, where the page has a place for them; keys in any case. */
   buildToolbar() {
     const bar = this.element.querySelector("[role=toolbar]");
-    const buttons = bar ? ACTIONS.map((action) => bar.appendChild(this.button(action))) : [];
-    bar?.append(this.colourChoice(), this.motionSlider(), this.explodeSlider());
+    const actions = bar ? [...ACTIONS, ...COLOURINGS] : [];
+    const buttons = actions.map((action) => this.button(action));
+    bar?.append(...buttons.slice(0, ACTIONS.length), group("Colour", buttons.slice(ACTIONS.length)), this.motionSlider(), this.explodeSlider());
     this.refresh = () => buttons.forEach((button, i) => {
-      if (ACTIONS[i].on) button.setAttribute("aria-pressed", ACTIONS[i].on(this));
+      if (actions[i].on) button.setAttribute("aria-pressed", actions[i].on(this));
     });
     this.element.addEventListener("keydown", (event) => this.press(event));
     this.canvas.addEventListener("dblclick", () => this.fit());
@@ -397,13 +365,6 @@ class Viewer {
     return button;
   }
 
-  colourChoice() {
-    const select = document.createElement("select");
-    COLOURINGS.forEach(([value, name]) => select.add(new Option(name, value)));
-    select.addEventListener("change", () => this.set({ colouring: select.value }));
-    return labelled("Colour", select);
-  }
-
   motionSlider() {
     const slider = range({ min: 0, max: 2, value: 2, title: "From the round disk over the flat drawing to the lifted surface" });
     slider.addEventListener("input", () => {
@@ -414,12 +375,12 @@ class Viewer {
   }
 
   explodeSlider() {
-    const slider = range({ min: -1, max: 1, value: 0, title: "Vertical scale of the heights" });
+    const slider = range({ min: 0, max: 1, value: 0, title: "Tear the layers apart, along the borders between sheets" });
     slider.addEventListener("input", () => {
-      this.set({ explode: 6 ** slider.valueAsNumber });
+      this.set({ explode: slider.valueAsNumber });
       this.fit();
     });
-    return labelled("Explode", slider);
+    return labelled("Explode layers", slider);
   }
 
   perform(action) {
@@ -428,8 +389,8 @@ class Viewer {
   }
 
   press(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("select")) return;
-    const action = ACTIONS.find(({ key }) => key === event.key.toLowerCase());
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const action = [...ACTIONS, ...COLOURINGS].find(({ key }) => key === event.key.toLowerCase());
     if (action) this.perform(action);
     else if (event.target.matches("input") || !this.steer(event.key)) return; // arrows are the slider's
     event.preventDefault();
@@ -446,6 +407,7 @@ class Viewer {
       "-": () => this.controls.dollyOut(1.12),
     };
     if (!(key in moves)) return false;
+    this.fitted = false;
     moves[key]();
     this.requestFrame();
     return true;
@@ -453,13 +415,21 @@ class Viewer {
 }
 
 function range(attributes) {
-  return Object.assign(document.createElement("input"), { type: "range", step: 0.02, ...attributes });
+  return Object.assign(document.createElement("input"), { type: "range", step: 0.01, ...attributes });
 }
 
 function labelled(text, control) {
   const label = document.createElement("label");
   label.append(text, control);
   return label;
+}
+
+function group(name, parts) {
+  const made = document.createElement("div");
+  made.setAttribute("role", "group");
+  made.setAttribute("aria-label", name);
+  made.append(...parts);
+  return made;
 }
 
 /** Show a surface inside `element`; without WebGL, say so instead. */
