@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from plyfold.draw.colours import rgb, sheet_colour
 from plyfold.gallery import CURVES
 from plyfold.surface import lift
 
@@ -96,6 +97,14 @@ def test_texture_coordinates(surface, tmp_path):
         for place, texture in list(zip(places, uv, strict=True))[::17]:
             nearest = np.argmin(np.abs(at - place).sum(axis=1))
             assert np.allclose(texture, expected[nearest], atol=1e-4)
+
+
+def test_ply_with_a_colour_for_each_sheet(surface, tmp_path):
+    surface.export(tmp_path / "out.ply", colours="sheets")
+    found = read(tmp_path / "out.ply")
+    (layer,) = found.data.color_attributes
+    shown = {tuple(round(255 * part) for part in point.color_srgb)[:3] for point in layer.data}
+    assert shown == {tuple(round(255 * part) for part in rgb(sheet_colour(sheet))) for sheet in surface.sheet.tolist()}
 
 
 @pytest.mark.parametrize("suffix", [".glb", ".obj", ".ply", ".stl"])

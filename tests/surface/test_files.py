@@ -10,6 +10,7 @@ import pytest
 import trimesh
 
 from plyfold import find_layering, immersions
+from plyfold.draw.colours import rgb, sheet_colour
 from plyfold.errors import InputError, PrecisionError
 from plyfold.gallery import CURVES
 from plyfold.surface import lift
@@ -146,13 +147,20 @@ def test_texture_coordinates_of_obj_and_ply(surface, tmp_path):
 
 
 def test_ply_with_a_colour_for_each_sheet(surface, tmp_path):
+    """Readers find colours at vertices, and the corners of a triangle are of its sheet alone."""
     surface.export(tmp_path / "out.ply", colours="sheets")
-    read = trimesh.load(tmp_path / "out.ply", process=False).metadata["_ply_raw"]["face"]["data"]
-    assert np.array_equal(read["sheet"].ravel(), surface.sheet)
-    colour = np.stack([read[name].ravel() for name in ("red", "green", "blue")], axis=1)
-    of_sheet = {int(sheet): {tuple(row) for row in colour[surface.sheet == sheet].tolist()} for sheet in surface.sheet}
-    assert all(len(colours) == 1 for colours in of_sheet.values())
-    assert len(set.union(*of_sheet.values())) == len(of_sheet)
+    read = meshio.read(tmp_path / "out.ply")
+    (block,) = read.cells
+    assert np.array_equal(read.points[block.data], surface.vertices[surface.faces])
+    assert np.array_equal(read.point_data["sheet"][block.data], np.repeat(surface.sheet, 3).reshape(-1, 3))
+    expected = np.rint(255 * np.array([rgb(sheet_colour(sheet)) for sheet in surface.sheet]))
+    colour = np.stack([read.point_data[name] for name in ("red", "green", "blue")], axis=1)
+    assert (colour[block.data].astype(np.uint8) == expected[:, None]).all()  # meshio takes bytes for signed
+    other = trimesh.load(tmp_path / "out.ply", process=False)
+    assert (other.vertex_attributes["color"][other.faces][..., :3] == expected[:, None]).all()
+    surface.export(tmp_path / "bare.ply", colours="sheets", unwrapped=False)
+    bare = trimesh.load(tmp_path / "bare.ply", process=False)
+    assert (bare.visual.vertex_colors[bare.faces][..., :3] == expected[:, None]).all()
 
 
 def test_ply_with_smooth_colours(surface, tmp_path):

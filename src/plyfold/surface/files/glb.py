@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from plyfold.arrays import Floats, Ints
 from plyfold.draw.colours import PAPER, rgb
-from plyfold.surface.files.model import Material, Model, single_precision, vertex_normals
+from plyfold.surface.files.model import Material, Model, single_precision, split_vertices, vertex_normals
 
 __all__ = ["glb"]
 
@@ -74,10 +74,10 @@ def _material(material: Material) -> dict[str, Any]:
 
 def _primitives(model: Model, buffer: _Buffer) -> list[dict[str, Any]]:
     """Return a primitive for each material; vertices are doubled where normals jump or materials meet."""
-    shaded, faces, _ = _split(model.faces, model.smooth)
+    shaded, faces, _ = split_vertices(model.faces, model.smooth)
     material = model.material if model.colours is None else np.zeros(len(faces), dtype=np.int64)
     order = np.argsort(material, kind="stable")
-    source, corners, owner = _split(faces[order], material[order])
+    source, corners, owner = split_vertices(faces[order], material[order])
     numbers = np.arange(len(_materials(model)) + 1)
     first_vertex, first_face = np.searchsorted(owner, numbers), np.searchsorted(material[order], numbers)
     corners = corners - first_vertex[material[order]][:, None]
@@ -129,19 +129,6 @@ def _animation(shapes: int, buffer: _Buffer) -> dict[str, Any]:
     channel = {"sampler": 0, "target": {"node": 0, "path": "weights"}}
     sampler = {"input": time, "interpolation": "LINEAR", "output": weight}
     return {"name": "unwind", "channels": [channel], "samplers": [sampler]}
-
-
-def _split(faces: Ints, key: Ints) -> tuple[Ints, Ints, Ints]:
-    """Double vertices that have triangles with different keys.
-
-    Returns the vertex that each new one comes from, the triangles with the numbers of new vertices, and the key of
-    each new vertex; they are in the order of their keys.
-    """
-    count = int(faces.max()) + 1
-    if (key == key[0]).all():
-        return np.arange(count), faces, np.full(count, key[0])
-    known, corner = np.unique(key[:, None] * count + faces, return_inverse=True)
-    return known % count, corner.reshape(-1, 3), known // count
 
 
 def _middle(model: Model) -> Floats:

@@ -26,6 +26,7 @@ __all__ = [
     "model_of_solid",
     "model_of_surface",
     "single_precision",
+    "split_vertices",
     "vertex_normals",
 ]
 
@@ -211,6 +212,25 @@ def single_precision(values: Floats, detail: float) -> npt.NDArray[np.float32]:
             hint="move it to the origin, scale it, or write .obj, .ply or .3mf",
         )
     return values.astype("<f4")
+
+
+def split_vertices(faces: Ints, key: Ints) -> tuple[Ints, Ints, Ints]:
+    """Double vertices that have triangles with different keys.
+
+    Returns the vertex that each new one comes from, the triangles with the numbers of new vertices, and the key of
+    each new vertex; they are in the order of their keys.
+
+    Examples
+    --------
+    >>> source, corners, key = split_vertices(np.array([(0, 1, 2), (0, 2, 3)]), np.array([5, 6]))
+    >>> source.tolist(), corners.tolist(), key.tolist()
+    ([0, 1, 2, 0, 2, 3], [[0, 1, 2], [3, 4, 5]], [5, 5, 5, 6, 6, 6])
+    """
+    count = int(faces.max()) + 1
+    if (key == key[0]).all():
+        return np.arange(count), faces, np.full(count, key[0])
+    known, corner = np.unique(key[:, None] * count + faces, return_inverse=True)
+    return known % count, corner.reshape(-1, 3), known // count
 
 
 def _unwrapped(surface: Surface, wanted: bool | None) -> tuple[Floats | None, dict[str, Floats]]:
