@@ -77,7 +77,7 @@ def test_strands_that_nearly_touch(fineness, samples, turn, waves, exponent):
 
 
 @settings(max_examples=15, deadline=None)
-@given(st.floats(1, 12), st.floats(0, 7), SCALES)
+@given(st.floats(1, 11), st.floats(0, 7), SCALES)
 def test_thin_strips(fineness, angle, exponent):
     turn = np.array([(np.cos(angle), np.sin(angle)), (-np.sin(angle), np.cos(angle))])
     check_bound(strip(10**-fineness) @ turn, exponent)
