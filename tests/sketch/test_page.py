@@ -342,16 +342,55 @@ def test_a_sheet_that_cannot_be_lifted_says_why(sketch):
     assert sum("cannot be lifted" in text for text in seen) == 1
 
 
-def test_the_page_fits_a_phone(sketch):
-    sketch.set_viewport_size({"width": 390, "height": 844})
-    draw(sketch, named("exit-ramp", 250))
-    verdict(sketch, WORD["immersible"])
-    assert sketch.evaluate("document.documentElement.scrollWidth") <= 390
-    small = sketch.evaluate(
-        """() => [...document.querySelectorAll(".table button, .top button")]
-            .map((button) => button.getBoundingClientRect()).filter(({ height }) => height < 38).length"""
+@pytest.fixture(params=[(360, 740), (412, 915), (740, 360)], ids=lambda size: f"{size[0]}x{size[1]}")
+def phone(request, browser, server):
+    """The page on a phone, under a finger."""
+    width, height = request.param
+    context = browser.new_context(viewport={"width": width, "height": height}, has_touch=True, is_mobile=True)
+    tab = context.new_page()
+    tab.goto(server.url)
+    tab.wait_for_selector("html[data-ready]")
+    yield tab
+    context.close()
+
+
+def draw_by_finger(page, points):
+    session = page.context.new_cdp_session(page)
+    kinds = ["touchStart"] + ["touchMove"] * (len(points) - 1)
+    for kind, (x, y) in zip(kinds, places(page, points), strict=True):
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": y}]})
+    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+
+# The box of an element, without what scrolls out of sight.
+IN_SIGHT = """element => new Promise((resolve) => new IntersectionObserver(([{ intersectionRect: { width, height } }]) =>
+    resolve([width, height])).observe(element))"""
+
+
+def test_drawing_verdict_and_surface_are_in_sight_together_on_a_phone(phone):
+    box = phone.locator("#drawing").bounding_box()
+    draw_by_finger(phone, named("exit-ramp", 0.7 * min(box["width"], box["height"])))
+    verdict(phone, WORD["immersible"])
+    phone.wait_for_selector("#surface:not(.empty)")
+    for place, least in (("#drawing", 200), ("#surface canvas", 150), ("#verdict", 18), ("#sentence", 18)):
+        width, height = phone.locator(place).evaluate(IN_SIGHT)
+        assert min(width, height) >= least, place
+    assert phone.locator(".verdict").bounding_box()["y"] + phone.locator(".verdict").bounding_box()["height"] <= (
+        phone.locator(".scene").bounding_box()["y"] + 1
     )
-    assert small == 0
+    assert phone.evaluate("[document.documentElement.scrollWidth, innerWidth]") == [phone.viewport_size["width"]] * 2
+
+
+def test_buttons_are_large_enough_for_fingers(phone):
+    draw_by_finger(phone, named("exit-ramp", 150))
+    verdict(phone, WORD["immersible"])
+    phone.wait_for_selector("#surface:not(.empty)")
+    small = phone.evaluate(
+        """() => [...document.querySelectorAll("button, input, select")].filter((element) => element.checkVisibility())
+            .filter((element) => element.getBoundingClientRect().height < 44 || element.getBoundingClientRect().width < 44)
+            .map((element) => element.outerHTML)"""
+    )
+    assert small == []
 
 
 def test_all_actions_have_names_and_no_key_is_used_twice(sketch):
@@ -435,7 +474,7 @@ def test_a_dragged_point_of_a_smooth_loop_takes_its_neighbours_along(sketch):
     sketch.keyboard.press("e")
 
     def moved_points():
-        drag(sketch, *places(sketch, [top, top + [0, 40]]))
+        drag(sketch, *places(sketch, [top, top + np.array([0, 40])]))
         return (np.array(saved(sketch)["strokes"][0]["points"]) != before).any(axis=1).sum()
 
     assert moved_points() > 4
