@@ -1,6 +1,7 @@
 """Films: the files that viewers get, and what can be seen in them."""
 
 import shutil
+import subprocess
 
 import numpy as np
 import pytest
@@ -46,12 +47,51 @@ def test_the_disk_comes_first(surface):
     assert cloth.sum() / box == pytest.approx(np.pi / 4, abs=0.06)
 
 
-def test_mp4_needs_its_writer(surface, tmp_path):
-    if shutil.which("ffmpeg"):
+needs_ffmpeg = pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="ffmpeg is not installed")
+
+
+@needs_ffmpeg
+def test_mp4_has_every_step_of_the_film(surface, tmp_path):
+    """Decoded again, its frames are those that were drawn, each shown as long as it should be."""
+    surface.export(tmp_path / "ramp.mp4")
+    decode = ["ffmpeg", "-v", "error", "-i", tmp_path / "ramp.mp4", "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+    raw = subprocess.run(decode, capture_output=True, check=True).stdout
+    read = np.frombuffer(raw, np.uint8).reshape(-1, 80, 80, 3).astype(int)
+    there = film._frames(surface, None)
+    order = [0] * 12 + [1] + [2] * 12 + [3] + [4] * 12 + [3] + [2] * 12 + [1]
+    assert len(read) == len(order)
+    for shown, number in zip(read, order, strict=True):
+        nearest = np.argmin([np.abs(shown - frame).mean() for frame in there])
+        assert nearest == number
+        assert np.abs(shown - there[number]).mean() < 4
+
+
+@needs_ffmpeg
+def test_mp4_begins_with_its_index_and_plays_anywhere(surface, tmp_path):
+    surface.export(tmp_path / "ramp.mp4")
+    content = (tmp_path / "ramp.mp4").read_bytes()
+    assert content.index(b"moov") < content.index(b"mdat")
+    assert b"avc1" in content
+
+
+def fake_ffmpeg(folder, monkeypatch):
+    program = folder / "bin" / "ffmpeg"
+    program.parent.mkdir()
+    program.write_text("#!/bin/sh\necho 'Unknown encoder' >&2\nexit 1\n")
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{program.parent}:/usr/bin:/bin")
+
+
+def test_a_failing_ffmpeg_is_an_error_of_ours(surface, tmp_path, monkeypatch):
+    fake_ffmpeg(tmp_path, monkeypatch)
+    with pytest.raises(PlyfoldError, match="Unknown encoder"):
         surface.export(tmp_path / "ramp.mp4")
-        assert b"ftyp" in (tmp_path / "ramp.mp4").read_bytes()[:16]
-        return
-    with pytest.raises(PlyfoldError, match="ffmpeg"):
+    assert not (tmp_path / "ramp.mp4").exists()
+
+
+def test_mp4_needs_its_writer(surface, tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(PlyfoldError, match="not installed"):
         surface.export(tmp_path / "ramp.mp4")
     assert list(tmp_path.iterdir()) == []
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import shutil
+import subprocess
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -59,7 +61,7 @@ def save_film(
     InputError
         If the ending is another one.
     PlyfoldError
-        If the program that writes MP4 is not installed.
+        If the program that writes MP4 is not installed, or fails.
     PrecisionError
         If double precision cannot hold the disk.
     FileExistsError
@@ -153,26 +155,23 @@ def _gif(shown: list[tuple[_Frame, int]]) -> bytes:
 
 
 def _mp4(shown: list[tuple[_Frame, int]]) -> bytes:
-    from matplotlib.animation import FFMpegWriter
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(_PIXELS / 100, _PIXELS / 100), dpi=100)
-    picture = figure.figimage(shown[0][0], origin="upper")
-    writer = FFMpegWriter(fps=_PER_SECOND)
+    """Let ffmpeg write the film as H.264 in 4:2:0, which all players read, with its index first for browsers."""
+    height, width = shown[0][0].shape[:2]
+    raw = ("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(_PER_SECOND), "-i", "-")
+    coded = ("-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart")
+    content = b"".join(frame.tobytes() * steps for frame, steps in shown)
     with tempfile.TemporaryDirectory(prefix="plyfold-") as folder:
         draft = Path(folder) / "film.mp4"
-        with writer.saving(figure, str(draft), dpi=100):
-            for frame, steps in shown:
-                picture.set_data(frame)
-                for _ in range(steps):
-                    writer.grab_frame()
+        command = ["ffmpeg", "-loglevel", "error", *raw, *coded, str(draft)]
+        done = subprocess.run(command, input=content, capture_output=True, check=False)
+        if done.returncode != 0:
+            said = done.stderr.decode(errors="replace").strip().splitlines()
+            raise PlyfoldError(f"ffmpeg failed: {said[-1] if said else done.returncode}", hint="write a .gif")
         return draft.read_bytes()
 
 
 def _require_ffmpeg() -> None:
-    from matplotlib.animation import FFMpegWriter
-
-    if not FFMpegWriter.isAvailable():
+    if shutil.which("ffmpeg") is None:
         raise PlyfoldError(
             "an MP4 needs the program ffmpeg, which is not installed", hint="write a .gif, or install it"
         )
