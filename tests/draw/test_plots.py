@@ -196,3 +196,11 @@ def test_layers_have_colours_too_and_others_are_refused():
         plot_surface(surface, colours="rainbow")
     with pytest.raises(InputError, match="no view 'below'"):
         plot_surface(surface, view="below")
+
+
+@pytest.mark.parametrize(
+    "option", [{"view": 5}, {"view": (1,)}, {"view": ("a", "b")}, {"view": None}, {"stretch": "x"}, {"pixels": None}]
+)
+def test_options_of_a_shaded_view_of_the_wrong_kind(option):
+    with pytest.raises(InputError):
+        plot_surface(lift(RAMP[:3]), **option)

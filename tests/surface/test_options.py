@@ -1,5 +1,6 @@
 """Options of ``lift`` that make no sense are refused before any work."""
 
+import numpy as np
 import pytest
 
 from plyfold import lift
@@ -27,6 +28,50 @@ SQUARE = [(0, 0), (4, 0), (4, 3), (0, 3)]
 def test_refused(option):
     with pytest.raises(InputError):
         lift(SQUARE, **option)
+
+
+WRONG = ["x", [1], {}, b"1", 1 + 2j, np.array([1, 2]), float("nan")]
+
+
+@pytest.mark.parametrize("wrong", WRONG, ids=repr)
+@pytest.mark.parametrize("name", ["gap", "triangles", "max_area", "size", "stiffness", "flat", "allow_intersections"])
+def test_options_of_the_wrong_kind_are_named(name, wrong):
+    with pytest.raises(InputError, match=f"^{name} must be"):
+        lift(SQUARE, **{name: wrong})
+
+
+@pytest.mark.parametrize("name", ["triangles", "stiffness", "flat", "allow_intersections"])
+def test_options_without_a_nothing(name):
+    with pytest.raises(InputError, match=f"^{name} must be"):
+        lift(SQUARE, **{name: None})
+
+
+@pytest.mark.parametrize("pins", ["x", [1], 3.0, {0: "high"}, {0: None}, {"a": 1.0}, {(1, "b"): 1.0}, {0: [1]}])
+def test_pins_of_the_wrong_kind(pins):
+    with pytest.raises(InputError, match="pin"):
+        lift(SQUARE, pins=pins)
+
+
+@pytest.mark.parametrize("wrong", [*WRONG, None], ids=repr)
+def test_thickness_is_a_number(wrong):
+    with pytest.raises(InputError, match="thickness must be"):
+        lift(SQUARE, triangles=10).thicken(wrong)
+
+
+@pytest.mark.parametrize("wrong", ["x", 1, [], float("nan")])
+def test_export_options_of_the_wrong_kind(tmp_path, wrong):
+    surface = lift(SQUARE, triangles=10)
+    for option in ({"unwrapped": wrong}, {"force": wrong}, {"colours": np.array([1, 2])}):
+        with pytest.raises(InputError):
+            surface.export(tmp_path / "out.glb", **option)
+    with pytest.raises(InputError, match="title"):
+        surface.export(tmp_path / "out.html", title=7)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_numbers_of_numpy_are_numbers():
+    surface = lift(SQUARE, gap=np.float32(0.5), triangles=np.int64(10), stiffness=np.float64(0.5), flat=np.float64(2))
+    assert surface.gap == 0.5
 
 
 def test_larger_areas_make_fewer_triangles():

@@ -15,6 +15,7 @@ from plyfold.draw.over_under import ClothColours
 from plyfold.draw.places import line_weight, middle_and_size, natural_stretch
 from plyfold.draw.render import Image, Mesh, shade
 from plyfold.errors import InputError
+from plyfold.options import refuse_unless_number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -74,6 +75,9 @@ def plot_surface(  # noqa: PLR0913 - each option is keyword-only and independent
     >>> len(ax.images)
     1
     """
+    if stretch is not None:
+        refuse_unless_number("stretch", stretch)
+    refuse_unless_number("pixels", pixels)
     axes = blank(ax)
     unit, mesh = _unit_and_mesh(surface, stretch)
     image = shade(mesh, _view(view), pixels, _paint(surface, colours))
@@ -95,7 +99,11 @@ def _unit_and_mesh(surface: Surface, stretch: float | None) -> tuple[_Unit, Mesh
 def _view(view: Direction) -> View:
     if isinstance(view, str) and view not in _DIRECTIONS:
         raise InputError(f"there is no view {view!r}", hint=f"use one of {', '.join(_DIRECTIONS)}, or two angles")
+    if not isinstance(view, str) and not (isinstance(view, tuple | list) and len(view) == 2):
+        raise InputError(f"a view is a name or two angles, not {view!r}", hint=f"use one of {', '.join(_DIRECTIONS)}")
     azimuth, elevation = _DIRECTIONS[view] if isinstance(view, str) else view
+    refuse_unless_number("azimuth", azimuth)
+    refuse_unless_number("elevation", elevation)
     return View.of(azimuth, elevation)
 
 

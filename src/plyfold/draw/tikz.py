@@ -10,6 +10,7 @@ from plyfold.draw.colours import INK
 from plyfold.draw.over_under import OverUnder, Strand, over_under
 from plyfold.errors import InputError
 from plyfold.layering import Layering
+from plyfold.options import refuse_unless_number
 
 __all__ = ["over_under_tex", "over_under_tikz"]
 
@@ -48,6 +49,7 @@ def over_under_tikz(layering: Layering, *, size: float = 8.0, **options: Any) ->
     >>> print(over_under_tikz(find_layering(find_immersion([(0, 0), (1, 0), (0, 1)]))).splitlines()[0])
     \begin{tikzpicture}[line join=round]
     """
+    refuse_unless_number("size", size)
     if not 0 < size <= _WIDEST:
         raise InputError(f"the size must be from 0 to {_WIDEST:g} centimetres, not {size!r}")
     drawn = over_under(layering, **options)

@@ -19,7 +19,7 @@ import numpy.typing as npt
 from plyfold.arrays import Floats
 from plyfold.draw import colours
 from plyfold.draw.places import middle_and_size, natural_stretch
-from plyfold.errors import PrecisionError
+from plyfold.errors import InputError, PrecisionError
 from plyfold.surface.animation import Motion
 
 if TYPE_CHECKING:
@@ -52,6 +52,11 @@ def page(surface: Surface, title: str = "plyfold", figures: Mapping[str, object]
         The page, about 0.6 MB plus 32 bytes for each triangle. Coordinates are stored relative to the middle of the
         drawing as 32-bit floats, so the page is right for drawings of any size and place.
 
+    Raises
+    ------
+    InputError
+        If the title is no text.
+
     Examples
     --------
     >>> from plyfold import lift
@@ -59,6 +64,8 @@ def page(surface: Surface, title: str = "plyfold", figures: Mapping[str, object]
     >>> "<title>A triangle</title>" in text
     True
     """
+    if not isinstance(title, str):
+        raise InputError(f"the title must be text, not {title!r}")
     shown = _default_figures(surface) if figures is None else figures
     return _fill(
         _static("viewer.html"),

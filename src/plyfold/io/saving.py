@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import shutil
 import tempfile
 from pathlib import Path
 
 from plyfold.errors import InputError
+from plyfold.options import refuse_unless_flag
 
 __all__ = ["refuse_existing", "refuse_output", "save_bytes"]
 
@@ -20,6 +22,7 @@ def refuse_existing(path: str | os.PathLike[str], force: bool = False) -> None:
     Traceback (most recent call last):
     FileExistsError: /dev/null exists already and was not overwritten; add force to replace it
     """
+    refuse_unless_flag("force", force)
     if Path(path).is_dir():
         raise IsADirectoryError(f"{path} is a folder")
     if Path(path).exists() and not force:
@@ -28,6 +31,9 @@ def refuse_existing(path: str | os.PathLike[str], force: bool = False) -> None:
 
 def save_bytes(path: str | os.PathLike[str], content: bytes, force: bool = False) -> None:
     """Write a file so that it appears complete or not at all, even if the program is killed.
+
+    A symbolic link stays, and the file that it leads to is written. A file that is replaced keeps its permissions.
+    What is no file on a disk, such as a pipe or a terminal, is written to as it is.
 
     Parameters
     ----------
@@ -44,14 +50,23 @@ def save_bytes(path: str | os.PathLike[str], content: bytes, force: bool = False
         If the folder is missing, cannot be written to, or is full.
     """
     refuse_existing(path, force)
-    target = Path(path)
+    target = Path(os.path.realpath(path))
     try:
-        with tempfile.TemporaryDirectory(dir=target.parent, prefix=".plyfold-") as folder:
-            draft = Path(folder) / target.name
-            draft.write_bytes(content)
-            draft.replace(target)
+        if target.exists() and not target.is_file():
+            target.write_bytes(content)
+        else:
+            _replace(target, content)
     except OSError as error:  # it would name the draft
-        raise OSError(error.errno, error.strerror, str(target)) from error
+        raise OSError(error.errno, error.strerror, str(path)) from error
+
+
+def _replace(target: Path, content: bytes) -> None:
+    with tempfile.TemporaryDirectory(dir=target.parent, prefix=".plyfold-") as folder:
+        draft = Path(folder) / target.name
+        draft.write_bytes(content)
+        if target.exists():
+            shutil.copymode(target, draft)
+        draft.replace(target)
 
 
 def refuse_output(path: str, endings: tuple[str, ...], force: bool) -> None:

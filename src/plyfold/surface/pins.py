@@ -112,7 +112,8 @@ def _held_sheets(heights: Mapping[int, float], points: Floats, mesh: LiftedMesh)
 
 def _place(key: tuple[float, ...], points: Floats, mesh: LiftedMesh) -> tuple[int, Floats]:
     """Return the triangle that a point lies in, and its barycentric coordinates there."""
-    if len(key) not in (2, 3) or not np.isfinite(np.array(key[:2], dtype=float)).all():
+    real = all(isinstance(part, int | float | np.number) for part in key)
+    if len(key) not in (2, 3) or not real or not np.isfinite(np.array(key[:2], dtype=float)).all():
         raise InputError(f"a pin is a sheet, a point (x, y) or a point and a sheet (x, y, sheet), not {key!r}")
     where = np.array(key[:2], dtype=np.float64)
     candidates = np.arange(len(mesh.faces)) if len(key) == 2 else np.flatnonzero(mesh.sheet == key[2])

@@ -7,6 +7,7 @@ from math import sqrt
 from plyfold.arrays import Floats
 from plyfold.errors import InputError
 from plyfold.flat.cells import MOST_TRIANGLES, refuse_max_area
+from plyfold.options import refuse_unless_number
 
 __all__ = ["area_of_edge", "refuse_sizes"]
 
@@ -16,9 +17,11 @@ _ALLOWED = sqrt(3) / 4 / 0.6
 
 def refuse_sizes(points: Floats, triangles: int, max_area: float | None) -> None:
     """Raise InputError for sizes that make no mesh, or one that no machine can hold."""
+    refuse_unless_number("triangles", triangles)
     if not 1 <= triangles <= MOST_TRIANGLES:
         raise InputError(f"the number of triangles must be from 1 to {MOST_TRIANGLES:,}, not {triangles!r}")
     if max_area is not None:
+        refuse_unless_number("max_area", max_area)
         refuse_max_area(points, max_area)
 
 
@@ -28,6 +31,7 @@ def area_of_edge(size: float | None, max_area: float | None) -> float | None:
         return max_area
     if max_area is not None:
         raise InputError("give the size of triangles by their edges or by their area, not by both")
+    refuse_unless_number("size", size)
     if not size > 0:
         raise InputError(f"the usual length of edges must be positive, not {size!r}")
     return _ALLOWED * size * size

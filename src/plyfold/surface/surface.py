@@ -24,6 +24,7 @@ from plyfold.layering import Layering, Progress, first_layering
 from plyfold.layering.clock import Clock
 from plyfold.layering.intersections import IntersectingLayering, least_intersecting_layering
 from plyfold.obstruction import IMMERSION_REASONS, Obstruction
+from plyfold.options import refuse_unless_flag, refuse_unless_number
 from plyfold.surface.chords import split_chords
 from plyfold.surface.files import Colouring, model_of_surface, refuse_ending, save_model
 from plyfold.surface.glue import glue_sheets
@@ -291,8 +292,8 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     PrecisionError
         If double precision cannot hold the mesh.
     InputError
-        If ``gap`` or a size is not positive, or the triangles would be more than ten million; if
-        pins name no place of the surface, or leave less room than the gap somewhere.
+        If an option is of the wrong kind, ``gap`` or a size is not positive, or the triangles would be more than ten
+        million; if pins name no place of the surface, or leave less room than the gap somewhere.
 
     References
     ----------
@@ -305,6 +306,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     >>> flat.vertices.tolist(), flat.faces.tolist()
     ([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]], [[0, 1, 2]])
     """
+    _refuse_wrong_kinds(allow_intersections, stiffness, pins, flat)
     report = progress or _silent
     layering = layering_of(curve, allow_intersections, time_limit, report)
     drawn = layering.immersion.arrangement
@@ -326,6 +328,16 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     return Surface(layering, vertices, mesh.faces, mesh.sheet, mesh.boundary, distance, mesh.passing, curves)
 
 
+def _refuse_wrong_kinds(allow_intersections: object, stiffness: object, pins: object, flat: object) -> None:
+    """Refuse options of the wrong kind before any work; those of sizes are refused where these are."""
+    refuse_unless_flag("allow_intersections", allow_intersections)
+    refuse_unless_number("stiffness", stiffness)
+    if not isinstance(flat, bool):
+        refuse_unless_number("flat", flat)
+    if pins is not None and not isinstance(pins, Mapping):
+        raise InputError(f"pins must be a mapping from sheets or points to heights, not {pins!r}")
+
+
 def _silent(stage: str, done: float) -> None:
     """Report nothing."""
 
@@ -338,6 +350,7 @@ def _distance(drawn: Arrangement, gap: float | None) -> float:
     size = float(np.ptp(drawn.curve.points, axis=0).max())
     if gap is None:
         return _DEFAULT_GAP * size
+    refuse_unless_number("gap", gap)
     if not 0 < gap <= _LARGEST_GAP * size:
         raise InputError(f"the gap must be positive and at most {_LARGEST_GAP * size:g}, not {gap!r}")
     return float(gap)

@@ -10,6 +10,7 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import InputError, PrecisionError
+from plyfold.options import refuse_unless_number
 from plyfold.surface.files import Colouring, model_of_solid, save_model
 
 if TYPE_CHECKING:
@@ -138,6 +139,7 @@ def thicken(surface: Surface, thickness: float) -> Solid:
 
 
 def _refuse_thickness(surface: Surface, thickness: float) -> None:
+    refuse_unless_number("thickness", thickness)
     if not 0 < thickness < np.inf:
         raise InputError(f"the thickness must be a positive number, not {thickness!r}")
     if len(surface.passing):

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import InputError, PrecisionError
+from plyfold.options import refuse_unless_flag
 from plyfold.surface.animation import Motion
 
 if TYPE_CHECKING:
@@ -108,7 +109,7 @@ def model_of_surface(surface: Surface, colours: Colouring = "layers", unwrapped:
     Raises
     ------
     InputError
-        If the colouring is unknown.
+        If the colouring is unknown, or ``unwrapped`` neither true, false nor None.
     PrecisionError
         If the disk is asked for, and double precision cannot hold it.
 
@@ -119,6 +120,8 @@ def model_of_surface(surface: Surface, colours: Colouring = "layers", unwrapped:
     (Material(name='sheet_0_level_1', colour='#2f7fc1'),)
     """
     _refuse_colouring(colours)
+    if unwrapped is not None:
+        refuse_unless_flag("unwrapped", unwrapped)
     uv, shapes = _unwrapped(surface, unwrapped)
     return Model(
         vertices=surface.vertices,
@@ -258,7 +261,7 @@ def _shapes(unwound: UnwoundDisk) -> dict[str, Floats]:
 
 
 def _refuse_colouring(colours: str) -> None:
-    if colours not in get_args(Colouring):
+    if not isinstance(colours, str) or colours not in get_args(Colouring):
         raise InputError(f"there is no colouring by {colours!r}", hint=f"use one of {', '.join(get_args(Colouring))}")
 
 
