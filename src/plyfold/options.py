@@ -10,7 +10,7 @@ __all__ = ["refuse_unless_flag", "refuse_unless_number"]
 
 
 def refuse_unless_number(name: str, value: object) -> None:
-    """Raise InputError for anything but a real number; truth values and NaN are none.
+    """Raise InputError for anything but a real number; truth values are none. Whether it is in range, the caller says.
 
     Examples
     --------
@@ -19,8 +19,7 @@ def refuse_unless_number(name: str, value: object) -> None:
     Traceback (most recent call last):
     plyfold.errors.InputError: gap must be a number, not 'wide'
     """
-    real = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
-    if not real or value != value:  # noqa: PLR0124 - only NaN differs from itself
+    if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
         raise InputError(f"{name} must be a number, not {value!r}")
 
 
