@@ -88,9 +88,9 @@ def figure_2() -> None:
 
 def figure_3() -> None:
     """Draw a curve with two immersions, whole and in the middle."""
-    with panels(3, 2, 3, (10, 7.6)) as axes:
+    with panels(3, 2, 3, (10, 7.0)) as axes:
         immersions = list(pf.immersions(CURVES["milnor"].curve))
-        for title, half in (("the curve", None), ("its middle, enlarged", 0.13)):
+        for title, half in (("the curve", None), ("its middle, enlarged", 0.15)):
             for number, ax in enumerate((next(axes), next(axes), next(axes))):
                 if number:
                     draw.plot_immersion(immersions[number - 1], ax)
@@ -104,9 +104,9 @@ def figure_3() -> None:
 def enlarge(ax: Axes, half: float) -> None:
     """Show the middle of a drawing only."""
     ax.set_aspect("equal", adjustable="box")
-    ax.set(xlim=(-1.5 * half, 1.5 * half), ylim=(-half, half))
+    ax.set(xlim=(-1.2 * half, 1.2 * half), ylim=(-half, half))
     for text in ax.texts:
-        text.set_clip_on(True)
+        text.set_visible(bool(np.abs(text.get_position() / np.array([1.2, 1.0])).max() < half))
 
 
 def figure_4() -> None:
@@ -136,7 +136,9 @@ def figure_6() -> None:
         surface = pf.lift(CURVES["exit-ramp"].curve)
         immersion = surface.layering.immersion
         titled(draw.plot_immersion(immersion, next(axes)), "the immersion")
-        on_the_way(surface, (0.0,), axes, "sheets")
+        disk = next(axes)
+        on_the_way(surface, (0.0,), iter([disk]), "sheets")
+        titled(disk, "its disk, unwound")
         titled(draw.plot_layout(immersion, next(axes)), "the disk layout")
         sheets_apart(immersion, next(axes))
 

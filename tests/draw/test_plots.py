@@ -10,6 +10,7 @@ from plyfold import Arrangement, arrangement, find_immersion, find_layering, lif
 from plyfold.draw import plot_arrangement, plot_layers, plot_layout, plot_surface
 from plyfold.draw.colours import INK, OBSTRUCTION, mix, sheet_colour, winding_colour
 from plyfold.errors import InputError, PlyfoldError
+from plyfold.gallery import CURVES
 from plyfold.obstruction import Obstruction
 
 RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], float)
@@ -56,6 +57,15 @@ def test_winding_numbers_are_written_in_their_cells():
 def test_crossings_are_dots():
     ax = plot_arrangement(arrangement(EIGHT))
     assert ax.collections[0].get_offsets().tolist() == [[0.0, 0.0]]
+
+
+def test_numbers_of_borders_keep_off_the_winding_numbers_of_small_loops():
+    drawn = arrangement(CURVES["smallest-unliftable"].curve)
+    texts = plot_arrangement(drawn, borders=True).texts
+    places = np.array([text.get_position() for text in texts])
+    apart = np.hypot(*(places[:, None] - places).T) + 9.0 * np.eye(len(places))
+    assert len(texts) == drawn.n_borders + int((drawn.winding[1:] != 0).sum())
+    assert apart.min() > 0.03
 
 
 def test_borders_are_numbered_on_request():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,6 +25,9 @@ __all__ = ["drawn_points", "plot_arrangement"]
 Places = tuple[tuple[float, float], ...]
 
 MOST_NUMBERS = 60
+# How far a border's number is from it, and how much room there must be up to another number; the drawing has size 1.
+_BESIDE = 0.026
+_ROOM = 0.04
 
 
 def plot_arrangement(
@@ -106,10 +110,18 @@ def _winding_numbers(axes: Axes, arrangement: Arrangement, frame: Frame, marked:
 def _border_numbers(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
     if arrangement.n_borders > MOST_NUMBERS:
         note_below(axes, f"{arrangement.n_borders} borders, too many to number")
+    taken = [text.get_position() for text in axes.texts]
     for border in range(arrangement.n_borders if arrangement.n_borders <= MOST_NUMBERS else 0):
         place, (dx, dy) = border_middle(arrangement.border_points(border))
-        x, y = frame(place)[0] + 0.026 * np.array([dy, -dx])
+        right, left = (frame(place)[0] + side * np.array([dy, -dx]) for side in (_BESIDE, -_BESIDE))
+        x, y = left if _room(left, taken) > _room(right, taken) < _ROOM else right
+        taken.append((x, y))
         write(axes, (x, y), str(border), 6.5, color=mix(INK, "#ffffff", 0.25))
+
+
+def _room(place: Floats, taken: Iterable[tuple[float, float]]) -> float:
+    """Return how far the nearest number is from a place."""
+    return min((float(np.hypot(place[0] - x, place[1] - y)) for x, y in taken), default=np.inf)
 
 
 def _mark(axes: Axes, obstruction: Obstruction, frame: Frame) -> None:
