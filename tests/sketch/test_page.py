@@ -483,3 +483,19 @@ def test_a_dragged_point_of_a_smooth_loop_takes_its_neighbours_along(sketch):
     sketch.keyboard.down("Alt")
     assert moved_points() == 1
     sketch.keyboard.up("Alt")
+
+
+def test_the_surface_keeps_its_place_whether_there_is_one_or_not(sketch):
+    """A picture of another size would be painted anew, which takes longer than the verdict."""
+    draw(sketch, named("exit-ramp"))
+    verdict(sketch, WORD["immersible"])
+    sketch.wait_for_selector("#surface-tools:not(.absent)")
+    settled(sketch)
+    place = sketch.locator(".scene").bounding_box()
+    sketch.keyboard.press("Control+z")
+    sketch.wait_for_selector("#surface-tools.absent", state="attached")
+    assert sketch.locator(".scene").bounding_box() == place
+    assert not sketch.locator("#surface-tools button").first.is_visible()
+    draw(sketch, eight())
+    verdict(sketch, WORD["none"])
+    assert sketch.locator(".scene").bounding_box() == place

@@ -15,11 +15,11 @@ export function createView3d(element, onHover) {
     status.textContent = sentence;
     element.classList.toggle("waiting", Boolean(sentence));
   };
+  requestIdleCallback(() => import(MODULE)); // three.js is large: the page is there first, and the first surface finds it
   element.addEventListener("plyfold-hover", ({ detail }) =>
     onHover(detail && { cell: detail.cell, sheets: detail.sheet === null ? [] : [detail.sheet], border: detail.border }));
   return {
     say,
-    /** Three.js is loaded with the first surface, so that the page is there at once. */
     async show(mesh) {
       const mine = (newest += 1);
       const { show } = await import(MODULE);
