@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import shapely
 
-from plyfold.draw.colours import BACK, CLOTH_HIGH, rgb
+from plyfold.draw.colours import BACK, CLOTH_HIGH, SHEETS, rgb
 from plyfold.draw.depth_buffer import Pixels, View, look
 from plyfold.draw.render import Mesh, shade
 
@@ -70,6 +70,16 @@ def test_upper_side_is_blue_and_lower_side_is_warm():
     assert above[2] > above[0]
     assert below[0] > below[2]
     assert rgb(CLOTH_HIGH)[2] > rgb(BACK)[2]
+
+
+def test_a_colour_stays_what_it_is_in_the_shadow():
+    """Seen from the side, the lower of two sheets is in the shadow of the upper one; orange is not brown there."""
+    orange = np.array(rgb(SHEETS[1]))
+    image = shade(stacked(0.0, 0.4), View.of(-90, 25), pixels=80, paint=np.tile(orange, (4, 1)))
+    seen = image.colours[image.colours[..., 3] == 1][:, :3]
+    shadow = seen[np.argsort(seen.sum(axis=1))[: len(seen) // 10]]
+    assert (shadow > 0.6 * orange - 0.02).all()
+    assert len(np.unique(seen.round(2), axis=0)) > 3
 
 
 def test_shadow_falls_on_what_lies_below_only():

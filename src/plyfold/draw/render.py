@@ -28,6 +28,8 @@ _FLATTEST = 0.05
 _RIM = 0.006
 _RIM_STRENGTH = 0.85
 _STEEPEST = 12.0
+# Where colours tell sheets or layers apart, shadows darken them by so much of what they darken cloth by.
+_ON_COLOURS = 0.6
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,7 +211,8 @@ def _body(mesh: Mesh, view: View, seen: Seen, paint: Floats | None) -> Floats:
     front = normal @ view.axes[2] > 0
     facing = np.where(front[:, None], normal, -normal)
     colour = _cloth(mesh, where[:, 2], front) if paint is None else _painted(paint[triangle], front)
-    lit = colour * _brightness(mesh, where, facing)[:, None]
+    brightness = _brightness(mesh, where, facing)
+    lit = colour * (brightness if paint is None else 1 - _ON_COLOURS * (1 - brightness))[:, None]
     out = np.zeros((seen.triangle.size, 4))
     out[hit] = np.column_stack([lit.clip(0, 1), np.ones(len(lit))])[which]
     return out.reshape(*seen.triangle.shape, 4)
