@@ -485,6 +485,38 @@ def test_a_dragged_point_of_a_smooth_loop_takes_its_neighbours_along(sketch):
     sketch.keyboard.up("Alt")
 
 
+def test_kept_drawings_are_told_apart_by_picture_and_time(sketch):
+    for points in (named("exit-ramp"), eight()):
+        draw(sketch, points)
+        settled(sketch)
+        sketch.keyboard.press("n")
+    draw(sketch, eight() / 2)
+    sketch.keyboard.press("Shift+G")
+    cards = sketch.locator("dialog .card")
+    assert cards.count() == 2
+    pictures = [cards.nth(i).locator("path").get_attribute("d") for i in range(2)]
+    assert pictures[0] != pictures[1]
+    assert all(cards.nth(i).locator("svg").bounding_box()["width"] > 100 for i in range(2))
+    assert all(re.fullmatch(r"Loop\s+Today, .*\d.*", cards.nth(i).inner_text()) for i in range(2))
+    cards.nth(1).click()
+    verdict(sketch, WORD["immersible"])
+
+
+def test_a_file_that_cannot_be_read_is_told_without_a_failed_request(sketch, tmp_path):
+    (tmp_path / "broken.svg").write_text("<svg nonsense")
+    sketch.set_input_files("#file", tmp_path / "broken.svg")
+    sketch.wait_for_function("() => document.getElementById('notice').textContent.startsWith('broken.svg: ')")
+    assert sketch.complaints == []
+
+
+def test_empty_pictures_say_what_will_be_there(sketch):
+    assert "appears here" in sketch.evaluate(
+        "getComputedStyle(document.querySelector('#surface [role=status]'), '::after').content"
+    )
+    sketch.keyboard.press("v")
+    assert "appears here" in sketch.locator("#layout").text_content()
+
+
 def test_the_surface_keeps_its_place_whether_there_is_one_or_not(sketch):
     """A picture of another size would be painted anew, which takes longer than the verdict."""
     draw(sketch, named("exit-ramp"))

@@ -265,6 +265,13 @@ def test_a_question_says_how_long_it_is(server, length):
         assert line.recv(4096).startswith(b"HTTP/1.1 411")
 
 
+def test_a_file_that_cannot_be_read_is_an_answer(server):
+    reply = server.post("open", b"<svg nonsense", X_File_Name="broken.svg")
+    assert reply.status == 200
+    assert error(reply)["kind"] == "file"
+    assert "broken.svg" in error(reply)["sentence"]
+
+
 def test_too_many_points_are_refused(server):
     most = server.get("/api/v1/start").data["limits"]["points"]
     reply = server.post("look", {"points": [[0, 0]] * (most + 1)})

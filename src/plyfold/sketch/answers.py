@@ -24,6 +24,7 @@ _STATUS = {
     "unfinished": 200,
     "drawing": 200,
     "superseded": 200,
+    "file": 200,
     "input": 400,
     "refused": 403,
     "not found": 404,
@@ -118,7 +119,10 @@ def _export(body: bytes, _headers: Mapping[str, str]) -> Answer:
 
 
 def _open(body: bytes, headers: Mapping[str, str]) -> Answer:
-    return json_answer(opened(body, headers))
+    try:
+        return json_answer(opened(body, headers))
+    except InputError as error:
+        return error_answer("file", error.message or str(error), error.where, error.hint)
 
 
 def _gallery(_body: bytes, _headers: Mapping[str, str]) -> Answer:

@@ -67,13 +67,27 @@ export async function showGallery(page) {
   return show("Curves to begin with", make("div", { className: "cards" }, ...cards));
 }
 
+/** The hour of today's drawings, and the day of older ones. */
+function timeOf(date, now = new Date()) {
+  const hour = date.toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" });
+  if (date.toDateString() === now.toDateString()) return `Today, ${hour}`;
+  const year = date.getFullYear() === now.getFullYear() ? {} : { year: "numeric" };
+  return `${date.toLocaleDateString([], { day: "numeric", month: "short", ...year })}, ${hour}`;
+}
+
+function strokesOf({ strokes, image }) {
+  if (!strokes.length) return image ? "Picture to draw after" : "Empty drawing";
+  if (strokes.length > 1) return `${strokes.length} strokes`;
+  return strokes[0].closed ? "Loop" : "Open stroke";
+}
+
 export function showDrawings(page) {
   const others = kept(localStorage).filter(({ id }) => id !== page.id);
   const cards = others.map(({ id, name, saved, document: drawing }) => {
-    const when = new Date(saved).toLocaleString([], { dateStyle: "medium", timeStyle: "short" });
+    const when = timeOf(new Date(saved));
     const discardButton = make("button", { type: "button", className: "discard", textContent: "Discard" });
     discardButton.setAttribute("aria-label", `Discard the drawing of ${when}`);
-    const item = make("div", { className: "kept" }, card(drawing, name ?? "Drawing", when, () => openDrawing(page, drawing, name, id)), discardButton);
+    const item = make("div", { className: "kept" }, card(drawing, name ?? strokesOf(drawing), when, () => openDrawing(page, drawing, name, id)), discardButton);
     discardButton.addEventListener("click", () => {
       discard(localStorage, id);
       item.remove();

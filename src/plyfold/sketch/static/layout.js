@@ -18,14 +18,19 @@ const pathThrough = (points) => `M${points.map(([x, y]) => `${x.toFixed(4)} ${(-
 const words = ({ sheet, cell, borders }) =>
   `Sheet ${sheet} over cell ${cell}: border${borders.length > 1 ? "s" : ""} ${borders.join(", ")}`;
 
+function paintNothing(svg) {
+  svg.append(element("text", { class: "nothing" }));
+  svg.lastChild.textContent = "The layout of a disk appears here.";
+}
+
 /**
- * Draw the layout of `lie` into an <svg>; null empties it. `onHover({cell, sheets, border} | null)` is told what the
+ * Draw the layout of `lie` into an <svg>; of null it says so. `onHover({cell, sheets, border} | null)` is told what the
  * pointer is over.
  */
 export function paintLayout(svg, lie, onHover) {
   svg.replaceChildren();
-  if (!lie) return;
   svg.setAttribute("viewBox", "-1.12 -1.12 2.24 2.24");
+  if (!lie) return paintNothing(svg);
   svg.setAttribute("role", "img");
   svg.setAttribute("aria-label", `Disk layout: ${lie.layout.groups.length} sheets with borders of their own.`);
   svg.append(element("circle", { r: 1, class: "rim" }));

@@ -101,7 +101,8 @@ function followPictures() {
     if (state.mesh !== before.mesh && state.mesh) page.surface.show(state.mesh).then(settle);
     if (!state.mesh) page.surface.say(state.unlifted ?? "");
     find("surface").classList.toggle("empty", !state.mesh);
-    find("surface-tools").classList.toggle("absent", !state.mesh || state.scene !== "surface");
+    find("surface-tools").classList.toggle("absent", !state.mesh);
+    find("surface-tools").hidden = state.scene !== "surface";
     if (lieShown(state) !== lieShown(before)) paintLayout(find("layout"), lieShown(state), onHover);
     if (state.hover !== before.hover) {
       lightLayout(find("layout"), state.hover);
@@ -109,6 +110,7 @@ function followPictures() {
     }
     if (state.scene !== before.scene) showScene(state.scene);
   });
+  paintLayout(find("layout"), lieShown(store.state), onHover);
   showScene(store.state.scene);
   for (const tab of document.querySelectorAll("[data-scene]")) {
     tab.addEventListener("click", () => store.set({ scene: tab.dataset.scene }));
