@@ -144,9 +144,9 @@ export function edgePositions(geometry, corners) {
     [corner, following(corner)].flatMap((end) => [places[3 * end], places[3 * end + 1], places[3 * end + 2]]));
 }
 
-/** Lines in space between pairs of points. */
-export function spaceLines(positions, color) {
-  const material = new LineMaterial({ color, linewidth: 2.4, alphaToCoverage: false });
+/** Lines in space between pairs of points, so many pixels wide. */
+export function spaceLines(positions, color, linewidth = 2.4) {
+  const material = new LineMaterial({ color, linewidth, alphaToCoverage: false });
   const geometry = new LineSegmentsGeometry();
   if (positions.length) geometry.setPositions(positions);
   return Object.assign(new LineSegments2(geometry, material), { visible: positions.length > 0 });

@@ -14,8 +14,10 @@ const FIELD_OF_VIEW = 32;
 const START_DIRECTION = new Vector3(-0.42, -1, 0.72).normalize();
 const NEARLY_UP = new Vector3(0, -1e-4, 1).normalize();
 const SEE_THROUGH = 0.42;
-// How far layers are torn apart from the next ones at most, and the part of the free picture that a surface fills.
+// How far layers are torn apart at most, each from the next and the lowest from the highest; and the part of the free
+// picture that a surface fills.
 const APART = 1.1;
+const TOWER = 3.3;
 const FILLED = 0.9;
 
 // One action: its name, its key, what it does, and whether it is on. Buttons and keys both come from this table.
@@ -145,7 +147,9 @@ class Viewer {
   setLines() {
     const { rim, seams } = openEdges(this.surface);
     this.edges = [rim, seams];
-    this.lines = this.edges.map((corners) => spaceLines(edgePositions(this.geometry, corners), this.surface.palette.ink));
+    const { palette, sheetCell } = this.surface;
+    const width = 2.4 * Math.min(1, Math.sqrt(60 / sheetCell.length)); // finer where there is much to see
+    this.lines = this.edges.map((corners) => spaceLines(edgePositions(this.geometry, corners), palette.ink, width));
     this.passing = intersectionLines(this.surface);
     this.setDark();
   }
@@ -154,7 +158,8 @@ class Viewer {
   move() {
     const { morph, explode, stretch } = this.options;
     this.scale = this.body.scale.z = this.surface.stretch * stretch;
-    moveTo(this.geometry, this.surface, positionsAt(this.surface, morph), (APART * explode) / this.scale);
+    const apart = explode * Math.min(APART, TOWER / this.surface.palette.layers.length);
+    moveTo(this.geometry, this.surface, positionsAt(this.surface, morph), apart / this.scale);
     this.edges.forEach((corners, i) => moveLines(this.lines[i], edgePositions(this.geometry, corners)));
     this.lines[1].visible = explode > 0 && this.edges[1].length > 0;
     this.passing.visible = morph === 2 && explode === 0 && this.surface.intersections.length > 0;
