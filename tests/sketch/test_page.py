@@ -381,6 +381,14 @@ def test_drawing_verdict_and_surface_are_in_sight_together_on_a_phone(phone):
     assert phone.evaluate("[document.documentElement.scrollWidth, innerWidth]") == [phone.viewport_size["width"]] * 2
 
 
+def test_all_ways_to_change_a_drawing_are_in_sight_on_a_phone(phone):
+    bar = phone.locator(".change")
+    assert bar.evaluate("bar => bar.scrollWidth <= bar.clientWidth")
+    phone.tap("[data-action=gallery]")
+    first, second = (phone.locator("dialog .card").nth(i).bounding_box() for i in range(2))
+    assert first["y"] == second["y"]
+
+
 def test_buttons_are_large_enough_for_fingers(phone):
     draw_by_finger(phone, named("exit-ramp", 150))
     verdict(phone, WORD["immersible"])
@@ -507,6 +515,15 @@ def test_a_file_that_cannot_be_read_is_told_without_a_failed_request(sketch, tmp
     sketch.set_input_files("#file", tmp_path / "broken.svg")
     sketch.wait_for_function("() => document.getElementById('notice').textContent.startsWith('broken.svg: ')")
     assert sketch.complaints == []
+
+
+def test_negative_numbers_have_a_true_minus_sign(sketch):
+    sketch.keyboard.press("p")
+    for place in places(sketch, [(-150, 150), (150, 150), (150, -150), (0, 200), (-150, -150)]):
+        sketch.mouse.click(*place)
+        sketch.wait_for_timeout(350)
+    sketch.keyboard.press("Enter")
+    assert "winds −1 times" in verdict(sketch, WORD["none"])
 
 
 def test_empty_pictures_say_what_will_be_there(sketch):

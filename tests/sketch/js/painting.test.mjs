@@ -46,3 +46,15 @@ test("every stroke, cell, number and cross is painted in its place", () => {
   assert.ok(calls.some(([name, ...values]) => name === "moveTo" && `${values}` === `${[x - 9, y - 9]}`));
   assert.equal(windingColour(0), null);
 });
+
+test("vertices that are near each other are smaller", () => {
+  const radii = (step) => {
+    const [context, calls] = recorder();
+    const points = [0, 1, 2, 3].map((i) => [i * step, 0]);
+    paint(context, { ...BLANK, tool: "edit", document: { strokes: [{ points, closed: false }], image: null } });
+    return calls.filter(([name]) => name === "arc").map(([, , , radius]) => radius);
+  };
+  const [near, far] = [radii(2), radii(20)];
+  assert.equal(near.length, 4);
+  assert.ok(near.every((radius, i) => radius < far[i]));
+});

@@ -14,6 +14,8 @@ import { distance } from "./geometry.js";
 
 const TURN = 2 * Math.PI;
 const SPACING = 22;
+// Vertices nearer to each other than this are small, so that each is still seen.
+const CROWDED = 11;
 
 export function paint(context, picture) {
   const scene = { context, ...picture, at: (point) => toScreen(picture.camera, point) };
@@ -214,8 +216,9 @@ function paintVertices(scene) {
   document.strokes.forEach(({ points }, stroke) =>
     points.forEach((point, vertex) => {
       const chosen = selected?.stroke === stroke && selected.vertex === vertex;
+      const room = distance(at(point), at(points[vertex ? vertex - 1 : 1] ?? point));
       context.beginPath();
-      context.arc(...at(point), chosen ? 7 : 4, 0, TURN);
+      context.arc(...at(point), chosen ? 7 : room < CROWDED ? 2.5 : 4, 0, TURN);
       context.fillStyle = chosen ? theme.accent : theme.paper;
       context.fill();
       Object.assign(context, { lineWidth: 1.6, strokeStyle: theme.ink });

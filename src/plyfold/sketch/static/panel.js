@@ -121,7 +121,10 @@ function refresh(state) {
 }
 
 /** The headline has said yes or no already. */
-const sentenceCase = (sentence) => sentence.replace(/^(No disk\.|Yes:) /, "").replace(/^./, (letter) => letter.toUpperCase());
+const sentenceCase = (sentence) => signed(sentence.replace(/^(No disk\.|Yes:) /, "").replace(/^./, (letter) => letter.toUpperCase()));
+
+/** With true minus signs before numbers. */
+const signed = (text) => text.replace(/(?<![\w-])-(?=\d)/g, "−");
 
 function write(element, text) {
   if (element.textContent !== text) element.textContent = text;
