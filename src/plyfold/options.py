@@ -6,7 +6,7 @@ import numpy as np
 
 from plyfold.errors import InputError
 
-__all__ = ["refuse_unless_flag", "refuse_unless_number"]
+__all__ = ["refuse_unless_count", "refuse_unless_flag", "refuse_unless_number"]
 
 
 def refuse_unless_number(name: str, value: object) -> None:
@@ -35,3 +35,17 @@ def refuse_unless_flag(name: str, value: object) -> None:
     """
     if not isinstance(value, bool | np.bool_):
         raise InputError(f"{name} must be True or False, not {value!r}")
+
+
+def refuse_unless_count(name: str, value: object, most: int = 1_000_000) -> None:
+    """Raise InputError for anything but a whole number from 1 to ``most``.
+
+    Examples
+    --------
+    >>> refuse_unless_count("pixels", 900)
+    >>> refuse_unless_count("pixels", 0, most=20_000)
+    Traceback (most recent call last):
+    plyfold.errors.InputError: pixels must be a whole number from 1 to 20,000, not 0
+    """
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not 1 <= value <= most:
+        raise InputError(f"{name} must be a whole number from 1 to {most:,}, not {value!r}")

@@ -3,7 +3,10 @@ import pytest
 from matplotlib.figure import Figure
 
 from plyfold import arrangement, find_immersion, find_layering, lift
+from plyfold.draw import plot_collapsed_graphs, plot_immersions
 from plyfold.draw.figures import overview, save, summary
+from plyfold.draw.viewer import frame
+from plyfold.errors import InputError
 
 RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], float)
 EIGHT = [(0, 0), (2, 2), (2, 0), (0, 2)]
@@ -44,7 +47,7 @@ def test_existing_files_are_kept_unless_forced(tmp_path):
 
 
 def test_failed_picture_leaves_nothing_behind(tmp_path):
-    with pytest.raises(ValueError, match="not supported"):
+    with pytest.raises(InputError, match="picture.xyz"):
         save(Figure(), tmp_path / "picture.xyz")
     assert list(tmp_path.iterdir()) == []
 
@@ -56,3 +59,14 @@ def test_summary_writes_one_picture(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["ramp.png"]
     with Image.open(tmp_path / "ramp.png") as picture:
         assert min(picture.size) > 1000
+
+
+@pytest.mark.parametrize("wrong", ["x", None, 0, -1, 2.5, True, float("nan")])
+def test_numbers_of_panels_and_pixels_are_whole(wrong):
+    for draw in (
+        lambda: plot_immersions(RAMP, most=wrong),
+        lambda: plot_collapsed_graphs(find_immersion(RAMP), most=wrong),
+        lambda: frame(lift(RAMP[:3], triangles=2), height=wrong),
+    ):
+        with pytest.raises(InputError, match="whole number"):
+            draw()

@@ -209,7 +209,17 @@ def test_layers_have_colours_too_and_others_are_refused():
 
 
 @pytest.mark.parametrize(
-    "option", [{"view": 5}, {"view": (1,)}, {"view": ("a", "b")}, {"view": None}, {"stretch": "x"}, {"pixels": None}]
+    "option",
+    [
+        {"view": 5},
+        {"view": (1,)},
+        {"view": ("a", "b")},
+        {"view": None},
+        {"stretch": "x"},
+        {"stretch": 0},
+        {"pixels": None},
+        {"pixels": 0},
+    ],
 )
 def test_options_of_a_shaded_view_of_the_wrong_kind(option):
     with pytest.raises(InputError):

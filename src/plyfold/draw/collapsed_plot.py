@@ -20,6 +20,7 @@ from plyfold.layering.collapsed import (
     edge_collapsed_graphs,
     linear_spanning_subtrees,
 )
+from plyfold.options import refuse_unless_count
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -120,6 +121,7 @@ def plot_collapsed_graphs(
     4
     """
     graphs = [graph for graph in edge_collapsed_graphs(immersion) if graph.nodes]
+    refuse_unless_count("most", most)
     deepest = sorted(graphs, key=lambda graph: -len(graph.nodes))[:most]
     axes = blank(ax, (3.2 * len(deepest), 6.4))
     for above, below, graph in zip(*grid(axes, 2, len(deepest)), deepest, strict=True):

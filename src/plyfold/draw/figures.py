@@ -14,6 +14,7 @@ from plyfold.draw.colours import INK
 from plyfold.draw.layers_plot import plot_layers
 from plyfold.draw.layout_plot import plot_layout
 from plyfold.draw.surface_plot import plot_surface
+from plyfold.errors import InputError
 from plyfold.immersion import Immersion
 from plyfold.io.saving import refuse_existing, save_bytes
 from plyfold.layering import Layering
@@ -87,12 +88,17 @@ def save(figure: Figure, path: str | PathLike[str], force: bool = False) -> None
 
     Raises
     ------
+    InputError
+        If matplotlib knows no format with this ending.
     FileExistsError
         If the file exists and ``force`` is not set.
     """
+    kind = Path(path).suffix[1:].lower()
+    if kind not in figure.canvas.get_supported_filetypes():
+        raise InputError(f"{Path(path).name}: a picture cannot be written so", hint="use .png, .svg or .pdf")
     refuse_existing(path, force)
     drawn = BytesIO()
-    figure.savefig(drawn, format=Path(path).suffix[1:].lower(), dpi=160, facecolor="white")
+    figure.savefig(drawn, format=kind, dpi=160, facecolor="white")
     save_bytes(path, drawn.getvalue(), force)
 
 

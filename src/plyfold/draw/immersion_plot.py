@@ -16,6 +16,7 @@ from plyfold.draw.layout_plot import plot_layout
 from plyfold.draw.places import Frame, label_circle, line_weight
 from plyfold.immersion import Immersion, count_immersions, find_immersion, immersions
 from plyfold.immersion.immersion import require_immersion
+from plyfold.options import refuse_unless_count
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -137,6 +138,7 @@ def plot_immersions(curve: CurveLike, ax: Axes | None = None, *, most: int = 4) 
     >>> len(ax.child_axes)
     4
     """
+    refuse_unless_count("most", most)
     shown = list(islice(immersions(curve), most))
     if not shown:
         require_immersion(find_immersion(curve))

@@ -15,7 +15,7 @@ from plyfold.draw.over_under import ClothColours
 from plyfold.draw.places import line_weight, middle_and_size, natural_stretch
 from plyfold.draw.render import Image, Mesh, shade
 from plyfold.errors import InputError
-from plyfold.options import refuse_unless_number
+from plyfold.options import refuse_unless_count, refuse_unless_number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,6 +26,7 @@ __all__ = ["plot_surface"]
 
 Direction = Literal["above", "side"] | tuple[float, float]
 
+_MOST_PIXELS = 20_000
 _DIRECTIONS: dict[str, tuple[float, float]] = {"above": (-72.0, 52.0), "side": (-60.0, 20.0)}
 
 
@@ -77,7 +78,9 @@ def plot_surface(  # noqa: PLR0913 - each option is keyword-only and independent
     """
     if stretch is not None:
         refuse_unless_number("stretch", stretch)
-    refuse_unless_number("pixels", pixels)
+        if not 0 < stretch < np.inf:
+            raise InputError(f"stretch must be positive, not {stretch!r}")
+    refuse_unless_count("pixels", pixels, _MOST_PIXELS)
     axes = blank(ax)
     unit, mesh = _unit_and_mesh(surface, stretch)
     image = shade(mesh, _view(view), pixels, _paint(surface, colours))

@@ -20,6 +20,7 @@ from plyfold.arrays import Floats
 from plyfold.draw import colours
 from plyfold.draw.places import middle_and_size, natural_stretch
 from plyfold.errors import InputError, PrecisionError
+from plyfold.options import refuse_unless_count
 from plyfold.surface.animation import Motion
 
 if TYPE_CHECKING:
@@ -84,7 +85,8 @@ def page(surface: Surface, title: str = "plyfold", figures: Mapping[str, object]
 
 def frame(surface: Surface, title: str = "plyfold", height: int = 480) -> str:
     """Return the page inside an ``<iframe>``, as notebooks show it (``height`` in pixels)."""
-    style = f"width:100%;height:{int(height)}px;border:0"
+    refuse_unless_count("height", height)
+    style = f"width:100%;height:{height}px;border:0"
     return (
         f'<iframe srcdoc="{html.escape(page(surface, title))}" style="{style}" title="{html.escape(title)}"></iframe>'
     )
