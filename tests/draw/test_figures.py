@@ -47,7 +47,7 @@ def test_existing_files_are_kept_unless_forced(tmp_path):
 
 
 def test_failed_picture_leaves_nothing_behind(tmp_path):
-    with pytest.raises(InputError, match="picture.xyz"):
+    with pytest.raises(InputError, match=r"picture\.xyz"):
         save(Figure(), tmp_path / "picture.xyz")
     assert list(tmp_path.iterdir()) == []
 
