@@ -171,11 +171,14 @@ class UnwoundDisk:
         return locate(wanted, self.disk, self.faces)
 
     def to_plane(self, points: npt.ArrayLike) -> Floats:
-        """Map points of the unit disk, shape (p, 2), to the drawing; linear in each triangle."""
+        """Map points of the unit disk, shape (p, 2), to the drawing; linear in each triangle.
+
+        Points between the circle and the sides of its polygon go where the nearest points on these go.
+        """
         return self.places(points).of(self.plane, self.faces)
 
     def to_space(self, points: npt.ArrayLike) -> Floats:
-        """Map points of the unit disk, shape (p, 2), to the lifted surface, shape (p, 3)."""
+        """Map points of the unit disk, shape (p, 2), to the lifted surface, shape (p, 3); as :meth:`to_plane`."""
         if self.space is None:
             raise InputError("this disk has not been lifted", hint="lift(immersion).unwrap() gives one with heights")
         return self.places(points).of(self.space, self.faces)
