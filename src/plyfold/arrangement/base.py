@@ -7,13 +7,16 @@ gets the same immersion and the same layering wherever its list of points begins
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 
 from plyfold.arrangement.core import Arrangement
-from plyfold.arrays import Ints
+from plyfold.arrays import Bools, Ints
 
 __all__ = ["base_visit", "numbered_from", "visits_from_base"]
+
+Values = TypeVar("Values", Ints, Bools)
 
 
 def base_visit(arrangement: Arrangement) -> int:
@@ -34,14 +37,15 @@ def base_visit(arrangement: Arrangement) -> int:
     """
     if arrangement.curve is None or not arrangement.n_crossings:
         return 0
-    start = arrangement.curve.points[arrangement.visit_edge]
-    end = arrangement.curve.points[(arrangement.visit_edge + 1) % len(arrangement.curve)]
-    swap = (end[:, 0] < start[:, 0]) | ((end[:, 0] == start[:, 0]) & (end[:, 1] < start[:, 1]))
-    edge = np.where(swap[:, None], np.hstack([end, start]), np.hstack([start, end]))
-    least = np.arange(len(edge))
-    for column in (*edge.T, *edge[arrangement.partner].T):
-        least = least[column[least] == column[least].min()]
-    visit = int(least[0])
+    points, edge = arrangement.curve.points, arrangement.visit_edge
+    x = points[:, 0]
+    left = np.minimum(x[edge], x[(edge + 1) % len(x)])
+    leftmost = np.flatnonzero(left == left.min()).tolist()
+
+    def places(visit: int) -> list[list[float]]:
+        return sorted(points[[edge[visit], (edge[visit] + 1) % len(x)]].tolist())
+
+    visit = min(leftmost, key=lambda visit: (places(visit), places(int(arrangement.partner[visit]))))
     return visit if arrangement.ccw[visit] else int(arrangement.partner[visit])
 
 
@@ -61,17 +65,22 @@ def numbered_from(arrangement: Arrangement, base: int) -> Arrangement:
     darts, visits = 2 * arrangement.n_borders, len(arrangement.partner)
     cell_darts = (arrangement.cell_darts - 2 * base) % darts
     outside = cell_darts[: arrangement.cell_start[1]]
-    cell_darts[: len(outside)] = np.roll(outside, -int(outside.argmin()))
+    cell_darts[: len(outside)] = _from(outside, int(outside.argmin()))
     return replace(
         arrangement,
-        partner=(np.roll(arrangement.partner, -base) - base) % visits,
-        ccw=np.roll(arrangement.ccw, -base),
+        partner=(_from(arrangement.partner, base) - base) % visits,
+        ccw=_from(arrangement.ccw, base),
         outer=(arrangement.outer - 2 * base) % darts,
-        next_dart=(np.roll(arrangement.next_dart, -2 * base) - 2 * base) % darts,
-        cell_of_dart=np.roll(arrangement.cell_of_dart, -2 * base),
+        next_dart=(_from(arrangement.next_dart, 2 * base) - 2 * base) % darts,
+        cell_of_dart=_from(arrangement.cell_of_dart, 2 * base),
         cell_darts=cell_darts,
-        crossing_of_visit=np.roll(arrangement.crossing_of_visit, -base),
+        crossing_of_visit=_from(arrangement.crossing_of_visit, base),
         curve=None,
         crossings=np.empty((0, 2)),
         visit_edge=np.empty(0, dtype=np.int64),
     )
+
+
+def _from(array: Values, start: int) -> Values:
+    """Return an array from a place on, and then what is before; quicker than ``np.roll`` on short ones."""
+    return np.concatenate([array[start:], array[:start]])
