@@ -143,8 +143,9 @@ def _flood(arrangement: Arrangement) -> _Lakes:
 
 
 def _end_of_path(step: Ints) -> Ints:
-    while (step[step] != step).any():
-        step = step[step]
+    further = step[step]
+    while (further != step).any():
+        step, further = further, further[further]
     return step
 
 

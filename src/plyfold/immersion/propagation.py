@@ -85,7 +85,7 @@ def narrow(word: Word) -> Narrowed | Conflict:
         if len(board.partners[label]) == 1 and label not in board.chosen:
             _draw_chord(board, label)
     undecided = [label for label in range(len(word.minus)) if label not in board.chosen]
-    regions = independent_parts(word, undecided, board.partners)
+    regions = independent_parts(word, undecided, board.partners) if undecided else []
     return Narrowed(word, board.chosen, board.partners, regions, board.removed_by)
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 
 from plyfold.arrangement import Arrangement, arrangement
-from plyfold.arrangement.base import base_visit, numbered_from
+from plyfold.arrangement.base import base_visit, begun_at, numbered_from
 from plyfold.arrangement.core import CurveLike
 from plyfold.errors import InputError
 from plyfold.immersion.dual_tree import DualTree, grow_dual_tree
@@ -88,7 +88,8 @@ def find_immersion(curve: CurveLike, method: Literal["exact", "paper"] = "exact"
         from plyfold.immersion.paper import paper_immersion
 
         return paper_immersion(arranged)
-    return next(immersions(arranged), None) or no_grouping(arranged)
+    family = _family_of(arranged)
+    return no_grouping(arranged) if family is None else _glued(family, next(list_groupings(family.groupings)))
 
 
 def immersions(curve: CurveLike) -> Iterator[Immersion]:
@@ -273,8 +274,11 @@ class _Family:
 
 def _family(curve: CurveLike) -> _Family | None:
     arranged = arrangement(curve)
-    if visible_obstruction(arranged) is not None:
-        return None
+    return None if visible_obstruction(arranged) is not None else _family_of(arranged)
+
+
+def _family_of(arranged: Arrangement) -> _Family | None:
+    """Return the family of a curve without a visible obstruction; None if its word has no grouping."""
     base = base_visit(arranged)
     numbered = numbered_from(arranged, base)
     tree = grow_dual_tree(numbered)
@@ -292,15 +296,13 @@ def _glued(family: _Family, grouping: Grouping) -> Immersion:
 
 def _numbered_back(immersion: Immersion, family: _Family) -> Immersion:
     """Return the immersion with borders numbered as in the curve's own arrangement; cells are numbered alike."""
-    first = np.searchsorted(immersion.gluing[:, 0], family.arrangement.n_borders - family.base)
-    gluing = np.roll(immersion.gluing, -first, axis=0)
-    gluing[:, 0] = (gluing[:, 0] + family.base) % family.arrangement.n_borders
-    return replace(
-        immersion,
-        arrangement=family.arrangement,
-        own_sheet=np.roll(immersion.own_sheet, family.base),
-        gluing=gluing,
-    )
+    if family.base == 0:
+        return immersion
+    borders = family.arrangement.n_borders
+    gluing = begun_at(immersion.gluing, int(np.searchsorted(immersion.gluing[:, 0], borders - family.base)))
+    gluing[:, 0] = (gluing[:, 0] + family.base) % borders
+    own_sheet = begun_at(immersion.own_sheet, borders - family.base)
+    return Immersion(family.arrangement, immersion.sheet_cell, immersion.first_sheet, own_sheet, gluing)
 
 
 def _random_below(limit: int, rng: np.random.Generator) -> int:
