@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 DEMO   ?= examples/ramp.svg
 
-.PHONY: demo test test-slow nightly browser lint pictures benchmark benchmark-docs clean
+.PHONY: demo test test-busy test-slow nightly browser lint pictures benchmark benchmark-docs clean
 
 demo: $(READY)  ## Lift an example: out/ gets a GLB, a 3D page and a picture of every stage
 	@mkdir -p out
@@ -20,6 +20,9 @@ demo: $(READY)  ## Lift an example: out/ gets a GLB, a 3D page and a picture of 
 test: $(READY) lint  ## Style, types, and every test but the slow ones
 	@$(MAKE) --no-print-directory browser 2>/dev/null || echo "The tests of the pages are skipped."
 	$(BIN)/python -m pytest -n 2
+
+test-busy: $(READY)  ## The same beside eight busy processes: no test depends on how fast the machine is
+	$(BIN)/python tools/busy.py 8 $(MAKE) --no-print-directory test
 
 test-slow: $(READY)  ## The tests that take minutes: every curve with six crossings
 	$(BIN)/python -m pytest -n 2 -m slow
