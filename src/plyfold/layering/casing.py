@@ -51,7 +51,9 @@ def embed_cased(curve: CurveLike, over: npt.ArrayLike) -> Layering | LayeredSurf
     Raises
     ------
     InputError
-        If ``over`` has the wrong length, or both strands or none are to pass over at some crossing.
+        If ``over`` has the wrong length, or both strands or none are to pass over at some crossing. Of several curves,
+        also if several surfaces have this casing: it does not determine the level of a curve that lies in others
+        without crossing them. :func:`~plyfold.layered_surfaces` lists them.
 
     Notes
     -----

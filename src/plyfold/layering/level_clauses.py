@@ -19,7 +19,7 @@ from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import count_each
 from plyfold.layering.clock import Clock
 from plyfold.layering.levels import LevelEquations
-from plyfold.layering.sat import in_time
+from plyfold.layering.sat import Clauses, in_time
 
 __all__ = ["LevelClauses", "contradicting_crossings", "list_levels", "solve_levels"]
 
@@ -57,12 +57,22 @@ class LevelClauses:
 
     @cached_property
     def choices(self) -> list[int]:
-        """Variables that determine a solution: all crossings, and the levels of borders without crossings."""
-        alone = np.ones(len(self.equations.highest), dtype=bool)
-        alone[self.equations.top] = alone[self.equations.bottom] = False
-        border = np.repeat(np.arange(len(alone)), np.where(alone, self.equations.highest - 1, 0))
-        i = count_each(np.bincount(border, minlength=len(alone))) + 1
-        return [*self.first_over, *self._at_most(border, i).tolist()]
+        """Variables that determine a solution: all crossings, and the level of one border of each curve."""
+        return [*self.first_over, *self._at_most(*self._anchors).tolist()]
+
+    def other_than(self, level: Ints) -> list[int]:
+        """Return the clause that some curve lies on another level than in a solution, given the same casing."""
+        border, i = self._anchors
+        variable = self._at_most(border, i)
+        clause: list[int] = np.where(level[border] <= i, -variable, variable).tolist()
+        return clause
+
+    @cached_property
+    def _anchors(self) -> tuple[Ints, Ints]:
+        """The variables x(e, i) of one border e of each curve, as e and i; few, for most have a border with w = 1."""
+        anchor = self.equations.anchors
+        border = np.repeat(anchor, self.equations.highest[anchor] - 1)
+        return border, 1 + count_each(self.equations.highest[anchor] - 1)
 
     @property
     def n_variables(self) -> int:
@@ -129,9 +139,13 @@ def _without_constants(rows: Ints) -> tuple[Ints, list[list[int]]]:
     return which, [list({x for x in row if x != -_TRUE}) for row in rows[which].tolist()]
 
 
-def solve_levels(clauses: LevelClauses, clock: Clock) -> Ints | None:
-    """Return the levels of a solution, or None if there is none. Raises TimeoutError when the time is over."""
+def solve_levels(clauses: LevelClauses, clock: Clock, more: Clauses = ()) -> Ints | None:
+    """Return the levels of a solution, or None if there is none. Raises TimeoutError when the time is over.
+
+    More clauses can be given that it has to meet.
+    """
     with _solver(clauses) as solver:
+        solver.append_formula(more)
         answer = in_time(clock.left, solver, partial(solver.solve_limited, expect_interrupt=True))
         if answer is None:
             raise TimeoutError
