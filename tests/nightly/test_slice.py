@@ -3,14 +3,17 @@
 import json
 import time
 from collections import Counter
+from contextlib import suppress
 from itertools import count
 
+import numpy as np
 import pytest
 
 import plyfold as pf
 from nightly import __main__ as nightly
-from nightly.curves import KINDS, MIX, draw
+from nightly.curves import KINDS, LISTS, MIX, draw
 from nightly.judge import judge
+from nightly.lists import judge_list
 
 FIRST_SEED = 10_000_000
 """Far from the seeds of the nightly run."""
@@ -26,15 +29,19 @@ def test_two_seconds_of_random_curves():
 
 def test_every_kind_comes_up_and_seeds_repeat():
     drawn = [draw(seed) for seed in range(len(MIX))]
-    assert {curve.kind for curve in drawn} == set(KINDS)
+    assert {curve.kind for curve in drawn} == set(KINDS) | set(LISTS)
     assert drawn == [draw(seed) for seed in range(len(MIX))]
 
 
 def test_kinds_have_all_verdicts():
     """No disk, one immersion, and several are all among the first curves."""
-    curves = [draw(seed).points for seed in range(4 * len(MIX))]
-    counts = Counter(min(2, pf.count_immersions(points)) for points in curves)
-    assert all(counts[number] >= 3 for number in (0, 1, 2)), counts
+    counts = Counter()
+    for drawn in map(draw, range(20 * len(MIX))):
+        if drawn.kind in KINDS:
+            counts[min(2, pf.count_immersions(drawn.points))] += 1
+        if all(counts[number] >= 3 for number in (0, 1, 2)):
+            return
+    pytest.fail(f"seldom some verdict: {counts}")
 
 
 @pytest.mark.parametrize("wrong", ["count_immersions", "find_immersion"])
@@ -56,3 +63,38 @@ def test_a_wrong_answer_is_found_saved_and_replayed(wrong, tmp_path, monkeypatch
 def test_seeds_go_on_where_they_stopped(capsys):
     assert nightly.main(["--curves", "7", "--first", "93", "--processes", "1"]) == 0
     assert "go on with --first 100" in capsys.readouterr().out
+
+
+def test_a_list_of_loops_that_misses_a_surface_is_found_and_replayed(tmp_path, monkeypatch):
+    seed = next(seed for seed in range(len(MIX)) if MIX[seed] in LISTS and pf.count_embeddings(draw(seed).points) > 1)
+    options = ["--curves", "1", "--first", str(seed), "--processes", "1", "--out", str(tmp_path)]
+    assert nightly.main(options) == 0
+    listed = pf.embeddings
+    monkeypatch.setattr(pf, "embeddings", lambda loops: list(listed(loops))[1:])
+    assert nightly.main(options) == 1
+    (file,) = tmp_path.iterdir()
+    assert nightly.main(["--replay", str(file)]) == 1
+    monkeypatch.undo()
+    assert nightly.main(["--replay", str(file)]) == 0
+
+
+@pytest.mark.parametrize("kind", LISTS)
+def test_lists_have_all_verdicts(kind):
+    """No surface, one, several; casings of one and of several surfaces: all are among the first lists, and right."""
+    rng, counts, refused = np.random.default_rng(5), Counter(), 0
+    for _ in range(40):
+        loops = LISTS[kind](rng)
+        judge_list(loops)
+        with suppress(pf.errors.GeneralPositionError):
+            counts[min(2, pf.count_embeddings(loops))] += 1
+            refused += any(is_refused(loops, surface.casing) for surface in pf.embeddings(loops))
+    assert all(counts[number] >= 3 for number in (0, 1, 2)), counts
+    assert refused >= 3
+
+
+def is_refused(loops, casing):
+    """Whether several surfaces have the casing."""
+    try:
+        return not pf.embed_cased(loops, casing)
+    except pf.errors.InputError:
+        return True
