@@ -29,7 +29,7 @@ def nested(rng: np.random.Generator) -> list[Polygon]:
     for _ in range(int(rng.integers(1, 4))):
         size = int(rng.integers(10, 100))
         loop = triangle(rng, size) if rng.random() < 0.7 else glued_disk(rng, int(rng.integers(2, 5)), size)
-        loops.append(loop[::-1] if rng.random() < 0.25 else loop)
+        loops.append(loop[::-1] if rng.random() < 0.4 else loop)
     return [*loops, *frames]
 
 
