@@ -13,9 +13,11 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import Any
+from itertools import chain
 
 import numpy as np
 
@@ -23,9 +25,11 @@ from plyfold.arrangement import Arrangement
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import PlyfoldError
 from plyfold.immersion import Immersion
+from plyfold.immersion.immersion import count_each
 from plyfold.layering.clock import Clock
+from plyfold.layering.maxsat import fewest_failures
 from plyfold.layering.orders import OrderProblem, independent_orders
-from plyfold.layering.sat import in_time
+from plyfold.layering.sat import StoppableSolver, in_time, solver_of
 
 __all__ = ["IntersectingLayering", "border_lengths", "least_intersecting_layering"]
 
@@ -98,8 +102,8 @@ def least_intersecting_layering(immersion: Immersion, time_limit: float | None =
     ----------
     immersion : Immersion
     time_limit : float, optional
-        Seconds after which the best orders so far are returned; none by default. Setting up the problem is not
-        interrupted: about two seconds for 650 crossings and winding numbers up to 14.
+        Seconds after which the best orders so far are returned; none by default. The limit covers setting up the
+        problem; if not even that is done in time, the sheets lie in the order of their numbers.
 
     Returns
     -------
@@ -126,15 +130,24 @@ def least_intersecting_layering(immersion: Immersion, time_limit: float | None =
     >>> [len(least_intersecting_layering(i).intersections) for i in immersions(CURVES["bennequin"].curve)]
     [0, 1, 0, 1, 0]
     """
-    clock = Clock(time_limit)
-    wishes = _wishes(independent_orders(immersion))
-    # The greedy search is for the case that the exact one does not end in time.
-    good = [] if time_limit is None else _greedy(wishes, Clock(time_limit / 2))
-    best = None if clock.over else _most_wishes(wishes, clock)
-    orders = [x for x in (good if best is None else best) if abs(x) <= wishes.problem.n_variables]
-    layering = IntersectingLayering(immersion, wishes.problem.levels(orders), optimal=best is not None)
+    level, optimal = _levels_in_time(immersion, Clock(time_limit))
+    layering = IntersectingLayering(immersion, level, optimal)
     layering.check()
     return layering
+
+
+def _levels_in_time(immersion: Immersion, clock: Clock) -> tuple[Ints, bool]:
+    """Return the best levels that are found in time, and whether there are none better."""
+    level = 1 + count_each(immersion.arrangement.winding)
+    try:
+        problem = independent_orders(immersion, clock)
+        wishes = _wishes(problem, clock)
+        if clock.left is not None:
+            # The greedy search is for the case that the exact one does not end in time.
+            level = problem.levels(_greedy(wishes, Clock(clock.left / 2)))
+        return problem.levels(_most_wishes(wishes, clock)), True
+    except TimeoutError:
+        return level, False
 
 
 def border_lengths(arrangement: Arrangement) -> Floats:
@@ -166,18 +179,20 @@ class _Wishes:
     failure: list[int]
 
     @property
-    def clauses(self) -> list[list[int]]:
+    def clauses(self) -> Iterator[list[int]]:
         """The constraints on orders, and that unequal literals are a failure."""
         unequal = (
             clause
             for (a, b), failure in zip(self.literals, self.failure, strict=True)
             for clause in ([-a, b, failure], [a, -b, failure])
         )
-        return [*self.problem.clauses, *unequal]
+        return chain(self.problem.clauses, unequal)
 
 
-def _wishes(problem: OrderProblem) -> _Wishes:
+def _wishes(problem: OrderProblem, clock: Clock) -> _Wishes:
+    clock.check()
     border, *sheets = _glued_pairs(problem.immersion).T
+    clock.check()
     literals = np.stack([problem.above(*sheets[:2]), problem.above(*sheets[2:])], axis=1)
     length = border_lengths(problem.immersion.arrangement)
     weight = np.maximum(1, np.rint(length * (_UNITS if np.ptp(length) else 1) / length.max())).astype(np.int64)
@@ -185,37 +200,33 @@ def _wishes(problem: OrderProblem) -> _Wishes:
     return _Wishes(problem, literals.tolist(), weight[border].tolist(), failure.tolist())
 
 
-def _most_wishes(wishes: _Wishes, clock: Clock) -> list[int] | None:
-    """Return the literals of a solution whose failures weigh least, or None if the time is over."""
-    from pysat.examples.rc2 import RC2Stratified
-    from pysat.formula import WCNF
-
-    formula = WCNF()
-    formula.extend(wishes.clauses)
-    formula.extend([[-failure] for failure in wishes.failure], weights=wishes.weight)
-    with RC2Stratified(formula, exhaust=True, minz=True) as solver:
-        true = in_time(clock.left, solver, partial(solver.compute, expect_interrupt=True))
-    return None if true is None else list(true)
+def _most_wishes(wishes: _Wishes, clock: Clock) -> list[int]:
+    """Return the literals of a solution whose failures weigh least. Raises TimeoutError when the time is over."""
+    weight = dict(zip(wishes.failure, wishes.weight, strict=True))
+    n_variables = wishes.problem.n_variables + len(weight)
+    true, _ = fewest_failures(wishes.clauses, n_variables, weight, clock, stratified=True)
+    if true is None:
+        raise TimeoutError
+    return true
 
 
 def _greedy(wishes: _Wishes, clock: Clock) -> list[int]:
     """Return the literals of a solution: fulfil wishes, the weightiest first, as long as there is time."""
-    from pysat.solvers import Glucose4
-
-    with Glucose4(bootstrap_with=wishes.clauses) as solver:
-        solver.solve()
-        return in_time(clock.left, solver, partial(_one_by_one, wishes, clock, solver))
+    with solver_of(wishes.clauses, clock) as solver:
+        return in_time(clock.left, solver, partial(_one_by_one, wishes, solver))
 
 
-def _one_by_one(wishes: _Wishes, clock: Clock, solver: Any) -> list[int]:
+def _one_by_one(wishes: _Wishes, solver: StoppableSolver) -> list[int]:
+    solver.solve()
     true: list[int] = solver.get_model()
-    for wish in np.argsort(-np.array(wishes.weight), kind="stable").tolist():
-        fulfilled = [-wishes.failure[wish]]
-        if _equal(true, *wishes.literals[wish]):
-            solver.add_clause(fulfilled)
-        elif not clock.over and solver.solve_limited(assumptions=fulfilled, expect_interrupt=True):
-            solver.add_clause(fulfilled)
-            true = solver.get_model()
+    with suppress(TimeoutError):
+        for wish in np.argsort(-np.array(wishes.weight), kind="stable").tolist():
+            fulfilled = [-wishes.failure[wish]]
+            if _equal(true, *wishes.literals[wish]):
+                solver.add_clause(fulfilled)
+            elif solver.solve(fulfilled):
+                solver.add_clause(fulfilled)
+                true = solver.get_model()
     return true
 
 

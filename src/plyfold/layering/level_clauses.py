@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import chain
-from typing import Any
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import count_each
 from plyfold.layering.clock import Clock
 from plyfold.layering.levels import LevelEquations
-from plyfold.layering.sat import Clauses, in_time
+from plyfold.layering.sat import Clauses, minimal_core, solver_of
 
 __all__ = ["LevelClauses", "contradicting_crossings", "list_levels", "solve_levels"]
 
@@ -118,6 +117,11 @@ class LevelClauses:
                 demands[number].append([variable if holds else -variable])
         return demands
 
+    @property
+    def every(self) -> Iterator[list[int]]:
+        """All of them."""
+        return chain(self.of_borders, chain.from_iterable(self.of_crossings))
+
     def levels(self, model: list[int]) -> Ints:
         """Return the levels in a solution: one more than the number of levels that are not high enough."""
         highest = self.equations.highest
@@ -144,12 +148,8 @@ def solve_levels(clauses: LevelClauses, clock: Clock, more: Clauses = ()) -> Int
 
     More clauses can be given that it has to meet.
     """
-    with _solver(clauses) as solver:
-        solver.append_formula(more)
-        answer = in_time(clock.left, solver, partial(solver.solve_limited, expect_interrupt=True))
-        if answer is None:
-            raise TimeoutError
-        return clauses.levels(solver.get_model()) if answer else None
+    with solver_of(chain(clauses.every, more), clock) as solver:
+        return clauses.levels(solver.get_model()) if solver.ask(clock=clock) else None
 
 
 def list_levels(clauses: LevelClauses) -> Iterator[Ints]:
@@ -158,9 +158,9 @@ def list_levels(clauses: LevelClauses) -> Iterator[Ints]:
     The solver is asked for one; then the last choice whose opposite has not been tried, under the choices before it, is
     turned round, and the solver is asked for the rest. Nothing is remembered but the way back.
     """
-    with _solver(clauses) as solver:
+    with solver_of(clauses.every) as solver:
         tried: list[tuple[int, bool]] = []
-        possible = solver.solve()
+        possible = solver.ask()
         while True:
             if possible:
                 model = solver.get_model()
@@ -171,7 +171,7 @@ def list_levels(clauses: LevelClauses) -> Iterator[Ints]:
             if not tried:
                 return
             tried[-1] = (-tried[-1][0], True)
-            possible = solver.solve(assumptions=[literal for literal, _ in tried])
+            possible = solver.ask([literal for literal, _ in tried])
 
 
 def contradicting_crossings(clauses: LevelClauses, clock: Clock) -> list[int]:
@@ -180,34 +180,4 @@ def contradicting_crossings(clauses: LevelClauses, clock: Clock) -> list[int]:
     As few as leaving out one after the other can reach; where the solver does not know soon, a crossing stays, and when
     the time is over, so do all the others.
     """
-    start = clauses.n_variables + 1
-    selectors = list(range(start, start + clauses.equations.n_crossings))
-    with _solver(clauses, start) as solver:
-        core = in_time(clock.left, solver, partial(_small_core, solver, selectors, clock))
-    return [selector - start for selector in core]
-
-
-def _small_core(solver: Any, selectors: list[int], clock: Clock) -> list[int]:
-    answer = solver.solve_limited(assumptions=selectors, expect_interrupt=True)
-    core = sorted(solver.get_core()) if answer is False else selectors
-    for selector in list(core):
-        if clock.over:
-            break
-        rest = [other for other in core if other != selector]
-        solver.conf_budget(_EFFORT)
-        if len(rest) < len(core) and solver.solve_limited(assumptions=rest, expect_interrupt=True) is False:
-            core = sorted(solver.get_core() or [])
-    return core
-
-
-def _solver(clauses: LevelClauses, first_selector: int | None = None) -> Any:
-    """Return a solver that knows the clauses; with selectors, those of a crossing hold only if its selector is true."""
-    from pysat.solvers import Glucose4
-
-    solver = Glucose4(bootstrap_with=clauses.of_borders)
-    if first_selector is None:
-        solver.append_formula(chain.from_iterable(clauses.of_crossings))
-        return solver
-    for selector, demands in enumerate(clauses.of_crossings, first_selector):
-        solver.append_formula([*clause, -selector] for clause in demands)
-    return solver
+    return minimal_core(clauses.of_crossings, clauses.of_borders, clock, _EFFORT)

@@ -14,6 +14,7 @@ import numpy as np
 from plyfold.arrays import Ints
 from plyfold.immersion import Immersion
 from plyfold.immersion.immersion import require_immersion
+from plyfold.layering.clock import NO_LIMIT, Clock
 
 __all__ = ["PairGraph", "chain_to_reverse", "pair_graph", "pair_of"]
 
@@ -48,17 +49,23 @@ class PairGraph:
         return np.flatnonzero((self.label == self.label[self.reverse]) & (self.lower != self.upper))
 
 
-def pair_graph(immersion: Immersion) -> PairGraph:
-    """Return the graph of pairs of an immersion. Cost: O(Σ w²) over cells and borders."""
+def pair_graph(immersion: Immersion, clock: Clock = NO_LIMIT) -> PairGraph:
+    """Return the graph of pairs of an immersion. Cost: O(Σ w²) over cells and borders.
+
+    Raises TimeoutError when the time is over.
+    """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
     winding = require_immersion(immersion).arrangement.winding
+    clock.check()
     first_pair = np.concatenate([[0], np.cumsum(winding**2)])
     total = int(first_pair[-1])
     cell = np.repeat(np.arange(len(winding)), winding**2)
     row, column = np.divmod(np.arange(total) - first_pair[cell], winding[cell])
+    clock.check()
     edges = _carried(immersion, first_pair)
+    clock.check()
     graph = coo_array((np.ones(len(edges), dtype=bool), edges.T), shape=(total, total))
     return PairGraph(
         lower=immersion.first_sheet[cell] + row,
