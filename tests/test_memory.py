@@ -10,8 +10,9 @@ from plyfold import memory
 from plyfold.errors import MemoryLimitError
 from plyfold.flat import sheets
 from plyfold.flat.cells import triangulate_cells
+from plyfold.immersion import immersion
 from plyfold.immersion.layout import glue_layout
-from plyfold.layering import casing, intersections, orders
+from plyfold.layering import intersections, orders, sheet_pairs
 from plyfold.layering.level_clauses import LevelClauses, solve_levels
 from plyfold.layering.levels import level_equations
 
@@ -25,14 +26,14 @@ def helix(turns):
     return np.stack([along.real, along.imag], axis=1)
 
 
-HELIX = pf.arrangement(helix(12))
+HELIX = pf.arrangement(helix(30))
 LAYERING = pf.find_layering(pf.find_immersion(HELIX))
 IMMERSION = LAYERING.immersion
 GROUPS = [group.borders for group in IMMERSION.disk_layout()]
 MESH = triangulate_cells(HELIX, triangles=0)
 PROBLEM = orders.independent_orders(IMMERSION)
 LEVELS = level_equations(HELIX)
-RING = [(0, 0), (9, 0), (0, 9)]
+RINGS = [[(0, 0), (9, 0), (0, 9)], [(1, 1), (3, 1), (1, 3)]]
 
 LARGE = {
     "gluing": (lambda: pf.find_immersion(HELIX), "bounds_disk"),
@@ -47,7 +48,7 @@ LARGE = {
     "glued pairs": (lambda: intersections._glued_pairs(IMMERSION), "find_layering"),
     "wishes": (lambda: intersections._wishes(PROBLEM, orders.NO_LIMIT), "find_layering"),
     "levels": (lambda: solve_levels(LevelClauses(LEVELS), orders.NO_LIMIT), "embed_cased"),
-    "levels of several": (lambda: pf.find_embedding([RING, RING[::-1]]), "embed_cased"),
+    "levels of several": (lambda: pf.find_embedding(RINGS), "embed_cased"),
 }
 
 
@@ -58,7 +59,6 @@ def little_memory(monkeypatch):
     monkeypatch.setattr(memory, "_SURELY_THERE", 0)
 
 
-@pytest.mark.xfail(strict=True, reason="nobody asks how much memory there is")
 @pytest.mark.parametrize("name", LARGE)
 def test_what_does_not_fit_is_refused(name, little_memory):
     make, instead = LARGE[name]
@@ -76,29 +76,26 @@ def test_the_place_is_where_most_sheets_lie(little_memory):
     memory.require_memory(100, "it", HELIX, "")
 
 
-@pytest.mark.xfail(strict=True, reason="nobody asks how much memory there is")
 def test_answers_without_sheets_need_little(little_memory):
     assert pf.bounds_disk(HELIX)
     assert pf.count_immersions(HELIX) == 1
-    assert len(pf.coverage(HELIX)) == HELIX.n_cells - 1
+    assert len(pf.coverage(HELIX)) == np.count_nonzero(HELIX.winding)
     with pytest.raises(MemoryLimitError):
         pf.lift(HELIX)
 
 
 @pytest.mark.parametrize("name", ["gluing", "gluing by casing", "seams", "copies", "pairs", "triples", "glued pairs"])
-@pytest.mark.xfail(strict=True, reason="nobody asks how much memory there is")
 def test_sizes_are_those_that_are_taken(name, monkeypatch):
     """The estimate lies above what Python and numpy allocate, and not far above."""
     sizes = []
-    for module in (casing, intersections, orders, sheets):
-        if hasattr(module, "require_memory"):
-            monkeypatch.setattr(module, "require_memory", lambda size, *_: sizes.append(size))
+    for module in (immersion, intersections, orders, sheet_pairs, sheets):
+        monkeypatch.setattr(module, "require_memory", lambda size, *_: sizes.append(size))
     tracemalloc.start()
     before, _ = tracemalloc.get_traced_memory()
     LARGE[name][0]()
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    assert 0.9 * (peak - before) < max(sizes) < 4 * (peak - before)
+    assert 0.8 * (peak - before) < max(sizes) < 4 * (peak - before)
 
 
 def test_memory_of_this_machine():

@@ -19,7 +19,7 @@ from plyfold.arrangement.several import Loops, are_several
 from plyfold.arrays import Bools, Ints
 from plyfold.errors import InputError
 from plyfold.immersion import Immersion
-from plyfold.immersion.immersion import count_each
+from plyfold.immersion.immersion import count_each, require_memory_for_gluing
 from plyfold.immersion.obstructions import visible_obstruction
 from plyfold.layering.layering import Layering
 from plyfold.obstruction import Obstruction, Unknown
@@ -103,6 +103,7 @@ def layering_of_levels(arranged: Arrangement, level: Ints) -> Layering:
     Layering
         Over each cell the sheets are numbered from below. Cost: O(Σ w), the sheets counted once per border.
     """
+    require_memory_for_gluing(arranged)
     winding, lower = arranged.winding, arranged.winding[arranged.right_cell]
     first_sheet = np.cumsum(winding) - winding
     border = np.repeat(np.arange(arranged.n_borders), lower)

@@ -30,11 +30,15 @@ from plyfold.layering.clock import Clock
 from plyfold.layering.maxsat import fewest_failures
 from plyfold.layering.orders import OrderProblem, independent_orders
 from plyfold.layering.sat import StoppableSolver, in_time, solver_of
+from plyfold.memory import number_of_tuples, require_memory
 
 __all__ = ["IntersectingLayering", "border_lengths", "least_intersecting_layering"]
 
 # Lengths are weighed as integers: the longest border with this many units.
 _UNITS = 1_000_000
+# A pair of sheets glued along a border, and all that the solvers know about the wish that it keep its order.
+_BYTES_PER_PAIR = 110
+_BYTES_PER_WISH = 1600
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,12 +165,25 @@ def border_lengths(arrangement: Arrangement) -> Floats:
 def _glued_pairs(immersion: Immersion) -> Ints:
     """Return rows (border, two sheets on its right, the two glued to them on its left); each two sheets once."""
     border, right, left = immersion.gluing.T
+    _require_memory(immersion, _BYTES_PER_PAIR)
     count = np.bincount(border, minlength=immersion.arrangement.n_borders)
     row = np.arange(len(border))
     beyond = np.cumsum(count)[border] - row - 1  # how many rows of the same border follow
     first = np.repeat(row, beyond)
     second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(beyond) - beyond, beyond)
     return np.column_stack([border[first], right[first], right[second], left[first], left[second]])
+
+
+def _require_memory(immersion: Immersion, bytes_per_pair: int) -> None:
+    arrangement = immersion.arrangement
+    lower = arrangement.winding[arrangement.right_cell]
+    pairs = (number_of_tuples(lower, 2) - int(lower.sum())) // 2
+    require_memory(
+        bytes_per_pair * pairs,
+        f"a table of {pairs:,} pairs of sheets that are glued along a border",
+        arrangement,
+        "find_layering(immersion) tells with less whether there is a layering without intersections",
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,6 +208,7 @@ class _Wishes:
 
 def _wishes(problem: OrderProblem, clock: Clock) -> _Wishes:
     clock.check()
+    _require_memory(problem.immersion, _BYTES_PER_WISH)
     border, *sheets = _glued_pairs(problem.immersion).T
     clock.check()
     literals = np.stack([problem.above(*sheets[:2]), problem.above(*sheets[2:])], axis=1)

@@ -19,6 +19,7 @@ from plyfold.immersion.immersion import count_each
 from plyfold.layering.clock import Clock
 from plyfold.layering.levels import LevelEquations
 from plyfold.layering.sat import Clauses, minimal_core, solver_of
+from plyfold.memory import require_memory
 
 __all__ = ["LevelClauses", "contradicting_crossings", "list_levels", "solve_levels"]
 
@@ -26,6 +27,8 @@ __all__ = ["LevelClauses", "contradicting_crossings", "list_levels", "solve_leve
 _TRUE = 1
 # Conflicts after which the solver may give up when it is asked whether one crossing less is a contradiction too.
 _EFFORT = 5000
+# Clauses of the borders and crossings, and what the solver keeps of them.
+_BYTES_PER_LEVEL = 3500
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +84,7 @@ class LevelClauses:
     @cached_property
     def of_borders(self) -> list[list[int]]:
         """What holds on every border: a level that is at most i is at most i + 1."""
+        self._require_memory()
         highest = self.equations.highest
         border, i = np.repeat(np.arange(len(highest)), highest), count_each(highest)
         rows = np.stack([-self._at_most(border, i), self._at_most(border, i + 1)], axis=1)
@@ -90,6 +94,7 @@ class LevelClauses:
     @cached_property
     def of_crossings(self) -> list[list[list[int]]]:
         """What each crossing demands. The last two rules follow from the others and speed up the solver."""
+        self._require_memory()
         top, bottom = self.equations.top, self.equations.bottom
         levels = self.equations.highest[top[:, 0]] + 1
         crossing, i = np.repeat(np.arange(len(top)), levels), count_each(levels)
@@ -116,6 +121,15 @@ class LevelClauses:
             for number, (variable, holds) in enumerate(zip(self.first_over, self.first_is_over, strict=True)):
                 demands[number].append([variable if holds else -variable])
         return demands
+
+    def _require_memory(self) -> None:
+        levels = int(self.equations.highest.sum())
+        require_memory(
+            _BYTES_PER_LEVEL * levels,
+            f"a formula for {levels:,} levels of borders",
+            None,
+            "embed_cased(curve, over) takes one pass along a single curve, where over and under are known",
+        )
 
     @property
     def every(self) -> Iterator[list[int]]:

@@ -20,11 +20,14 @@ from plyfold.immersion import Immersion
 from plyfold.layering.clock import NO_LIMIT, Clock
 from plyfold.layering.layering import Layering, meeting_sheets
 from plyfold.layering.sheet_pairs import PairGraph, chain_to_reverse, pair_graph, pair_of
+from plyfold.memory import number_of_tuples, require_memory
 from plyfold.obstruction import Obstruction
 
 __all__ = ["OrderProblem", "independent_orders", "order_problem", "places_of_cells"]
 
 _ROWS_AT_A_TIME = 4096
+# With what is needed to make them.
+_BYTES_PER_TRIPLE = 200
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,6 +169,13 @@ def _literals(immersion: Immersion, graph: PairGraph) -> Ints:
 def _triples(immersion: Immersion, graph: PairGraph, literal: Ints, clock: Clock) -> tuple[Ints, Ints]:
     """Return the constraints on triples of sheets, each once, and for each three sheets that demand it."""
     winding = immersion.arrangement.winding
+    number = number_of_tuples(winding, 3) // 6
+    require_memory(
+        _BYTES_PER_TRIPLE * number,
+        f"{number:,} triples of sheets",
+        immersion.arrangement,
+        "embed_cased(curve, over) orders sheets without triples, where over and under are known",
+    )
     cycles, sheets = [np.empty((0, 3), dtype=np.int64)], [np.empty((0, 3), dtype=np.int64)]
     for w in np.unique(winding[winding >= 3]).tolist():
         clock.check()
