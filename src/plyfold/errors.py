@@ -12,7 +12,8 @@
     ├── NotImmersibleError    a disk was asked for, and the curve bounds none (carries the obstruction)
     ├── NotEmbeddableError    a layered surface was asked for, and there is none (carries the obstruction)
     ├── PrecisionError        double precision cannot hold the mesh (the decision itself is exact)
-    └── TimeLimitError        a step was stopped before it had an answer
+    ├── TimeLimitError        a step was stopped before it had an answer
+    └── MemoryLimitError      an answer, or a step on the way to it, does not fit into memory
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ __all__ = [
     "GaussCodeError",
     "GeneralPositionError",
     "InputError",
+    "MemoryLimitError",
     "NotEmbeddableError",
     "NotImmersibleError",
     "PlyfoldError",
@@ -121,3 +123,7 @@ class PrecisionError(PlyfoldError):
 
 class TimeLimitError(PlyfoldError):
     """The time limit ended a step before it had an answer."""
+
+
+class MemoryLimitError(PlyfoldError, MemoryError):
+    """An answer would not fit into memory; the sentence says how large it is, and the hint which call does without."""

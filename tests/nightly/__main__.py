@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 from nightly.curves import Drawn, draw
 from nightly.judge import judge
+from reference.random_curves import Polygon
 
 SEEDS_AT_ONCE = 25
 
@@ -82,7 +83,12 @@ def save(failure: Failure, folder: Path) -> Path:
 def load(file: Path) -> Drawn:
     """Read a curve that failed."""
     data = json.loads(file.read_text(encoding="utf-8"))
-    return Drawn(data["seed"], data["kind"], [(x, y) for x, y in data["points"]])
+    return Drawn(data["seed"], data["kind"], with_tuples(data["points"]))
+
+
+def with_tuples(points: list) -> Polygon | list[Polygon]:
+    """The points of a curve, or of a list of curves, which JSON knows as lists."""
+    return [with_tuples(item) if isinstance(item[0], list) else (item[0], item[1]) for item in points]
 
 
 def complain(failure: Failure, folder: Path) -> None:

@@ -1,10 +1,11 @@
-"""The curves of the nightly check: a seed says which kind it is, and draws it."""
+"""The curves of the nightly check, and lists of them: a seed says which kind it is, and draws it."""
 
 from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
+from nightly.lists import nested, through_the_frame
 from reference.random_curves import (
     SEVERAL_IMMERSIONS,
     Polygon,
@@ -52,6 +53,11 @@ KINDS: dict[str, Draw] = {
     "large ribbon": lambda rng: ribbon_outline(rng, int(rng.integers(40, 200))),
 }
 
+LISTS: dict[str, Callable[[np.random.Generator], list[Polygon]]] = {
+    "list of loops": nested,
+    "list of loops through the frame": through_the_frame,
+}
+
 SHARES = {
     "polygon": 5,
     "half-turn polygon": 4,
@@ -63,6 +69,8 @@ SHARES = {
     "ribbon": 2,
     "large disk": 1,
     "large ribbon": 1,
+    "list of loops": 1,
+    "list of loops through the frame": 1,
 }
 MIX = [kind for kind, share in SHARES.items() for _ in range(share)]
 """Seeds go round this list."""
@@ -72,14 +80,16 @@ DISKS = frozenset({"disk", "ribbon", "large disk", "large ribbon"})
 
 
 class Drawn(NamedTuple):
-    """A curve of the nightly check."""
+    """A curve of the nightly check, or a list of curves."""
 
     seed: int
     kind: str
-    points: Polygon
+    points: Polygon | list[Polygon]
 
 
 def draw(seed: int) -> Drawn:
     """The curve of a seed. Equal vertices in a row are dropped: the library does so too, the reference refuses them."""
-    kind = MIX[seed % len(MIX)]
-    return Drawn(seed, kind, without_repeats(KINDS[kind](np.random.default_rng(seed))))
+    kind, rng = MIX[seed % len(MIX)], np.random.default_rng(seed)
+    if kind in LISTS:
+        return Drawn(seed, kind, [without_repeats(loop) for loop in LISTS[kind](rng)])
+    return Drawn(seed, kind, without_repeats(KINDS[kind](rng)))

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 
 import plyfold as pf
-from nightly.curves import DISKS, Drawn
+from nightly.curves import DISKS, LISTS, Drawn
+from nightly.lists import judge_list
 from reference import crossings, gluings, shor_van_wyk
 from reference.planar_maps import GaussCode, gauss_code, windings
 from test_against_reference import (
@@ -26,7 +27,10 @@ MOST_CORNERS = 60
 
 
 def judge(drawn: Drawn) -> None:
-    """Compare a curve with the references where they can, and with itself in other frames."""
+    """Compare a curve with the references where they can, and with itself in other frames; or a list of curves."""
+    if drawn.kind in LISTS:
+        judge_list(drawn.points)
+        return
     try:
         arranged = pf.arrangement(drawn.points, general_position="raise")
     except pf.errors.PlyfoldError:

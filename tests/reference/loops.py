@@ -134,3 +134,12 @@ def agrees(level: Sequence[int], four: tuple[int, int, int, int]) -> bool:
     """The rule at a crossing: two levels of the top cell, of which the higher one is one lower past the crossing."""
     a, a_past, b, b_past = (level[border] for border in four)
     return a != b and a_past == a - (b < a) and b_past == b - (a < b)
+
+
+def casing(borders: LoopBorders, level: Sequence[int]) -> tuple[bool, ...]:
+    """Over and under by visits, which have the numbers of the borders that start at them."""
+    over = {}
+    for a_top, a_past, b_top, _ in borders.crossings:
+        over[a_past] = level[a_top] > level[b_top]
+        over[b_top] = not over[a_past]
+    return tuple(over[visit] for visit in range(len(over)))

@@ -9,8 +9,14 @@ import numpy as np
 from plyfold.arrays import Ints
 from plyfold.flat.cells import CellTriangulation
 from plyfold.immersion import Immersion
+from plyfold.immersion.immersion import require_memory_for_gluing
+from plyfold.memory import require_memory
 
 __all__ = ["Seams", "SheetMesh", "following", "glue_copies", "seams_of"]
+
+# With what is needed to make them.
+_BYTES_PER_SEAM = 40
+_BYTES_PER_COPY = 350
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +69,7 @@ class Seams:
 def seams_of(immersion: Immersion) -> Seams:
     """Return the gluing as a table."""
     arrangement = immersion.arrangement
+    require_memory_for_gluing(arrangement, _BYTES_PER_SEAM)
     count = arrangement.winding[arrangement.cell_of_dart]
     row = np.cumsum(count) - count - immersion.first_sheet[arrangement.cell_of_dart]
     table = np.full(int(count.sum()), -1)
@@ -102,6 +109,12 @@ def glue_copies(immersion: Immersion, mesh: CellTriangulation) -> SheetMesh:
     ((1, 3), [0, 1, 2])
     """
     copies = immersion.arrangement.winding[mesh.cell]
+    require_memory(
+        _BYTES_PER_COPY * int(copies.sum()),
+        f"a mesh of {int(copies.sum()):,} copies of triangles",
+        immersion.arrangement,
+        "triangulate(curve) fills the disk without them",
+    )
     first_copy = np.cumsum(copies) - copies
     first_sheet = immersion.first_sheet[mesh.cell]
     triangle = np.repeat(np.arange(len(copies)), copies)

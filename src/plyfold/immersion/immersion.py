@@ -11,9 +11,13 @@ import numpy as np
 from plyfold.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.errors import InputError, NotImmersibleError, PlyfoldError
+from plyfold.memory import require_memory
 from plyfold.obstruction import Obstruction
 
-__all__ = ["Group", "Immersion", "count_each", "require_immersion"]
+__all__ = ["Group", "Immersion", "count_each", "require_immersion", "require_memory_for_gluing"]
+
+# Bytes for each pair of glued sheets: the result, and what is there while it is made and checked.
+_BYTES_PER_PAIR = 130
 
 
 @dataclass(frozen=True)
@@ -202,3 +206,14 @@ def require_immersion(value: object) -> Immersion:
     if isinstance(value, Obstruction):
         raise NotImmersibleError(value)
     raise InputError(f"a {type(value).__name__} is no immersion", hint="find_immersion(curve) makes one")
+
+
+def require_memory_for_gluing(arrangement: Arrangement, bytes_per_pair: int = _BYTES_PER_PAIR) -> None:
+    """Raise MemoryLimitError if the gluing of an immersion would not fit into memory."""
+    pairs = int(arrangement.winding[arrangement.right_cell].sum())
+    require_memory(
+        bytes_per_pair * (pairs + arrangement.n_borders),
+        f"the gluing of {pairs:,} pairs of sheets",
+        arrangement,
+        "bounds_disk, count_immersions and coverage answer without sheets",
+    )

@@ -25,9 +25,12 @@ import numpy as np
 from plyfold.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.errors import PlyfoldError
-from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.immersion import Immersion, require_memory_for_gluing
 
 __all__ = ["glue_layout"]
+
+# Rows of the gluing are kept in dictionaries here.
+_BYTES_PER_PAIR = 1000
 
 Gap: TypeAlias = int
 Rooms: TypeAlias = list[dict[Gap, list[int]]]
@@ -64,6 +67,7 @@ def glue_layout(arrangement: Arrangement, groups: Sequence[Sequence[int]]) -> Im
     >>> print(glue_layout(ramp, [(0,), (1, 5), (2, 4), (3,), (6,), (7,)]))
     None
     """
+    require_memory_for_gluing(arrangement, _BYTES_PER_PAIR)
     facing = _facing(arrangement, groups)
     inner = _inner_sheets(arrangement, facing)
     if not _fits(arrangement, groups, inner):

@@ -22,7 +22,7 @@ from plyfold.immersion.grouping import (
     list_groupings,
     nth_grouping,
 )
-from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.immersion import Immersion, require_memory_for_gluing
 from plyfold.immersion.obstructions import no_grouping, visible_obstruction
 from plyfold.immersion.word import write_word
 from plyfold.obstruction import Obstruction
@@ -287,6 +287,7 @@ def _family_of(arranged: Arrangement) -> _Family | None:
 
 
 def _glued(family: _Family, grouping: Grouping) -> Immersion:
+    require_memory_for_gluing(family.arrangement)
     word, link = family.groupings.word, family.tree.link.tolist()
     partner = {link[word.cells[label]]: word.border[letter] for label, letter in grouping.items()}
     immersion = _numbered_back(glue_sheets(family.numbered, family.tree, partner), family)

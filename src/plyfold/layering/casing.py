@@ -19,7 +19,7 @@ from plyfold.arrangement.several import Loops, are_several
 from plyfold.arrays import Bools, Ints
 from plyfold.errors import InputError
 from plyfold.immersion import Immersion
-from plyfold.immersion.immersion import count_each
+from plyfold.immersion.immersion import count_each, require_memory_for_gluing
 from plyfold.immersion.obstructions import visible_obstruction
 from plyfold.layering.layering import Layering
 from plyfold.obstruction import Obstruction, Unknown
@@ -51,7 +51,9 @@ def embed_cased(curve: CurveLike, over: npt.ArrayLike) -> Layering | LayeredSurf
     Raises
     ------
     InputError
-        If ``over`` has the wrong length, or both strands or none are to pass over at some crossing.
+        If ``over`` has the wrong length, or both strands or none are to pass over at some crossing. Of several curves,
+        also if several surfaces have this casing: it does not determine the level of a curve that lies in others
+        without crossing them. :func:`~plyfold.layered_surfaces` lists them.
 
     Notes
     -----
@@ -101,6 +103,7 @@ def layering_of_levels(arranged: Arrangement, level: Ints) -> Layering:
     Layering
         Over each cell the sheets are numbered from below. Cost: O(Σ w), the sheets counted once per border.
     """
+    require_memory_for_gluing(arranged)
     winding, lower = arranged.winding, arranged.winding[arranged.right_cell]
     first_sheet = np.cumsum(winding) - winding
     border = np.repeat(np.arange(arranged.n_borders), lower)

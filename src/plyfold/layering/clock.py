@@ -3,12 +3,23 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from threading import TIMEOUT_MAX
+from typing import TypeVar
 
 from plyfold.errors import InputError
 
-__all__ = ["Clock"]
+__all__ = ["NO_LIMIT", "Clock"]
+
+Item = TypeVar("Item")
+
+# So many items of a long list are gone through between two looks at the clock.
+_ITEMS_AT_A_TIME = 4096
+
+
+def _now() -> float:
+    return time.monotonic()
 
 
 @dataclass(frozen=True)
@@ -22,7 +33,7 @@ class Clock:
     """
 
     limit: float | None
-    started: float = field(default_factory=time.monotonic)
+    started: float = field(default_factory=_now)
 
     def __post_init__(self) -> None:
         if self.limit is not None and not (isinstance(self.limit, int | float) and self.limit >= 0):
@@ -31,7 +42,7 @@ class Clock:
     @property
     def spent(self) -> float:
         """Seconds since the start."""
-        return time.monotonic() - self.started
+        return _now() - self.started
 
     @property
     def left(self) -> float | None:
@@ -42,3 +53,24 @@ class Clock:
     def over(self) -> bool:
         """Whether the end has come."""
         return self.left == 0
+
+    def check(self) -> None:
+        """Raise TimeoutError when the time is over."""
+        if self.over:
+            raise TimeoutError
+
+    def while_time(self, items: Iterable[Item]) -> Iterator[Item]:
+        """Yield the items; raises TimeoutError soon after the time is over.
+
+        Examples
+        --------
+        >>> list(Clock(None).while_time("abc"))
+        ['a', 'b', 'c']
+        """
+        for number, item in enumerate(items):
+            if number % _ITEMS_AT_A_TIME == 0:
+                self.check()
+            yield item
+
+
+NO_LIMIT = Clock(None)

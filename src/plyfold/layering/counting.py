@@ -20,6 +20,7 @@ from plyfold.obstruction import Obstruction, Unknown
 
 __all__ = ["count_layerings", "count_solutions"]
 
+_QUESTION = "how many layerings there are"
 _MOST_ROWS = 2_000_000
 _ROWS_AT_A_TIME = 4096
 
@@ -60,15 +61,18 @@ def count_layerings(immersion: Immersion, time_limit: float | None = None) -> in
     2
     """
     clock = Clock(time_limit)
-    problem = order_problem(immersion)
+    try:
+        problem = order_problem(immersion, clock)
+    except TimeoutError:
+        return undecided("time limit", _QUESTION, clock)
     if isinstance(problem, Obstruction):
         return 0
     try:
         return count_solutions(problem, clock)
     except TimeoutError:
-        return undecided("time limit", "how many layerings there are", clock, problem)
+        return undecided("time limit", _QUESTION, clock, problem)
     except _TooLargeError:
-        return undecided("size", "how many layerings there are", clock, problem)
+        return undecided("size", _QUESTION, clock, problem)
 
 
 def count_solutions(problem: OrderProblem, clock: Clock) -> int:
@@ -76,7 +80,7 @@ def count_solutions(problem: OrderProblem, clock: Clock) -> int:
     order = _elimination_order(problem, clock)
     position = {variable: number for number, variable in enumerate(order)}
     waiting: defaultdict[int, list[_Table]] = defaultdict(list)
-    for triple in problem.triples.tolist():
+    for triple in clock.while_time(problem.triples.tolist()):
         table = _table_of(triple)
         waiting[min(table.variables, key=position.__getitem__)].append(table)
     total = 1 << (problem.n_variables - len(order))
@@ -154,7 +158,7 @@ def _joined(tables: list[_Table], clock: Clock) -> _Table:
 def _elimination_order(problem: OrderProblem, clock: Clock) -> list[int]:
     """Return the variables that have constraints, always one next that has fewest neighbours, old ones or by joins."""
     neighbours: defaultdict[int, set[int]] = defaultdict(set)
-    for triple in problem.triples.tolist():
+    for triple in clock.while_time(problem.triples.tolist()):
         for first, second in permutations(map(abs, triple), 2):
             neighbours[first] |= {second}
     for variable, others in neighbours.items():

@@ -13,9 +13,11 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import Any
+from itertools import chain
 
 import numpy as np
 
@@ -23,14 +25,20 @@ from plyfold.arrangement import Arrangement
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import PlyfoldError
 from plyfold.immersion import Immersion
+from plyfold.immersion.immersion import count_each
 from plyfold.layering.clock import Clock
+from plyfold.layering.maxsat import fewest_failures
 from plyfold.layering.orders import OrderProblem, independent_orders
-from plyfold.layering.sat import in_time
+from plyfold.layering.sat import StoppableSolver, in_time, solver_of
+from plyfold.memory import number_of_tuples, require_memory
 
 __all__ = ["IntersectingLayering", "border_lengths", "least_intersecting_layering"]
 
 # Lengths are weighed as integers: the longest border with this many units.
 _UNITS = 1_000_000
+# A pair of sheets glued along a border, and all that the solvers know about the wish that it keep its order.
+_BYTES_PER_PAIR = 110
+_BYTES_PER_WISH = 1600
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,8 +106,8 @@ def least_intersecting_layering(immersion: Immersion, time_limit: float | None =
     ----------
     immersion : Immersion
     time_limit : float, optional
-        Seconds after which the best orders so far are returned; none by default. Setting up the problem is not
-        interrupted: about two seconds for 650 crossings and winding numbers up to 14.
+        Seconds after which the best orders so far are returned; none by default. The limit covers setting up the
+        problem; if not even that is done in time, the sheets lie in the order of their numbers.
 
     Returns
     -------
@@ -126,15 +134,24 @@ def least_intersecting_layering(immersion: Immersion, time_limit: float | None =
     >>> [len(least_intersecting_layering(i).intersections) for i in immersions(CURVES["bennequin"].curve)]
     [0, 1, 0, 1, 0]
     """
-    clock = Clock(time_limit)
-    wishes = _wishes(independent_orders(immersion))
-    # The greedy search is for the case that the exact one does not end in time.
-    good = [] if time_limit is None else _greedy(wishes, Clock(time_limit / 2))
-    best = None if clock.over else _most_wishes(wishes, clock)
-    orders = [x for x in (good if best is None else best) if abs(x) <= wishes.problem.n_variables]
-    layering = IntersectingLayering(immersion, wishes.problem.levels(orders), optimal=best is not None)
+    level, optimal = _levels_in_time(immersion, Clock(time_limit))
+    layering = IntersectingLayering(immersion, level, optimal)
     layering.check()
     return layering
+
+
+def _levels_in_time(immersion: Immersion, clock: Clock) -> tuple[Ints, bool]:
+    """Return the best levels that are found in time, and whether there are none better."""
+    level = 1 + count_each(immersion.arrangement.winding)
+    try:
+        problem = independent_orders(immersion, clock)
+        wishes = _wishes(problem, clock)
+        if clock.left is not None:
+            # The greedy search is for the case that the exact one does not end in time.
+            level = problem.levels(_greedy(wishes, Clock(clock.left / 2)))
+        return problem.levels(_most_wishes(wishes, clock)), True
+    except TimeoutError:
+        return level, False
 
 
 def border_lengths(arrangement: Arrangement) -> Floats:
@@ -148,12 +165,25 @@ def border_lengths(arrangement: Arrangement) -> Floats:
 def _glued_pairs(immersion: Immersion) -> Ints:
     """Return rows (border, two sheets on its right, the two glued to them on its left); each two sheets once."""
     border, right, left = immersion.gluing.T
+    _require_memory(immersion, _BYTES_PER_PAIR)
     count = np.bincount(border, minlength=immersion.arrangement.n_borders)
     row = np.arange(len(border))
     beyond = np.cumsum(count)[border] - row - 1  # how many rows of the same border follow
     first = np.repeat(row, beyond)
     second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(beyond) - beyond, beyond)
     return np.column_stack([border[first], right[first], right[second], left[first], left[second]])
+
+
+def _require_memory(immersion: Immersion, bytes_per_pair: int) -> None:
+    arrangement = immersion.arrangement
+    lower = arrangement.winding[arrangement.right_cell]
+    pairs = (number_of_tuples(lower, 2) - int(lower.sum())) // 2
+    require_memory(
+        bytes_per_pair * pairs,
+        f"a table of {pairs:,} pairs of sheets that are glued along a border",
+        arrangement,
+        "find_layering(immersion) tells with less whether there is a layering without intersections",
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,18 +196,21 @@ class _Wishes:
     failure: list[int]
 
     @property
-    def clauses(self) -> list[list[int]]:
+    def clauses(self) -> Iterator[list[int]]:
         """The constraints on orders, and that unequal literals are a failure."""
         unequal = (
             clause
             for (a, b), failure in zip(self.literals, self.failure, strict=True)
             for clause in ([-a, b, failure], [a, -b, failure])
         )
-        return [*self.problem.clauses, *unequal]
+        return chain(self.problem.clauses, unequal)
 
 
-def _wishes(problem: OrderProblem) -> _Wishes:
+def _wishes(problem: OrderProblem, clock: Clock) -> _Wishes:
+    clock.check()
+    _require_memory(problem.immersion, _BYTES_PER_WISH)
     border, *sheets = _glued_pairs(problem.immersion).T
+    clock.check()
     literals = np.stack([problem.above(*sheets[:2]), problem.above(*sheets[2:])], axis=1)
     length = border_lengths(problem.immersion.arrangement)
     weight = np.maximum(1, np.rint(length * (_UNITS if np.ptp(length) else 1) / length.max())).astype(np.int64)
@@ -185,37 +218,33 @@ def _wishes(problem: OrderProblem) -> _Wishes:
     return _Wishes(problem, literals.tolist(), weight[border].tolist(), failure.tolist())
 
 
-def _most_wishes(wishes: _Wishes, clock: Clock) -> list[int] | None:
-    """Return the literals of a solution whose failures weigh least, or None if the time is over."""
-    from pysat.examples.rc2 import RC2Stratified
-    from pysat.formula import WCNF
-
-    formula = WCNF()
-    formula.extend(wishes.clauses)
-    formula.extend([[-failure] for failure in wishes.failure], weights=wishes.weight)
-    with RC2Stratified(formula, exhaust=True, minz=True) as solver:
-        true = in_time(clock.left, solver, partial(solver.compute, expect_interrupt=True))
-    return None if true is None else list(true)
+def _most_wishes(wishes: _Wishes, clock: Clock) -> list[int]:
+    """Return the literals of a solution whose failures weigh least. Raises TimeoutError when the time is over."""
+    weight = dict(zip(wishes.failure, wishes.weight, strict=True))
+    n_variables = wishes.problem.n_variables + len(weight)
+    true, _ = fewest_failures(wishes.clauses, n_variables, weight, clock, stratified=True)
+    if true is None:
+        raise TimeoutError
+    return true
 
 
 def _greedy(wishes: _Wishes, clock: Clock) -> list[int]:
     """Return the literals of a solution: fulfil wishes, the weightiest first, as long as there is time."""
-    from pysat.solvers import Glucose4
-
-    with Glucose4(bootstrap_with=wishes.clauses) as solver:
-        solver.solve()
-        return in_time(clock.left, solver, partial(_one_by_one, wishes, clock, solver))
+    with solver_of(wishes.clauses, clock) as solver:
+        return in_time(clock.left, solver, partial(_one_by_one, wishes, solver))
 
 
-def _one_by_one(wishes: _Wishes, clock: Clock, solver: Any) -> list[int]:
+def _one_by_one(wishes: _Wishes, solver: StoppableSolver) -> list[int]:
+    solver.solve()
     true: list[int] = solver.get_model()
-    for wish in np.argsort(-np.array(wishes.weight), kind="stable").tolist():
-        fulfilled = [-wishes.failure[wish]]
-        if _equal(true, *wishes.literals[wish]):
-            solver.add_clause(fulfilled)
-        elif not clock.over and solver.solve_limited(assumptions=fulfilled, expect_interrupt=True):
-            solver.add_clause(fulfilled)
-            true = solver.get_model()
+    with suppress(TimeoutError):
+        for wish in np.argsort(-np.array(wishes.weight), kind="stable").tolist():
+            fulfilled = [-wishes.failure[wish]]
+            if _equal(true, *wishes.literals[wish]):
+                solver.add_clause(fulfilled)
+            elif solver.solve(fulfilled):
+                solver.add_clause(fulfilled)
+                true = solver.get_model()
     return true
 
 

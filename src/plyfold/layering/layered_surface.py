@@ -18,6 +18,7 @@ import numpy.typing as npt
 from plyfold.arrangement.core import CurveLike
 from plyfold.arrangement.several import Loops, arrange_loops, components
 from plyfold.arrays import Bools, Ints
+from plyfold.errors import InputError
 from plyfold.immersion.immersion import count_each
 from plyfold.layering.casing import casing_of_visits
 from plyfold.layering.clock import Clock
@@ -131,6 +132,8 @@ def find_layered_surface(
     over : array_like of bool, shape (2k,) or (k,), optional
         Which strand is to pass over: for each visit, visits numbered along one curve after the other, whether the
         strand passes over the other one; or for each crossing, whether it does so at the first of its two visits.
+        A curve that lies in others without crossing them can have several levels with the same casing: then there is
+        no answer but an error.
 
     Returns
     -------
@@ -141,7 +144,8 @@ def find_layered_surface(
     Raises
     ------
     InputError
-        If there is no curve, or ``over`` has the wrong length or says of both strands the same.
+        If there is no curve, or ``over`` has the wrong length or says of both strands the same, or several surfaces
+        have this casing; the places are the first points of curves whose level it does not determine.
     GeneralPositionError
         If curves touch or overlap, or three edges meet in a point.
 
@@ -161,27 +165,30 @@ def find_layered_surface(
     obstruction = _negative_winding(loops)
     if obstruction is not None:
         return obstruction
-    first_is_over = None if over is None else casing_of_visits(loops, over)[loops.first]
-    clauses = LevelClauses(level_equations_of_loops(loops), first_is_over)
+    clauses = _level_clauses(loops, over)
     try:
         level = solve_levels(clauses, clock)
+        if level is not None and over is not None:
+            _require_only(loops, clauses, level, clock)
     except TimeoutError:
         return _unknown("whether there is a layered surface", clock)
     return _no_surface(loops, clauses, clock) if level is None else LayeredSurface(loops, level)
 
 
-def layered_surfaces(curves: Iterable[CurveLike]) -> Iterator[LayeredSurface]:
+def layered_surfaces(curves: Iterable[CurveLike], over: npt.ArrayLike | None = None) -> Iterator[LayeredSurface]:
     """List all layered surfaces that have the given closed curves as their boundary, each once, in a stable order.
 
     Parameters
     ----------
     curves : iterable of Curve, array_like of shape (n, 2) or shapely geometry
         As for :func:`find_layered_surface`.
+    over : array_like of bool, shape (2k,) or (k,), optional
+        As there; all surfaces with this casing.
 
     Yields
     ------
     LayeredSurface
-        Each takes at most k questions to the SAT solver, most of them easy.
+        Each takes at most k + Σ w questions to the SAT solver, w added up over curves, most of them easy.
 
     Examples
     --------
@@ -191,7 +198,7 @@ def layered_surfaces(curves: Iterable[CurveLike]) -> Iterator[LayeredSurface]:
     """
     loops = arrange_loops(curves)
     if _negative_winding(loops) is None:
-        for level in list_levels(LevelClauses(level_equations_of_loops(loops))):
+        for level in list_levels(_level_clauses(loops, over)):
             yield LayeredSurface(loops, level)
 
 
@@ -223,6 +230,25 @@ def count_layered_surfaces(curves: Iterable[CurveLike], time_limit: float | None
         return count_level_solutions(level_equations_of_loops(loops), clock)
     except TimeoutError:
         return _unknown("how many layered surfaces there are", clock)
+
+
+def _level_clauses(loops: Loops, over: npt.ArrayLike | None) -> LevelClauses:
+    first_is_over = None if over is None else casing_of_visits(loops, over)[loops.first]
+    return LevelClauses(level_equations_of_loops(loops), first_is_over)
+
+
+def _require_only(loops: Loops, clauses: LevelClauses, level: Ints, clock: Clock) -> None:
+    """Refuse a casing that other levels have as well. Raises TimeoutError when the time is over."""
+    differing = clauses.other_than(level)
+    other = solve_levels(clauses, clock, [differing]) if differing else None
+    if other is None:
+        return
+    free = np.unique(loops.loop_of_border[level != other]).tolist()
+    raise InputError(
+        f"several surfaces have this casing: it does not determine the level of curve {', '.join(map(str, free))}",
+        where=[loops.curves[curve].points[0] for curve in free],
+        hint="layered_surfaces(curves, over) lists them all",
+    )
 
 
 def _negative_winding(loops: Loops) -> Obstruction | None:

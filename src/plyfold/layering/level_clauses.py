@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import chain
-from typing import Any
 
 import numpy as np
 
@@ -19,7 +18,8 @@ from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import count_each
 from plyfold.layering.clock import Clock
 from plyfold.layering.levels import LevelEquations
-from plyfold.layering.sat import in_time
+from plyfold.layering.sat import Clauses, minimal_core, solver_of
+from plyfold.memory import require_memory
 
 __all__ = ["LevelClauses", "contradicting_crossings", "list_levels", "solve_levels"]
 
@@ -27,6 +27,8 @@ __all__ = ["LevelClauses", "contradicting_crossings", "list_levels", "solve_leve
 _TRUE = 1
 # Conflicts after which the solver may give up when it is asked whether one crossing less is a contradiction too.
 _EFFORT = 5000
+# Clauses of the borders and crossings, and what the solver keeps of them.
+_BYTES_PER_LEVEL = 3500
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,12 +59,22 @@ class LevelClauses:
 
     @cached_property
     def choices(self) -> list[int]:
-        """Variables that determine a solution: all crossings, and the levels of borders without crossings."""
-        alone = np.ones(len(self.equations.highest), dtype=bool)
-        alone[self.equations.top] = alone[self.equations.bottom] = False
-        border = np.repeat(np.arange(len(alone)), np.where(alone, self.equations.highest - 1, 0))
-        i = count_each(np.bincount(border, minlength=len(alone))) + 1
-        return [*self.first_over, *self._at_most(border, i).tolist()]
+        """Variables that determine a solution: all crossings, and the level of one border of each curve."""
+        return [*self.first_over, *self._at_most(*self._anchors).tolist()]
+
+    def other_than(self, level: Ints) -> list[int]:
+        """Return the clause that some curve lies on another level than in a solution, given the same casing."""
+        border, i = self._anchors
+        variable = self._at_most(border, i)
+        clause: list[int] = np.where(level[border] <= i, -variable, variable).tolist()
+        return clause
+
+    @cached_property
+    def _anchors(self) -> tuple[Ints, Ints]:
+        """The variables x(e, i) of one border e of each curve, as e and i; few, for most have a border with w = 1."""
+        anchor = self.equations.anchors
+        border = np.repeat(anchor, self.equations.highest[anchor] - 1)
+        return border, 1 + count_each(self.equations.highest[anchor] - 1)
 
     @property
     def n_variables(self) -> int:
@@ -72,6 +84,7 @@ class LevelClauses:
     @cached_property
     def of_borders(self) -> list[list[int]]:
         """What holds on every border: a level that is at most i is at most i + 1."""
+        self._require_memory()
         highest = self.equations.highest
         border, i = np.repeat(np.arange(len(highest)), highest), count_each(highest)
         rows = np.stack([-self._at_most(border, i), self._at_most(border, i + 1)], axis=1)
@@ -81,6 +94,7 @@ class LevelClauses:
     @cached_property
     def of_crossings(self) -> list[list[list[int]]]:
         """What each crossing demands. The last two rules follow from the others and speed up the solver."""
+        self._require_memory()
         top, bottom = self.equations.top, self.equations.bottom
         levels = self.equations.highest[top[:, 0]] + 1
         crossing, i = np.repeat(np.arange(len(top)), levels), count_each(levels)
@@ -108,6 +122,20 @@ class LevelClauses:
                 demands[number].append([variable if holds else -variable])
         return demands
 
+    def _require_memory(self) -> None:
+        levels = int(self.equations.highest.sum())
+        require_memory(
+            _BYTES_PER_LEVEL * levels,
+            f"a formula for {levels:,} levels of borders",
+            None,
+            "embed_cased(curve, over) takes one pass along a single curve, where over and under are known",
+        )
+
+    @property
+    def every(self) -> Iterator[list[int]]:
+        """All of them."""
+        return chain(self.of_borders, chain.from_iterable(self.of_crossings))
+
     def levels(self, model: list[int]) -> Ints:
         """Return the levels in a solution: one more than the number of levels that are not high enough."""
         highest = self.equations.highest
@@ -129,13 +157,13 @@ def _without_constants(rows: Ints) -> tuple[Ints, list[list[int]]]:
     return which, [list({x for x in row if x != -_TRUE}) for row in rows[which].tolist()]
 
 
-def solve_levels(clauses: LevelClauses, clock: Clock) -> Ints | None:
-    """Return the levels of a solution, or None if there is none. Raises TimeoutError when the time is over."""
-    with _solver(clauses) as solver:
-        answer = in_time(clock.left, solver, partial(solver.solve_limited, expect_interrupt=True))
-        if answer is None:
-            raise TimeoutError
-        return clauses.levels(solver.get_model()) if answer else None
+def solve_levels(clauses: LevelClauses, clock: Clock, more: Clauses = ()) -> Ints | None:
+    """Return the levels of a solution, or None if there is none. Raises TimeoutError when the time is over.
+
+    More clauses can be given that it has to meet.
+    """
+    with solver_of(chain(clauses.every, more), clock) as solver:
+        return clauses.levels(solver.get_model()) if solver.ask(clock=clock) else None
 
 
 def list_levels(clauses: LevelClauses) -> Iterator[Ints]:
@@ -144,9 +172,9 @@ def list_levels(clauses: LevelClauses) -> Iterator[Ints]:
     The solver is asked for one; then the last choice whose opposite has not been tried, under the choices before it, is
     turned round, and the solver is asked for the rest. Nothing is remembered but the way back.
     """
-    with _solver(clauses) as solver:
+    with solver_of(clauses.every) as solver:
         tried: list[tuple[int, bool]] = []
-        possible = solver.solve()
+        possible = solver.ask()
         while True:
             if possible:
                 model = solver.get_model()
@@ -157,7 +185,7 @@ def list_levels(clauses: LevelClauses) -> Iterator[Ints]:
             if not tried:
                 return
             tried[-1] = (-tried[-1][0], True)
-            possible = solver.solve(assumptions=[literal for literal, _ in tried])
+            possible = solver.ask([literal for literal, _ in tried])
 
 
 def contradicting_crossings(clauses: LevelClauses, clock: Clock) -> list[int]:
@@ -166,34 +194,4 @@ def contradicting_crossings(clauses: LevelClauses, clock: Clock) -> list[int]:
     As few as leaving out one after the other can reach; where the solver does not know soon, a crossing stays, and when
     the time is over, so do all the others.
     """
-    start = clauses.n_variables + 1
-    selectors = list(range(start, start + clauses.equations.n_crossings))
-    with _solver(clauses, start) as solver:
-        core = in_time(clock.left, solver, partial(_small_core, solver, selectors, clock))
-    return [selector - start for selector in core]
-
-
-def _small_core(solver: Any, selectors: list[int], clock: Clock) -> list[int]:
-    answer = solver.solve_limited(assumptions=selectors, expect_interrupt=True)
-    core = sorted(solver.get_core()) if answer is False else selectors
-    for selector in list(core):
-        if clock.over:
-            break
-        rest = [other for other in core if other != selector]
-        solver.conf_budget(_EFFORT)
-        if len(rest) < len(core) and solver.solve_limited(assumptions=rest, expect_interrupt=True) is False:
-            core = sorted(solver.get_core() or [])
-    return core
-
-
-def _solver(clauses: LevelClauses, first_selector: int | None = None) -> Any:
-    """Return a solver that knows the clauses; with selectors, those of a crossing hold only if its selector is true."""
-    from pysat.solvers import Glucose4
-
-    solver = Glucose4(bootstrap_with=clauses.of_borders)
-    if first_selector is None:
-        solver.append_formula(chain.from_iterable(clauses.of_crossings))
-        return solver
-    for selector, demands in enumerate(clauses.of_crossings, first_selector):
-        solver.append_formula([*clause, -selector] for clause in demands)
-    return solver
+    return minimal_core(clauses.of_crossings, clauses.of_borders, clock, _EFFORT)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from plyfold.arrangement import Arrangement
-from plyfold.arrangement.several import Loops
+from plyfold.arrangement.several import Loops, components
 from plyfold.arrays import Ints
 
 __all__ = ["LevelEquations", "level_equations", "level_equations_of_loops"]
@@ -45,6 +45,17 @@ class LevelEquations:
     def n_crossings(self) -> int:
         """Number of crossings, k."""
         return len(self.top)
+
+    @property
+    def anchors(self) -> Ints:
+        """For each curve, a border of it on which fewest levels are possible.
+
+        Over and under at the crossings say how the level changes along a curve, so they and the levels of these borders
+        determine all levels. Of a curve that comes to the outside, or over a cell with w = 1, nothing is left open.
+        """
+        curve = components(len(self.highest), self.top.ravel(), self.bottom.ravel())
+        by_curve = np.lexsort((self.highest, curve))
+        return by_curve[np.searchsorted(curve[by_curve], np.arange(curve.max(initial=-1) + 1))]
 
     def hold(self, level: Ints) -> bool:
         """Tell whether levels are a solution. Cost: O(k)."""

@@ -14,14 +14,17 @@ References
 from __future__ import annotations
 
 from collections import Counter
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
+from itertools import chain
 
 from plyfold.immersion import Immersion
 from plyfold.layering.clock import Clock
 from plyfold.layering.layering import Layering, meeting_sheets
+from plyfold.layering.maxsat import fewest_failures
 from plyfold.layering.orders import OrderProblem, order_problem
-from plyfold.layering.sat import in_time
+from plyfold.layering.sat import StoppableSolver, in_time, solver_of
 from plyfold.layering.search import solve_orders, undecided
 from plyfold.obstruction import Obstruction, Unknown
 
@@ -58,19 +61,22 @@ def nicest_layering(immersion: Immersion, time_limit: float | None = None) -> La
     2
     """
     clock = Clock(time_limit)
-    if clock.over:
+    try:
+        problem = order_problem(immersion, clock)
+    except TimeoutError:
         return undecided("time limit", _QUESTION, clock)
-    problem = order_problem(immersion)
     if isinstance(problem, Obstruction):
         return problem
     found = solve_orders(problem, clock)
     if not isinstance(found, Layering):
         return found
     over = _over(problem)
-    good = problem.layering(_greedy(problem, over))
+    good = found
+    with suppress(TimeoutError):
+        good = problem.layering(_greedy(problem, over, clock))
     true, least = _fewest_changes(problem, over, clock)
     if true is not None:
-        return problem.layering(x for x in true if abs(x) <= problem.n_variables)
+        return problem.layering(true)
     unknown = undecided("time limit", _QUESTION, clock, problem)
     return replace(unknown, established={**unknown.established, "layering": good, "changes at least": least})
 
@@ -81,39 +87,38 @@ def _over(problem: OrderProblem) -> list[int]:
     return [int(literal) for literal in problem.above(there, here)]
 
 
-def _greedy(problem: OrderProblem, over: list[int]) -> list[int]:
+def _greedy(problem: OrderProblem, over: list[int], clock: Clock) -> list[int]:
     """Walk along the curve and change between over and under only where it cannot be helped."""
-    from pysat.solvers import Glucose4
+    with solver_of(problem.clauses, clock) as solver:
+        return in_time(clock.left, solver, partial(_walk, solver, over))
 
+
+def _walk(solver: StoppableSolver, over: list[int]) -> list[int]:
     over_now = True
     # Decisions become clauses: with more assumptions than variables, Glucose writes beyond its arrays.
-    with Glucose4(bootstrap_with=problem.clauses) as solver:
-        for literal in over:
-            if not solver.solve(assumptions=[literal if over_now else -literal]):
-                over_now = not over_now
-            solver.add_clause([literal if over_now else -literal])
-        solver.solve()
-        return list(solver.get_model())
+    for literal in over:
+        if not solver.solve([literal if over_now else -literal]):
+            over_now = not over_now
+        solver.add_clause([literal if over_now else -literal])
+    solver.solve()
+    return list(solver.get_model())
 
 
 def _fewest_changes(problem: OrderProblem, over: list[int], clock: Clock) -> tuple[list[int] | None, int]:
     """Return a solution with the fewest changes, None if the time is over, and a lower bound for its changes."""
-    from pysat.examples.rc2 import RC2
-    from pysat.formula import WCNF
-
-    formula, changes = WCNF(), 0
-    for clause in problem.clauses:
-        formula.append(clause)
-    for change, ((first, second), times) in enumerate(_neighbours(over).items(), problem.n_variables + 1):
-        if first == -second:
-            changes += times
-        else:
-            formula.append([-first, second, change])
-            formula.append([first, -second, change])
-            formula.append([-change], weight=times)
-    with RC2(formula, adapt=True, exhaust=True, minz=True) as solver:
-        true = in_time(clock.left, solver, partial(solver.compute, expect_interrupt=True))
-        return true, changes + int(solver.cost)
+    pairs = _neighbours(over)
+    certain = sum(times for (first, second), times in pairs.items() if first == -second)
+    open_pairs = [pair for pair in pairs if pair[0] != -pair[1]]
+    change = dict(enumerate(open_pairs, problem.n_variables + 1))
+    unequal = (
+        clause
+        for variable, (first, second) in change.items()
+        for clause in ([-first, second, variable], [first, -second, variable])
+    )
+    weight = {variable: pairs[pair] for variable, pair in change.items()}
+    n_variables = problem.n_variables + len(change)
+    true, least = fewest_failures(chain(problem.clauses, unequal), n_variables, weight, clock)
+    return true, certain + least
 
 
 def _neighbours(over: list[int]) -> Counter[tuple[int, int]]:

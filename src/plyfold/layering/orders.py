@@ -7,7 +7,7 @@ circle, not all are true and not all are false. Finding, counting and listing la
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
@@ -17,11 +17,17 @@ import numpy as np
 from plyfold.arrangement.base import visits_from_base
 from plyfold.arrays import Ints
 from plyfold.immersion import Immersion
+from plyfold.layering.clock import NO_LIMIT, Clock
 from plyfold.layering.layering import Layering, meeting_sheets
 from plyfold.layering.sheet_pairs import PairGraph, chain_to_reverse, pair_graph, pair_of
+from plyfold.memory import number_of_tuples, require_memory
 from plyfold.obstruction import Obstruction
 
 __all__ = ["OrderProblem", "independent_orders", "order_problem", "places_of_cells"]
+
+_ROWS_AT_A_TIME = 4096
+# With what is needed to make them.
+_BYTES_PER_TRIPLE = 200
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,15 +58,18 @@ class OrderProblem:
         for array in (self.literal, self.triples, self.sheets):
             array.flags.writeable = False
 
-    @property
+    @cached_property
     def n_variables(self) -> int:
         """Number of classes of pairs of sheets."""
         return int(self.literal.max(initial=0))
 
-    @cached_property
-    def clauses(self) -> list[list[int]]:
+    @property
+    def clauses(self) -> Iterator[list[int]]:
         """The constraints as clauses: two for every triple."""
-        return [clause for triple in self.triples.tolist() for clause in (triple, [-x for x in triple])]
+        for start in range(0, len(self.triples), _ROWS_AT_A_TIME):
+            for triple in self.triples[start : start + _ROWS_AT_A_TIME].tolist():
+                yield triple
+                yield [-x for x in triple]
 
     def cell_of(self, triple: int) -> int:
         """Return the cell of the three sheets that demand a constraint."""
@@ -85,36 +94,43 @@ class OrderProblem:
         return list(groups.values())
 
     def layering(self, true: Iterable[int]) -> Layering:
-        """Return the checked layering of a solution; literals that it does not name are true."""
+        """Return the checked layering of a solution; variables that it does not name are true."""
         layering = Layering(self.immersion, self.levels(true))
         layering.check()
         return layering
 
     def levels(self, true: Iterable[int]) -> Ints:
-        """Return the level of each sheet: one more than the number of sheets below it, in a solution."""
+        """Return the level of each sheet: one more than the number of sheets below it, in a solution.
+
+        Literals of other variables do not count.
+        """
         value = np.ones(self.n_variables + 1, dtype=bool)
         literals = np.fromiter(true, dtype=np.int64)
-        value[-literals[literals < 0]] = False
+        value[-literals[(literals < 0) & (literals >= -self.n_variables)]] = False
         below = (value[np.abs(self.literal)] == (self.literal > 0)) & (self.literal != 0)
         return np.asarray(1 + np.bincount(self.graph.upper[below], minlength=self.immersion.n_sheets), dtype=np.int64)
 
 
-def order_problem(immersion: Immersion) -> OrderProblem | Obstruction:
+def order_problem(immersion: Immersion, clock: Clock = NO_LIMIT) -> OrderProblem | Obstruction:
     """Return the problem, or a pair of sheets that returns reversed: then there is no layering.
 
-    Cost: O(Σ w²) for pairs, over cells and borders, and O(Σ w³) for triples, over cells.
+    Cost: O(Σ w²) for pairs, over cells and borders, and O(Σ w³) for triples, over cells. Raises TimeoutError when the
+    time is over.
     """
-    graph = pair_graph(immersion)
+    graph = pair_graph(immersion, clock)
     contradictions = graph.contradictions()
     if len(contradictions):
         return _reversed_pair(immersion, graph, int(contradictions[0]))
-    return _problem(immersion, graph)
+    return _problem(immersion, graph, clock)
 
 
-def independent_orders(immersion: Immersion) -> OrderProblem:
-    """Return the problem without the gluings: every pair of sheets over a cell has a variable of its own."""
-    graph = pair_graph(immersion)
-    return _problem(immersion, replace(graph, label=np.arange(len(graph.label))))
+def independent_orders(immersion: Immersion, clock: Clock = NO_LIMIT) -> OrderProblem:
+    """Return the problem without the gluings: every pair of sheets over a cell has a variable of its own.
+
+    Raises TimeoutError when the time is over.
+    """
+    graph = pair_graph(immersion, clock)
+    return _problem(immersion, replace(graph, label=np.arange(len(graph.label))), clock)
 
 
 def places_of_cells(immersion: Immersion, cells: Iterable[int]) -> tuple[tuple[float, float], ...]:
@@ -124,9 +140,10 @@ def places_of_cells(immersion: Immersion, cells: Iterable[int]) -> tuple[tuple[f
     return tuple(immersion.arrangement.cell_point(cell) for cell in dict.fromkeys(cells))
 
 
-def _problem(immersion: Immersion, graph: PairGraph) -> OrderProblem:
+def _problem(immersion: Immersion, graph: PairGraph, clock: Clock) -> OrderProblem:
+    clock.check()
     literal = _literals(immersion, graph)
-    return OrderProblem(immersion, graph, literal, *_triples(immersion, graph, literal))
+    return OrderProblem(immersion, graph, literal, *_triples(immersion, graph, literal, clock))
 
 
 def _literals(immersion: Immersion, graph: PairGraph) -> Ints:
@@ -149,16 +166,25 @@ def _literals(immersion: Immersion, graph: PairGraph) -> Ints:
     return np.where(graph.label == true[representative], literal, -literal)
 
 
-def _triples(immersion: Immersion, graph: PairGraph, literal: Ints) -> tuple[Ints, Ints]:
+def _triples(immersion: Immersion, graph: PairGraph, literal: Ints, clock: Clock) -> tuple[Ints, Ints]:
     """Return the constraints on triples of sheets, each once, and for each three sheets that demand it."""
     winding = immersion.arrangement.winding
+    number = number_of_tuples(winding, 3) // 6
+    require_memory(
+        _BYTES_PER_TRIPLE * number,
+        f"{number:,} triples of sheets",
+        immersion.arrangement,
+        "embed_cased(curve, over) orders sheets without triples, where over and under are known",
+    )
     cycles, sheets = [np.empty((0, 3), dtype=np.int64)], [np.empty((0, 3), dtype=np.int64)]
     for w in np.unique(winding[winding >= 3]).tolist():
+        clock.check()
         cells = np.flatnonzero(winding == w)
         three = np.array(list(combinations(range(w), 3)))
         pair = three * w + np.roll(three, -1, axis=1)
         cycles.append(literal[graph.first_pair[cells, None, None] + pair].reshape(-1, 3))
         sheets.append((immersion.first_sheet[cells, None, None] + three).reshape(-1, 3))
+    clock.check()
     return _each_once(np.concatenate(cycles), np.concatenate(sheets))
 
 

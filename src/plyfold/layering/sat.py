@@ -1,33 +1,102 @@
-"""Questions to the SAT solver: within a time limit, and which demands contradict each other."""
+"""Questions to the SAT solver: within a time limit, and which demands contradict each other.
+
+Nothing here holds up Ctrl-C or a time limit. Clauses are handed over a few at a time, and questions are asked in
+another thread, in which the solver lets go of the interpreter and can be stopped.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from functools import partial
+from itertools import chain
 from threading import Event, Thread
 from typing import Any, TypeAlias, TypeVar
 
-__all__ = ["Clauses", "in_time", "minimal_core", "solve"]
+from plyfold.layering.clock import NO_LIMIT, Clock
 
-Clauses: TypeAlias = Sequence[Sequence[int]]
+__all__ = ["Clauses", "StoppableSolver", "in_time", "minimal_core", "solve", "solver_of"]
+
+Clauses: TypeAlias = Iterable[Sequence[int]]
 Answer = TypeVar("Answer")
 
 
-def solve(clauses: Clauses, time_limit: float | None = None) -> list[int] | None:
-    """Return the literals of a solution, or None if there is none. Raises TimeoutError at the time limit."""
+class StoppableSolver:
+    """A SAT solver that can be stopped for good, from another thread.
+
+    The question that it works on, and every later one, raises TimeoutError. A plain solver is interrupted in one
+    question, if that was asked the right way, and answers the next one.
+
+    Examples
+    --------
+    >>> with solver_of([[1, 2], [-1]]) as solver:
+    ...     solver.ask(), solver.ask([-2])
+    (True, False)
+    """
+
+    def __init__(self, solver: Any) -> None:
+        self._solver = solver
+        self._stopped = False
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._solver, name)
+
+    def solve_limited(self, assumptions: Sequence[int] = (), expect_interrupt: bool = True) -> bool | None:
+        """Tell whether there is a solution; None if that is open at the end of the solver's budget."""
+        self._check()
+        answer: bool | None = self._solver.solve_limited(assumptions=list(assumptions), expect_interrupt=True)
+        self._check()
+        return answer
+
+    # Libraries ask in either way.
+    solve = solve_limited
+
+    def ask(self, assumptions: Sequence[int] = (), clock: Clock = NO_LIMIT) -> bool | None:
+        """Tell the same; Ctrl-C and the time limit end the search."""
+        return in_time(clock.left, self, partial(self.solve_limited, assumptions))
+
+    def add_clause(self, clause: Sequence[int], no_return: bool = True) -> bool | None:
+        """Add a clause that solutions have to meet."""
+        self._check()
+        added: bool | None = self._solver.add_clause(clause, no_return)
+        return added
+
+    def propagate(self, *args: Any, **options: Any) -> Any:
+        """Return what follows at once."""
+        self._check()
+        return self._solver.propagate(*args, **options)
+
+    def interrupt(self) -> None:
+        """Stop."""
+        self._stopped = True
+        self._solver.interrupt()
+
+    def _check(self) -> None:
+        if self._stopped:
+            raise TimeoutError
+
+
+@contextmanager
+def solver_of(clauses: Clauses, clock: Clock = NO_LIMIT) -> Iterator[StoppableSolver]:
+    """Make a solver that knows some clauses. Raises TimeoutError if the time is over before it knows them."""
     from pysat.solvers import Glucose4
 
-    with Glucose4(bootstrap_with=clauses) as solver:
-        answer = in_time(time_limit, solver, partial(solver.solve_limited, expect_interrupt=True))
-        if answer is None:
-            raise TimeoutError
-        return list(solver.get_model()) if answer else None
+    with Glucose4() as solver:
+        solver.append_formula(clock.while_time(clauses))
+        yield StoppableSolver(solver)
 
 
-def in_time(time_limit: float | None, solver: Any, question: Callable[[], Answer]) -> Answer:
-    """Ask a question of a solver, and interrupt the solver when the time is over or Ctrl-C is pressed.
+def solve(clauses: Clauses, clock: Clock = NO_LIMIT) -> list[int] | None:
+    """Return the literals of a solution, or None if there is none. Raises TimeoutError at the time limit."""
+    with solver_of(clauses, clock) as solver:
+        return list(solver.get_model()) if solver.ask(clock=clock) else None
+
+
+def in_time(time_limit: float | None, solver: StoppableSolver, question: Callable[[], Answer]) -> Answer:
+    """Ask a question of a solver, and stop the solver when the time is over or Ctrl-C is pressed.
 
     The question is asked in another thread, since signals have to wait for as long as this one is in foreign code.
+    Raises TimeoutError when the time is over, unless the question answers all the same.
     """
     answers: list[Answer] = []
     errors: list[BaseException] = []
@@ -54,8 +123,12 @@ def in_time(time_limit: float | None, solver: Any, question: Callable[[], Answer
     return answers[0]
 
 
-def minimal_core(demands: Sequence[Clauses], given: Clauses = ()) -> list[int]:
+def minimal_core(
+    demands: Sequence[Clauses], given: Clauses = (), clock: Clock = NO_LIMIT, effort: int | None = None
+) -> list[int]:
     """Return the indices of demands that contradict each other and the given clauses, none of which can be left out.
+
+    Where the solver does not know soon enough, a demand stays; and when the time is over, so do all the others.
 
     Parameters
     ----------
@@ -63,18 +136,28 @@ def minimal_core(demands: Sequence[Clauses], given: Clauses = ()) -> list[int]:
         Not all of them can be met together.
     given : clauses
         What holds anyway.
+    clock : Clock, optional
+    effort : int, optional
+        Conflicts after which the solver gives up when it is asked whether one demand less is a contradiction too.
     """
-    from pysat.solvers import Glucose4
+    given = list(given)
+    first = 1 + max(abs(x) for clauses in [*demands, given] for clause in clauses for x in clause)
+    core = list(range(first, first + len(demands)))
+    selected = ([*clause, -selector] for selector, demand in enumerate(demands, first) for clause in demand)
+    with suppress(TimeoutError), solver_of(chain(given, selected), clock) as solver:
+        core = in_time(clock.left, solver, partial(_reduced, solver, core, effort))
+    return [selector - first for selector in core]
 
-    every = [clause for demand in demands for clause in demand]
-    first = 1 + max(abs(x) for clause in [*every, *given] for x in clause)
-    with Glucose4(bootstrap_with=given) as solver:
-        for selector, demand in enumerate(demands, first):
-            for clause in demand:
-                solver.add_clause([*clause, -selector])
-        core = list(range(first, first + len(demands)))
+
+def _reduced(solver: StoppableSolver, core: list[int], effort: int | None) -> list[int]:
+    """Leave out selectors one after the other, as long as the others contradict each other, until the solver stops."""
+    with suppress(TimeoutError):
+        if solver.solve(core) is False:
+            core = sorted(solver.get_core() or [])
         for selector in list(core):
             rest = [other for other in core if other != selector]
-            if selector in core and not solver.solve(assumptions=rest):
+            if effort is not None:
+                solver.conf_budget(effort)
+            if len(rest) < len(core) and solver.solve(rest) is False:
                 core = sorted(solver.get_core() or [])
-    return [selector - first for selector in core]
+    return core

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Iterable, Mapping
+from itertools import chain
 from typing import Literal, TypeAlias, cast
 
 import numpy as np
@@ -50,8 +51,9 @@ def find_layering(
         The result is true if there is a layering; it has been checked. An obstruction holds the reason: a chain of
         cells along which a pair of sheets returns reversed (``value`` is a tuple of (cell, lower, upper)), sheets that
         would have to lie above each other in a circle (``value`` is a tuple of (cell, three sheets)), or fixed orders
-        that contradict each other, none of which can be left out (``value`` is a tuple of (cell, sheet a, sheet b,
-        "above" or "below")). If the time limit was reached, the answer is Unknown.
+        that contradict each other (``value`` is a tuple of (cell, sheet a, sheet b, "above" or "below")). None of the
+        latter two can be left out, unless the time limit ended the search for the fewest. If the limit was reached
+        before there was an answer, it is Unknown.
 
     Raises
     ------
@@ -90,9 +92,10 @@ def find_layering(
     if method != "exact":
         raise InputError(f'method must be "exact" or "paper", not {method!r}')
     clock = Clock(time_limit)
-    if clock.over:
+    try:
+        problem = order_problem(immersion, clock)
+    except TimeoutError:
         return undecided("time limit", _QUESTION, clock)
-    problem = order_problem(immersion)
     return problem if isinstance(problem, Obstruction) else solve_orders(problem, clock, fix or {})
 
 
@@ -100,12 +103,12 @@ def solve_orders(problem: OrderProblem, clock: Clock, fix: FixedOrders = _NOTHIN
     """Return a solution of the problem with some orders fixed, or why there is none."""
     fixed = _fixed_literals(problem, fix)
     try:
-        true = solve([*problem.clauses, *([literal] for literal in fixed)], clock.left)
+        true = solve(chain(problem.clauses, ([literal] for literal in fixed)), clock)
     except TimeoutError:
         return undecided("time limit", _QUESTION, clock, problem)
     if true is not None:
         return problem.layering(true)
-    return _contradiction(problem, fix, fixed)
+    return _contradiction(problem, fix, fixed, clock)
 
 
 def first_layering(
@@ -202,20 +205,28 @@ def _require_sheets(immersion: Immersion, cell: int, first: int, second: int) ->
         )
 
 
-def _contradiction(problem: OrderProblem, fix: FixedOrders, fixed: list[int]) -> Obstruction:
+def _contradiction(problem: OrderProblem, fix: FixedOrders, fixed: list[int], clock: Clock) -> Obstruction:
     """Return why there is no solution: constraints that contradict each other, or only together with fixed orders."""
-    if not fixed or solve(problem.clauses) is None:
-        return _cyclic_order(problem)
+    if not fixed or _contradictory(problem, clock):
+        return _cyclic_order(problem, clock)
     orders = [(*key, order) for key, order in fix.items()]
-    value = tuple(orders[i] for i in minimal_core([[[x]] for x in fixed], problem.clauses))
+    value = tuple(orders[i] for i in minimal_core([[[x]] for x in fixed], problem.clauses, clock))
     listed = "; ".join(f"over cell {cell}, {a} {order} {b}" for cell, a, b, order in value)
     sentence = f"No layering has these fixed orders of sheets together: {listed}."
     return Obstruction("fixed orders", sentence, places_of_cells(problem.immersion, [v[0] for v in value]), value)
 
 
-def _cyclic_order(problem: OrderProblem) -> Obstruction:
+def _contradictory(problem: OrderProblem, clock: Clock) -> bool:
+    """Tell whether the constraints are known to contradict each other without any fixed orders."""
+    try:
+        return solve(problem.clauses, clock) is None
+    except TimeoutError:
+        return False
+
+
+def _cyclic_order(problem: OrderProblem, clock: Clock) -> Obstruction:
     triples = problem.triples.tolist()
-    core = minimal_core([[triple, [-x for x in triple]] for triple in triples])
+    core = minimal_core([[triple, [-x for x in triple]] for triple in triples], clock=clock)
     value = tuple((problem.cell_of(i), problem.sheets[i].tolist()) for i in core)
     triples_of_sheets = f"among {len(core)} triples of sheets, some three" if len(core) > 1 else "three sheets"
     sentence = f"No layering: {triples_of_sheets} always lie above each other in a circle."

@@ -14,8 +14,14 @@ import numpy as np
 from plyfold.arrays import Ints
 from plyfold.immersion import Immersion
 from plyfold.immersion.immersion import require_immersion
+from plyfold.layering.clock import NO_LIMIT, Clock
+from plyfold.memory import number_of_tuples, require_memory
 
 __all__ = ["PairGraph", "chain_to_reverse", "pair_graph", "pair_of"]
+
+
+# Of sheets over a cell, and of those glued along a border, with what is needed to make them.
+_BYTES_PER_PAIR = 100
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,17 +54,24 @@ class PairGraph:
         return np.flatnonzero((self.label == self.label[self.reverse]) & (self.lower != self.upper))
 
 
-def pair_graph(immersion: Immersion) -> PairGraph:
-    """Return the graph of pairs of an immersion. Cost: O(Σ w²) over cells and borders."""
+def pair_graph(immersion: Immersion, clock: Clock = NO_LIMIT) -> PairGraph:
+    """Return the graph of pairs of an immersion. Cost: O(Σ w²) over cells and borders.
+
+    Raises TimeoutError when the time is over.
+    """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
     winding = require_immersion(immersion).arrangement.winding
+    clock.check()
+    _require_memory(immersion)
     first_pair = np.concatenate([[0], np.cumsum(winding**2)])
     total = int(first_pair[-1])
     cell = np.repeat(np.arange(len(winding)), winding**2)
     row, column = np.divmod(np.arange(total) - first_pair[cell], winding[cell])
+    clock.check()
     edges = _carried(immersion, first_pair)
+    clock.check()
     graph = coo_array((np.ones(len(edges), dtype=bool), edges.T), shape=(total, total))
     return PairGraph(
         lower=immersion.first_sheet[cell] + row,
@@ -67,6 +80,18 @@ def pair_graph(immersion: Immersion) -> PairGraph:
         edges=edges,
         label=connected_components(graph, directed=False)[1].astype(np.int64),
         first_pair=first_pair[:-1],
+    )
+
+
+def _require_memory(immersion: Immersion) -> None:
+    arrangement = immersion.arrangement
+    pairs = number_of_tuples(arrangement.winding, 2)
+    carried = number_of_tuples(arrangement.winding[arrangement.right_cell], 2)
+    require_memory(
+        _BYTES_PER_PAIR * (pairs + carried),
+        f"a graph of {pairs:,} pairs of sheets",
+        arrangement,
+        "embed_cased(curve, over) orders sheets without pairs, where over and under are known",
     )
 
 
