@@ -256,7 +256,41 @@ def test_not_finite():
         check_layered([(0, 0, 0), (1, 0, np.nan), (0, 1, 0)], [[0, 1, 2]])
 
 
+EIGHT = np.array([(0.0, 0.0), (40.0, 40.0), (40.0, 0.0), (0.0, 40.0)])
+BESIDE = np.array([(0.0, 0.0), (50.0, -10.0), (40.0, 40.0), (40.0, 0.0), (0.0, 40.0)])
+THREE = [[0, 1, 3], [1, 2, 3], [0, 3, 4]]
+
+
+@pytest.mark.xfail(strict=True)
+@pytest.mark.parametrize("far", [0.0, 2.0**52, 2.0**60])
+def test_vertex_beside_its_edge_where_doubles_are_sparse(far):
+    """The second vertex stands for the middle of the first edge, and there the first triangle is turned over."""
+    curve, vertices = (points + min(far, 2.0**52) for points in (EIGHT, BESIDE))
+    if far > 2.0**52:
+        curve, vertices = EIGHT.copy(), BESIDE.copy()
+        curve[3, 1] = vertices[4, 1] = far
+    with pytest.raises(CertificateError, match="turned over"):
+        check_immersed_disk(curve, vertices, THREE, np.arange(5))
+
+
+@pytest.mark.xfail(strict=True, raises=OverflowError)
+@pytest.mark.parametrize("unit", [5e-324, 1e-310])
+def test_subnormal_square(unit):
+    square = unit * np.array(SQUARE)
+    check_immersed_disk(square, square, HALVES, [0, 1, 2, 3])
+    check_surface(square, np.pad(square, ((0, 0), (0, 1))), HALVES, [0, 1, 2, 3])
+
+
 # Layers
+
+
+@pytest.mark.xfail(strict=True)
+@pytest.mark.parametrize("gap", [-1.0, -5e-324, np.nan, -np.inf])
+def test_gaps_that_are_none(gap):
+    square = np.pad(SQUARE, ((0, 0), (0, 1)))
+    for check in (check_layered, lambda *mesh: check_surface(SQUARE, mesh[0], mesh[1], [0, 1, 2, 3], mesh[2])):
+        with pytest.raises(CertificateError, match="gap"):
+            check(square, HALVES, gap)
 
 
 @pytest.mark.parametrize("gap", [np.nextafter(12, 13), 100.0, np.nan])
