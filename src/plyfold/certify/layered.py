@@ -193,22 +193,23 @@ def _require_no_overlap(triangles: Ints, places: Places) -> None:
     low, high = corners.min(axis=1) - off[:, None], corners.max(axis=1) + off[:, None]
     as_given = doubles(places.near)
     for first, second in _pairs_with_common_boxes(low, high):
-        _require_apart(triangles[first], triangles[second], as_given)
-        moved = (off[first] > 0) | (off[second] > 0)
-        _require_apart(triangles[first[moved]], triangles[second[moved]], places)
+        doubt = _require_apart(triangles[first], triangles[second], places)
+        again = doubt & ((off[first] > 0) | (off[second] > 0))
+        _require_apart(triangles[first[again]], triangles[second[again]], as_given)
 
 
-def _require_apart(a: Ints, b: Ints, places: Places) -> None:
-    """Check for pairs of triangles that they meet at most in common corners and edges.
+def _require_apart(a: Ints, b: Ints, places: Places) -> Bools:
+    """Check that the triangles of each pair meet at most in common corners and edges; return where doubles may not.
 
     Two convex polygons without common inner points are separated by the line of a side of one of them. If moreover
     neither has a corner in the other, except common ones, they have nothing in common but these and what is between.
     """
-    apart_ab, entered_ab = _separated(a, b, places)
-    apart_ba, entered_ba = _separated(b, a, places)
+    apart_ab, entered_ab, doubt_ab = _separated(a, b, places)
+    apart_ba, entered_ba, doubt_ba = _separated(b, a, places)
     bad = ~(apart_ab | apart_ba) | entered_ab | entered_ba
     if bad.any():
         raise CertificateError("seen from above, triangles overlap in part", where=places.near[a[np.argmax(bad)]])
+    return np.asarray(doubt_ab | doubt_ba)
 
 
 def _pairs_with_common_boxes(low: Floats, high: Floats) -> Iterator[tuple[Ints, Ints]]:
@@ -227,15 +228,20 @@ def _pairs_with_common_boxes(low: Floats, high: Floats) -> Iterator[tuple[Ints, 
         yield order[first[meet]], order[second[meet]]
 
 
-def _separated(a: Ints, b: Ints, places: Places) -> tuple[Bools, Bools]:
-    """Tell whether a side of triangle a has all of b on its right, and whether a corner of b alone lies in a."""
+def _separated(a: Ints, b: Ints, places: Places) -> tuple[Bools, Bools, Bools]:
+    """Tell whether a side of triangle a has all of b on its right, and whether a corner of b alone lies in a.
+
+    And where this may be otherwise for the doubles near by.
+    """
     start, end = a[:, :, None], np.roll(a, -1, axis=1)[:, :, None]
     corner = b[:, None, :]
     sign = np.zeros((len(a), 3, 3), dtype=np.int8)
     pair, side, which = np.nonzero((corner != start) & (corner != end))
     p, q, r = a[pair, side], end[pair, side, 0], b[pair, which]
-    sign[pair, side, which] = places.cross_sign(p, q, p, r)
+    sign[pair, side, which], doubt = places.cross_sign_and_doubt(p, q, p, r)
+    doubtful = np.zeros(len(a), dtype=bool)
+    doubtful[pair[doubt]] = True
     common = (corner == start).any(axis=1)
     on_right: Bools = np.all(sign <= 0, axis=2)
     entered: Bools = np.all(sign >= 0, axis=1) & ~common
-    return np.asarray(on_right.any(axis=1)), np.asarray(entered.any(axis=1))
+    return np.asarray(on_right.any(axis=1)), np.asarray(entered.any(axis=1)), doubtful

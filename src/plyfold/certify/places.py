@@ -61,6 +61,10 @@ class Places:
 
     def cross_sign(self, a: Ints, b: Ints, c: Ints, d: Ints) -> Signs:
         """Return the signs of the cross products of a → b and c → d, all of shape (m,)."""
+        return self.cross_sign_and_doubt(a, b, c, d)[0]
+
+    def cross_sign_and_doubt(self, a: Ints, b: Ints, c: Ints, d: Ints) -> tuple[Signs, Bools]:
+        """Return the signs of cross products, and where the points near by that are doubles may have another one."""
         near, off = self.near, self.off
         with np.errstate(over="ignore", under="ignore", invalid="ignore"):
             (ux, uy), (vx, vy) = (near[b] - near[a]).T, (near[d] - near[c]).T
@@ -76,7 +80,7 @@ class Places:
         signs = np.where(sure, np.sign(np.where(sure, cross, 0)), 0).astype(np.int8)
         for i in np.flatnonzero(~sure).tolist():
             signs[i] = self._exact_cross_sign(int(a[i]), int(b[i]), int(c[i]), int(d[i]))
-        return signs
+        return signs, np.asarray(~sure)
 
     def step_sign(self, a: Ints, b: Ints, axis: Ints) -> Signs:
         """Return the signs of how much x (axis 0) or y (axis 1) grows from a to b."""
