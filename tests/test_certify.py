@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial import Delaunay
 
+import plyfold as pf
 from plyfold import gallery
 from plyfold.certify import CertificateError, check_disk_mesh, check_immersed_disk, check_layered, check_surface
 from plyfold.errors import PlyfoldError
@@ -13,6 +14,7 @@ from reference.triangles import meeting_pairs
 
 SQUARE = [(0.0, 0.0), (3.0, 0.0), (3.0, 3.0), (0.0, 3.0)]
 HALVES = [[0, 1, 2], [0, 2, 3]]
+RAMP = [(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)]
 
 
 def hand_glued_ramp(steps=14, per_turn=12):
@@ -210,15 +212,19 @@ def with_vertex_on_first_edge(*added):
     return np.concatenate([points, [(1.5, 1.5)]]), np.stack([i, (i + 1) % hub, np.full(hub, hub)], axis=1), i
 
 
-@pytest.mark.parametrize("height", [0.0, 1e-16, -1e-15, 64 * 2.0**-51])
-def test_vertices_on_edges(height):
-    check_immersed_disk(SQUARE, *with_vertex_on_first_edge((1.0, height), (2.0, 0.0)))
+@pytest.mark.parametrize("height", [0.0, 5e-324, 1e-16, -1e-15, 1e-9, -1e-3])
+@pytest.mark.parametrize("scale", [1.0, 2.0**-500, 2.0**300])
+def test_vertices_stand_for_points_of_edges(height, scale):
+    vertices, faces, boundary = with_vertex_on_first_edge((1.0, height), (2.0, 0.0))
+    check_immersed_disk(scale * np.array(SQUARE), scale * vertices, faces, boundary)
 
 
-@pytest.mark.parametrize("height", [1e-9, -1e-12, 65 * 2.0**-51])
-def test_vertex_off_its_edge(height):
-    with pytest.raises(CertificateError, match="leaves the curve"):
-        check_immersed_disk(SQUARE, *with_vertex_on_first_edge((1.0, height)))
+def test_a_corner_that_stands_for_the_middle_of_a_side():
+    """Between (3, 0) and (0, 3) a vertex at (3, 3) stands for (3/2, 3/2); one at (4, 0) for a point beyond the side."""
+    triangle = [SQUARE[0], SQUARE[1], SQUARE[3]]
+    check_immersed_disk(triangle, SQUARE, HALVES, [0, 1, 2, 3])
+    with pytest.raises(CertificateError, match="runs backwards along the curve, at \\(3, 0\\)"):
+        check_immersed_disk(triangle, [*SQUARE[:2], (4.0, 0.5), SQUARE[3]], HALVES, [0, 1, 2, 3])
 
 
 def test_vertices_must_advance():
@@ -239,7 +245,7 @@ def test_vertices_must_advance():
         ("misses a point of the curve, at \\(1, 0\\)", [SQUARE[0], (1.0, 0.0), *SQUARE[1:]], [0, 1, 2, 3]),
         ("misses", [*SQUARE, (0.0, 1.0)], [0, 1, 2, 3]),
         ("misses", [SQUARE[0], (np.nextafter(3, 4), 0.0), *SQUARE[2:]], [0, 1, 2, 3]),
-        ("leaves the curve", [SQUARE[0], SQUARE[1], SQUARE[3]], [0, 1, 2, 3]),
+        ("twice in a row", [SQUARE[0], *SQUARE], [0, 1, 2, 3]),
         ("leaves the boundary", SQUARE, [0, 3, 2, 1]),
         ("leaves the boundary", SQUARE, [0, 1, 2, 2]),
         ("not a row of all", SQUARE, [0, 1, 2]),
@@ -256,10 +262,41 @@ def test_not_finite():
         check_layered([(0, 0, 0), (1, 0, np.nan), (0, 1, 0)], [[0, 1, 2]])
 
 
+EIGHT = np.array([(0.0, 0.0), (40.0, 40.0), (40.0, 0.0), (0.0, 40.0)])
+BESIDE = np.array([(0.0, 0.0), (50.0, -10.0), (40.0, 40.0), (40.0, 0.0), (0.0, 40.0)])
+THREE = [[0, 1, 3], [1, 2, 3], [0, 3, 4]]
+
+
+@pytest.mark.parametrize("far", [0.0, 2.0**52, 2.0**60])
+def test_vertex_beside_its_edge_where_doubles_are_sparse(far):
+    """The second vertex stands for the middle of the first edge, and there the first triangle is turned over."""
+    curve, vertices = (points + min(far, 2.0**52) for points in (EIGHT, BESIDE))
+    if far > 2.0**52:
+        curve, vertices = EIGHT.copy(), BESIDE.copy()
+        curve[3, 1] = vertices[4, 1] = far
+    with pytest.raises(CertificateError, match="turned over"):
+        check_immersed_disk(curve, vertices, THREE, np.arange(5))
+
+
+@pytest.mark.parametrize("unit", [5e-324, 1e-310])
+def test_subnormal_square(unit):
+    square = unit * np.array(SQUARE)
+    check_immersed_disk(square, square, HALVES, [0, 1, 2, 3])
+    check_surface(square, np.pad(square, ((0, 0), (0, 1))), HALVES, [0, 1, 2, 3])
+
+
 # Layers
 
 
-@pytest.mark.parametrize("gap", [np.nextafter(12, 13), 100.0, np.nan])
+@pytest.mark.parametrize("gap", [-1.0, -5e-324, np.nan, -np.inf])
+def test_gaps_that_are_none(gap):
+    square = np.pad(SQUARE, ((0, 0), (0, 1)))
+    for check in (check_layered, lambda *mesh: check_surface(SQUARE, mesh[0], mesh[1], [0, 1, 2, 3], mesh[2])):
+        with pytest.raises(CertificateError, match="gap"):
+            check(square, HALVES, gap)
+
+
+@pytest.mark.parametrize("gap", [np.nextafter(12, 13), 100.0])
 def test_gap(ramp, gap):
     vertices, faces, _ = ramp
     with pytest.raises(CertificateError, match="apart, or equal"):
@@ -344,6 +381,49 @@ def test_overlap_in_the_plane():
         answers.append((passes(vertices, faces), not meeting_pairs(vertices, faces)))
     assert set(answers) == {(True, True), (False, False)}
     assert sum(passed for passed, _ in answers) > 100
+
+
+def test_a_dent_does_not_hide_an_overlap():
+    """A flat C with a tip over its own start, where a vertex is given beside its edge so that the tip is over nothing.
+
+    The vertices as they are given lie flat and apart, and on their edges they are an immersed disk; but not a flat one.
+    """
+    curve = [(0, 0), (10, 0), (10, 10), (0.5, 10), (1, 1), (1.5, 8), (8, 8), (8, 2), (0, 2)]
+    places = np.insert(np.array(curve, dtype=float), 8, (1.0, 0.5), axis=0)
+    faces = [[0, 1, 8], [1, 7, 8], [0, 8, 9], [1, 2, 6], [1, 6, 7], [2, 3, 6], [3, 5, 6], [3, 4, 5]]
+    vertices = np.pad(places, ((0, 0), (0, 1)))
+    check_immersed_disk(curve, places, faces, np.arange(10))
+    check_layered(vertices, faces)
+    with pytest.raises(CertificateError, match="overlap in part"):
+        check_surface(curve, vertices, faces, np.arange(10))
+
+
+def test_vertices_over_one_another_are_where_their_edges_cross():
+    """They may be given beside it, but as one double."""
+    steps = pf.lift(RAMP, triangles=100)
+    check_surface(RAMP, steps.vertices, steps.faces, steps.boundary)
+    crossing = np.array(steps.layering.immersion.arrangement.crossings[0])
+    moved = steps.vertices.copy()
+    over = (moved[:, :2] == crossing).all(axis=1)
+    moved[over, :2] += 1e-9
+    check_surface(RAMP, moved, steps.faces, steps.boundary)
+    moved[np.flatnonzero(over)[0], 0] += 1e-9
+    with pytest.raises(CertificateError):
+        check_surface(RAMP, moved, steps.faces, steps.boundary)
+
+
+def test_vertices_over_one_another_on_edges_that_do_not_cross():
+    """A strip round three sides of a square that comes back beside its start, and two vertices given in between."""
+    curve = [(0, 0), (9, 0), (9, 9), (0, 9), (0, 3), (2, 3), (2, 7), (7, 7), (7, 2), (0, 2)]
+    places = np.array([*curve[:5], (1, 2.5), *curve[5:9], (1, 2.5), *curve[9:]])
+    faces = [
+        [0, 1, 10], [1, 9, 10], [0, 10, 11], [1, 2, 9], [2, 8, 9], [2, 3, 8],
+        [3, 7, 8], [3, 4, 5], [3, 5, 7], [5, 6, 7],
+    ]  # fmt: skip
+    check_immersed_disk(curve, places, faces, np.arange(12))
+    height = np.array([0, 1, 2, 4, 6, 6, 6, 4, 2, 1, 0, 0])
+    with pytest.raises(CertificateError, match=r"do not cross there, at \(1, 2.5\)"):
+        check_surface(curve, np.column_stack([places, height]), faces, np.arange(12))
 
 
 # The reference: triangles in space whose intersection is known

@@ -1,10 +1,11 @@
 """The checker of solids: right ones pass, and every kind of spoiled one is refused."""
 
+from contextlib import suppress
+
 import numpy as np
 import pytest
 
 from plyfold.certify import CertificateError, check_ball_mesh, check_solid
-from plyfold.certify.solid import _require_volume
 
 SQUARE = [(0, 0), (2, 0), (2, 2), (0, 2)]
 
@@ -123,13 +124,39 @@ def test_walls_that_span_several_edges():
     refused(vertices, np.array([*kept, [5, 6, 7], [5, 7, 2], [5, 2, 0], [0, 2, 1]]), match="wall")
 
 
-@pytest.mark.parametrize("thickness", [0.4, 0.5 + 1e-9, -0.5])
-def test_volume(thickness):
-    """The other checks leave nothing for this one to find; so it is tried alone."""
+@pytest.mark.parametrize("thickness", [0.1, 0.3, 1e-6, 7.7])
+@pytest.mark.parametrize("height", [0.0, 0.1, 1e9, -1234.56789])
+def test_as_thick_as_rounding_allows(height, thickness):
+    """Heights that half the thickness is added to and taken from are right; two doubles further, they are not."""
     vertices, faces = tile()
-    _require_volume(vertices, faces, faces[:2], 0.5)
-    with pytest.raises(CertificateError, match="volume"):
-        _require_volume(vertices, faces, faces[:2], thickness)
+    vertices[:, 2] = np.repeat([height + thickness / 2, height - thickness / 2], 4)
+    check_solid(vertices, faces, thickness)
+    further = 2 * np.spacing(np.abs(vertices[:, 2]).max())
+    for vertex, way in ((0, further), (0, -further), (4, further), (4, -further)):
+        spoiled = vertices.copy()
+        spoiled[vertex, 2] += way
+        refused(spoiled, faces, thickness, match="apart")
+
+
+@pytest.mark.parametrize("exponent", [-1060, -300, 0, 300])
+def test_thickness_is_exact(exponent):
+    """Against rational numbers, for heights of a few units each way."""
+    unit = 2.0**exponent
+    _, faces = tile()
+    rng = np.random.default_rng(1)
+    answers = []
+    for high, low, thickness in rng.integers(1, 40, (300, 3)) * [1, -1, 2]:
+        vertices = np.column_stack([np.tile(SQUARE, (2, 1)), np.repeat([high * unit, low * unit], 4)])
+        with suppress(CertificateError):
+            check_solid(vertices, faces, thickness * unit)
+            answers.append(high - low == thickness)
+    assert answers
+    assert all(answers)
+
+
+@pytest.mark.parametrize("thickness", [np.nan, np.inf])
+def test_thickness_that_is_none(thickness):
+    refused(*tile(), thickness, match="finite")
 
 
 def test_errors_name_the_place():

@@ -1,7 +1,7 @@
 """Proofs by inspection: a mesh is a disk, lies over the curve, and does not cut itself.
 
 The checks read nothing but the finished mesh and the curve, share no code with the rest of the library, and decide by
-integers, by comparisons of doubles and by exact signs. What passes is right, however it was made.
+integers, by comparisons of doubles and by exact signs, with no tolerance. What passes is right, however it was made.
 """
 
 from __future__ import annotations
@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from plyfold.certify.disk import check_ball_mesh, check_disk_mesh
 from plyfold.certify.exact import CertificateError, finite
-from plyfold.certify.immersed import check_immersed_disk
-from plyfold.certify.layered import check_layered
+from plyfold.certify.immersed import check_immersed_disk, common_places, require_immersed, walked
+from plyfold.certify.layered import check_layered, require_gap, require_layered
 from plyfold.certify.solid import check_solid
 
 __all__ = [
@@ -53,13 +53,17 @@ def check_surface(  # noqa: PLR0913 - the parts of a mesh, and two options
     Raises
     ------
     CertificateError
-        If :func:`check_immersed_disk` or :func:`check_layered` fails.
+        If :func:`check_immersed_disk` or :func:`check_layered` fails, the latter also where the vertices between points
+        of the curve are at the exact points of their edges: over one another, at the crossing of their two edges.
 
     Examples
     --------
     >>> roof = [(0, 0, 0), (1, 0, 1), (1, 1, 0), (0, 1, 1)]
     >>> check_surface([(0, 0), (1, 0), (1, 1), (0, 1)], roof, [[0, 1, 2], [0, 2, 3]], [0, 1, 2, 3])
     """
+    require_gap(gap)
     positions = finite(vertices, 3)
-    check_immersed_disk(curve_points, positions[:, :2], faces, boundary)
-    check_layered(positions, faces, gap, passing)
+    walk = walked(curve_points, positions[:, :2], faces, boundary)
+    places = common_places(walk)
+    require_immersed(walk, places)
+    require_layered(positions, walk.sides.start.reshape(-1, 3), places, gap, passing)

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import numpy.typing as npt
 
 from plyfold.certify.disk import Sides, disk_sides
-from plyfold.certify.exact import Bools, CertificateError, Floats, Ints, cross_sign, finite, require_positive
+from plyfold.certify.exact import Bools, CertificateError, Floats, Ints, finite
+from plyfold.certify.places import Places, doubles, on_edges, require_positive
 
-__all__ = ["check_immersed_disk"]
-
-# How far a vertex between two points of the curve may lie off their edge, in units in the last place of the largest
-# coordinate. Each time an edge is split, the new point is off by another rounding error.
-_ULPS_OFF_THE_EDGE = 64
+__all__ = ["Walk", "check_immersed_disk", "common_places", "require_immersed", "walked"]
 
 
 def check_immersed_disk(
@@ -39,8 +38,11 @@ def check_immersed_disk(
 
     Notes
     -----
-    The boundary must hold the curve's points exactly. Vertices between them may be off their edge by 64 units in the
-    last place of the largest coordinate, and must advance along it.
+    The boundary must hold the curve's points exactly. A vertex between two of them stands for the exact point of their
+    edge that is next to it: it is put there in rational numbers. These points must follow each other along the edge,
+    and every triangle must be strictly counter-clockwise both there and as it is given. So the disk that is proved to
+    be immersed has the very curve as its boundary. There is no tolerance: how far from its edge a vertex is given is
+    not limited, as nothing depends on it.
 
     The triangles at an inner vertex must turn round it exactly once; those at a boundary vertex must fill the angle
     between its two boundary edges and less than a full turn. Both are counted by signs: triangles are
@@ -55,13 +57,99 @@ def check_immersed_disk(
     Traceback (most recent call last):
     plyfold.certify.exact.CertificateError: the boundary does not start at the curve's first point, at (0, 0)
     """
-    points, places = finite(curve_points, 2), finite(vertices_xy, 2)
-    sides = disk_sides(faces, len(places))
+    walk = walked(curve_points, vertices_xy, faces, boundary)
+    require_immersed(walk, on_edges(walk.near, walk.edges, walk.curve, walk.is_point))
+
+
+@dataclass(frozen=True, eq=False)
+class Walk:
+    """A disk whose boundary goes through the points of the curve.
+
+    Parameters
+    ----------
+    curve : (n, 2) float
+    near : (v, 2) float
+        The vertices as they are given; all triangles are positive.
+    sides : Sides
+    loop : (b,) int
+        The vertices along the curve.
+    edge : (b,) int
+        The edge of the curve that the boundary goes along from each of them.
+    is_point : (v,) bool
+        Which vertices are at points of the curve.
+    """
+
+    curve: Floats
+    near: Floats
+    sides: Sides
+    loop: Ints
+    edge: Ints
+    is_point: Bools
+
+    @property
+    def edges(self) -> Ints:
+        """The edges of the curve that each vertex is on: two at its points, one between them; −1 for none."""
+        edges = np.full((len(self.near), 2), -1)
+        edges[self.loop, 0] = self.edge
+        arriving = np.roll(self.edge, 1)
+        edges[self.loop, 1] = np.where(arriving == self.edge, -1, arriving)
+        return edges
+
+
+def walked(
+    curve_points: npt.ArrayLike, vertices_xy: npt.ArrayLike, faces: npt.ArrayLike, boundary: npt.ArrayLike
+) -> Walk:
+    """Return a disk with positive triangles, and how its boundary goes through the points of the curve."""
+    points, near = finite(curve_points, 2), finite(vertices_xy, 2)
+    if len(same := np.flatnonzero((points == np.roll(points, -1, axis=0)).all(axis=1))):
+        raise CertificateError("the curve has the same point twice in a row", where=points[same[:1]])
+    sides = disk_sides(faces, len(near))
     loop = np.asarray(boundary)
-    require_positive(places, sides.start.reshape(-1, 3))
-    _require_boundary_loop(sides, loop, places)
-    _require_along_curve(points, places[loop])
-    _require_single_turns(sides, loop, places)
+    require_positive(doubles(near), sides.start.reshape(-1, 3))
+    _require_boundary_loop(sides, loop, near)
+    at = _positions_of(points, near[loop])
+    is_point = np.zeros(len(near), dtype=bool)
+    is_point[loop[at]] = True
+    return Walk(points, near, sides, loop, np.repeat(np.arange(len(at)), np.diff(np.append(at, len(loop)))), is_point)
+
+
+def common_places(walk: Walk) -> Places:
+    """Return exact places on the curve's edges that are the same for all vertices given as the same doubles.
+
+    Where there are vertices between the points of two edges, the place is where these edges cross.
+    """
+    near, place = np.unique(walk.near, axis=0, return_inverse=True)
+    place = place.reshape(-1)
+    points = np.flatnonzero(walk.is_point)
+    between = walk.loop[~walk.is_point[walk.loop]]
+    given, edges = np.zeros(len(near), dtype=bool), np.full((len(near), 2), -1)
+    given[place[points]] = True
+    edges[place[points]] = walk.edges[points]
+    at, edge = np.unique(np.stack([place[between], walk.edges[between, 0]], axis=1), axis=0).T
+    rank = np.arange(len(at)) - np.searchsorted(at, at)
+    used = (rank < 2) & ~given[at]
+    edges[at[used], rank[used]] = edge[used]
+    places = on_edges(near, edges, walk.curve, given)
+    _require_on(places, *(numbers[~used | np.isinf(places.off[at])] for numbers in (at, edge)))
+    return places.of(place)
+
+
+def _require_on(places: Places, at: Ints, edge: Ints) -> None:
+    """Check that places are on edges that have not led to them, or perhaps not."""
+    for one, other in zip(at.tolist(), edge.tolist(), strict=True):
+        if not places.is_on(one, other):
+            raise CertificateError(
+                "vertices over one another are on edges of the curve that do not cross there",
+                where=places.near[one : one + 1],
+            )
+
+
+def require_immersed(walk: Walk, places: Places) -> None:
+    """Check that with the vertices on the curve's edges the disk is immersed, with the curve as its boundary."""
+    _require_along_curve(walk, places)
+    triangles = walk.sides.start.reshape(-1, 3)
+    require_positive(places, triangles[(places.off[triangles] > 0).any(axis=1)])
+    _require_single_turns(walk.sides, walk.loop, places)
 
 
 def _require_boundary_loop(sides: Sides, loop: Ints, places: Floats) -> None:
@@ -76,20 +164,18 @@ def _require_boundary_loop(sides: Sides, loop: Ints, places: Floats) -> None:
         raise CertificateError("the given boundary leaves the boundary of the mesh", where=places[loop[wrong[:1]]])
 
 
-def _require_along_curve(points: Floats, walk: Floats) -> None:
-    """Check that the positions along the boundary go through the curve's points and along its edges."""
-    at = _positions_of(points, walk)
-    edge = np.repeat(np.arange(len(points)), np.diff(np.append(at, len(walk))))
-    start, end = points[edge], np.roll(points, -1, axis=0)[edge]
-    between = np.setdiff1d(np.arange(len(walk)), at)
-    off = _off_the_edge(start[between], end[between], walk[between], float(np.abs(points).max()))
-    if len(bad := between[off]):
-        raise CertificateError("the boundary leaves the curve", where=walk[bad])
-    # The dot product is the cross product with the edge turned by a quarter.
-    quarter = np.array([[0.0, 1.0], [-1.0, 0.0]])
-    advance = cross_sign(walk, np.roll(walk, -1, axis=0), start @ quarter, end @ quarter)
+def _require_along_curve(walk: Walk, places: Places) -> None:
+    """Check that the boundary advances along every edge of the curve.
+
+    Of points on one line, the order along it is that of their coordinates.
+    """
+    with np.errstate(over="ignore"):
+        step = np.roll(walk.curve, -1, axis=0) - walk.curve
+    axis = np.argmax(np.abs(step), axis=1)
+    sign = np.sign(step[np.arange(len(step)), axis])[walk.edge]
+    advance = sign * places.step_sign(walk.loop, np.roll(walk.loop, -1), axis[walk.edge])
     if len(back := np.flatnonzero(advance <= 0)):
-        raise CertificateError("the boundary stops or runs backwards along the curve", where=walk[back])
+        raise CertificateError("the boundary stops or runs backwards along the curve", where=walk.near[walk.loop[back]])
 
 
 def _positions_of(points: Floats, walk: Floats) -> Ints:
@@ -106,36 +192,32 @@ def _positions_of(points: Floats, walk: Floats) -> Ints:
     return np.array(at)
 
 
-def _off_the_edge(start: Floats, end: Floats, place: Floats, largest: float) -> Bools:
-    """Tell which places are further from the lines through their edges than rounding explains."""
-    unit = 2.0 ** -float(np.frexp(largest)[1])
-    # Differences and products lose a few units in the last place more, which the allowance covers.
-    edge, step = (end - start) * unit, (place - start) * unit
-    distance = np.abs(edge[:, 0] * step[:, 1] - edge[:, 1] * step[:, 0]) / np.hypot(*edge.T)
-    return np.asarray(~(distance <= _ULPS_OFF_THE_EDGE * np.spacing(largest) * unit))
-
-
-def _require_single_turns(sides: Sides, loop: Ints, places: Floats) -> None:
+def _require_single_turns(sides: Sides, loop: Ints, places: Places) -> None:
     """Check that the triangles turn once round each inner vertex, and less than once at each boundary vertex.
 
     Full turns are counted as passages through the direction of +x: from a direction in [π, 2π) to one in [0, π). The
     fan at a boundary vertex goes from its outgoing edge to its incoming one.
     """
-    upward = _upward(places[sides.start], places[sides.end])
+    upward = _upward(places, sides.start, sides.end)
     # A triangle's corner sweeps from the side that leaves it to the one that arrives, reversed.
-    passages = np.bincount(sides.start[~upward & ~upward[sides.previous]], minlength=len(places))
-    here, after, before = places[loop], places[np.roll(loop, -1)], places[np.roll(loop, 1)]
-    outgoing, incoming = _upward(here, after), _upward(here, before)
-    turn = cross_sign(here, after, here, before)
-    same_half = outgoing == incoming
-    expected = np.ones(len(places), dtype=np.int64)
-    expected[loop] = np.where(same_half, turn <= 0, incoming)
+    passages = np.bincount(sides.start[~upward & ~upward[sides.previous]], minlength=len(places.near))
+    after, before = np.roll(loop, -1), np.roll(loop, 1)
+    outgoing, incoming = _upward(places, loop, after), _upward(places, loop, before)
+    same = np.flatnonzero(outgoing == incoming)
+    turn = places.cross_sign(loop[same], after[same], loop[same], before[same])
+    expected = np.ones(len(places.near), dtype=np.int64)
+    expected[loop] = incoming
+    expected[loop[same]] = turn <= 0
     wrong = passages != expected
-    wrong[loop] |= same_half & (turn == 0)
+    wrong[loop[same]] |= turn == 0
     if wrong.any():
-        raise CertificateError("the triangles at a vertex turn round it too often", where=places[wrong])
+        raise CertificateError("the triangles at a vertex turn round it too often", where=places.near[wrong])
 
 
-def _upward(start: Floats, end: Floats) -> Bools:
+def _upward(places: Places, start: Ints, end: Ints) -> Bools:
     """Tell which directions have an angle in [0, π)."""
-    return np.asarray((end[:, 1] > start[:, 1]) | ((end[:, 1] == start[:, 1]) & (end[:, 0] > start[:, 0])))
+    upward: Bools = places.step_sign(start, end, np.ones_like(start)) > 0
+    level = np.flatnonzero(~upward)
+    level = level[places.step_sign(start[level], end[level], np.ones_like(level)) == 0]
+    upward[level] = places.step_sign(start[level], end[level], np.zeros_like(level)) > 0
+    return upward

@@ -8,19 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.certify.exact import (
-    Bools,
-    CertificateError,
-    Floats,
-    Ints,
-    as_faces,
-    cross_sign,
-    finite,
-    pair_keys,
-    require_positive,
-)
+from plyfold.certify.exact import Bools, CertificateError, Floats, Ints, as_faces, finite, pair_keys
+from plyfold.certify.places import Places, doubles, require_positive
 
-__all__ = ["check_layered"]
+__all__ = ["check_layered", "require_gap", "require_layered"]
 
 _PAIRS_AT_A_TIME = 1 << 20
 
@@ -43,9 +34,10 @@ def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.
     Raises
     ------
     CertificateError
-        If a row of ``passing`` does not name edges over one another, two other vertices over one place are equal in
-        height or nearer than the gap, triangles or edges over one another are not in the same order at all their
-        corners, or the flat triangles below overlap other than as exact copies. It names the place.
+        If the gap is negative or not finite, a row of ``passing`` does not name edges over one another, two other
+        vertices over one place are equal in height or nearer than the gap, triangles or edges over one another are not
+        in the same order at all their corners, or the flat triangles below overlap other than as exact copies. It names
+        the place.
 
     Notes
     -----
@@ -70,11 +62,27 @@ def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.
     Traceback (most recent call last):
     plyfold.certify.exact.CertificateError: two triangles over one another change their order, at (0, 0), (1, 0), (0, 1)
     """
+    require_gap(gap)
     positions = finite(vertices, 3)
     triangles = as_faces(faces, len(positions))
-    places, place = np.unique(positions[:, :2], axis=0, return_inverse=True)
+    places = doubles(positions[:, :2])
+    require_positive(places, triangles)
+    require_layered(positions, triangles, places, gap, passing)
+
+
+def require_gap(gap: float) -> None:
+    """Check that the gap is a distance."""
+    if not 0 <= gap < np.inf:
+        raise CertificateError(f"the gap must be a number from 0 on, not {gap}")
+
+
+def require_layered(positions: Floats, triangles: Ints, exact: Places, gap: float, passing: npt.ArrayLike) -> None:
+    """Check that positive triangles are stacked, both as they are given and with their vertices at exact places.
+
+    Vertices at one place as they are given have one exact place.
+    """
+    places, first, place = np.unique(positions[:, :2], axis=0, return_index=True, return_inverse=True)
     height, below = positions[:, 2], place.reshape(-1)
-    require_positive(positions[:, :2], triangles)
     flat = _from_lowest_corner(below, triangles)
     edges = _different_edges(below, triangles)
     named = _named_pairs(passing, edges, below)
@@ -82,7 +90,7 @@ def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.
     stacks.require_gap(gap)
     stacks.require_one_order("triangles", flat)
     stacks.require_one_order("edges", edges, pair_keys(named, len(edges)))
-    _require_no_overlap(np.unique(below[flat], axis=0), places)
+    _require_no_overlap(np.unique(below[flat], axis=0), exact.of(first))
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +110,7 @@ class _Stacks:
         bad = np.flatnonzero(~((lower < upper) & (lower + gap <= upper)) & ~self._is_open(first, second))
         if len(bad):
             raise CertificateError(
-                f"vertices over one another are less than {max(gap, 0.0):g} apart, or equal",
+                f"vertices over one another are less than {gap:g} apart, or equal",
                 where=self.places[self.below[first[bad]]],
             )
 
@@ -179,20 +187,29 @@ def _different_edges(below: Ints, triangles: Ints) -> Ints:
     return np.unique(ends, axis=0)
 
 
-def _require_no_overlap(triangles: Ints, places: Floats) -> None:
-    """Check that flat triangles meet at most in common corners and edges.
+def _require_no_overlap(triangles: Ints, places: Places) -> None:
+    """Check that flat triangles meet at most in common corners and edges, and as well if their corners are doubles."""
+    corners, off = places.near[triangles], places.off[triangles].max(axis=1)
+    low, high = corners.min(axis=1) - off[:, None], corners.max(axis=1) + off[:, None]
+    as_given = doubles(places.near)
+    for first, second in _pairs_with_common_boxes(low, high):
+        doubt = _require_apart(triangles[first], triangles[second], places)
+        again = doubt & ((off[first] > 0) | (off[second] > 0))
+        _require_apart(triangles[first[again]], triangles[second[again]], as_given)
+
+
+def _require_apart(a: Ints, b: Ints, places: Places) -> Bools:
+    """Check that the triangles of each pair meet at most in common corners and edges; return where doubles may not.
 
     Two convex polygons without common inner points are separated by the line of a side of one of them. If moreover
     neither has a corner in the other, except common ones, they have nothing in common but these and what is between.
     """
-    corners = places[triangles]
-    for first, second in _pairs_with_common_boxes(corners.min(axis=1), corners.max(axis=1)):
-        a, b = triangles[first], triangles[second]
-        apart_ab, entered_ab = _separated(a, b, places)
-        apart_ba, entered_ba = _separated(b, a, places)
-        bad = ~(apart_ab | apart_ba) | entered_ab | entered_ba
-        if bad.any():
-            raise CertificateError("seen from above, triangles overlap in part", where=places[a[np.argmax(bad)]])
+    apart_ab, entered_ab, doubt_ab = _separated(a, b, places)
+    apart_ba, entered_ba, doubt_ba = _separated(b, a, places)
+    bad = ~(apart_ab | apart_ba) | entered_ab | entered_ba
+    if bad.any():
+        raise CertificateError("seen from above, triangles overlap in part", where=places.near[a[np.argmax(bad)]])
+    return np.asarray(doubt_ab | doubt_ba)
 
 
 def _pairs_with_common_boxes(low: Floats, high: Floats) -> Iterator[tuple[Ints, Ints]]:
@@ -211,15 +228,20 @@ def _pairs_with_common_boxes(low: Floats, high: Floats) -> Iterator[tuple[Ints, 
         yield order[first[meet]], order[second[meet]]
 
 
-def _separated(a: Ints, b: Ints, places: Floats) -> tuple[Bools, Bools]:
-    """Tell whether a side of triangle a has all of b on its right, and whether a corner of b alone lies in a."""
+def _separated(a: Ints, b: Ints, places: Places) -> tuple[Bools, Bools, Bools]:
+    """Tell whether a side of triangle a has all of b on its right, and whether a corner of b alone lies in a.
+
+    And where this may be otherwise for the doubles near by.
+    """
     start, end = a[:, :, None], np.roll(a, -1, axis=1)[:, :, None]
     corner = b[:, None, :]
     sign = np.zeros((len(a), 3, 3), dtype=np.int8)
     pair, side, which = np.nonzero((corner != start) & (corner != end))
-    p, q, r = places[a[pair, side]], places[end[pair, side, 0]], places[b[pair, which]]
-    sign[pair, side, which] = cross_sign(p, q, p, r)
+    p, q, r = a[pair, side], end[pair, side, 0], b[pair, which]
+    sign[pair, side, which], doubt = places.cross_sign_and_doubt(p, q, p, r)
+    doubtful = np.zeros(len(a), dtype=bool)
+    doubtful[pair[doubt]] = True
     common = (corner == start).any(axis=1)
     on_right: Bools = np.all(sign <= 0, axis=2)
     entered: Bools = np.all(sign >= 0, axis=1) & ~common
-    return np.asarray(on_right.any(axis=1)), np.asarray(entered.any(axis=1))
+    return np.asarray(on_right.any(axis=1)), np.asarray(entered.any(axis=1)), doubtful

@@ -62,8 +62,8 @@ class Solid:
     def check(self) -> None:
         """Prove with the independent checker :func:`plyfold.certify.check_solid` that it is a solid.
 
-        It is closed and has its outside outside, its volume is that of the drawing's area times the thickness, and it
-        nowhere meets itself.
+        It is closed and has its outside outside, it is as thick everywhere as it should be, to the last rounding, and
+        it nowhere meets itself.
 
         Raises
         ------
