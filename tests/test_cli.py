@@ -3,10 +3,8 @@
 import io
 import json
 import os
-import signal
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
@@ -296,20 +294,6 @@ def test_a_reader_that_goes_away_is_no_error():
     with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         process.stdout.close()
         assert b"Traceback" not in process.stderr.read()
-
-
-@pytest.mark.skipif(os.name == "nt", reason="signals")
-def test_interrupted_runs_leave_nothing(tmp_path):
-    out = tmp_path / "big.glb"
-    words = [sys.executable, "-m", "plyfold", "lift", "gallery:bennequin", "--triangles", "1500000", "-o", str(out)]
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
-        time.sleep(5)
-        process.send_signal(signal.SIGINT)
-        errors = process.stderr.read()
-    assert process.returncode == 130
-    assert b"interrupted" in errors
-    assert b"Traceback" not in errors
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_split_writes_polygons_that_cover_the_disk_once(loop, tmp_path, capsys):
