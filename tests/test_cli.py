@@ -13,6 +13,7 @@ import trimesh
 
 import plyfold as pf
 from plyfold.cli import main
+from plyfold.cli.progress import Stopwatch
 from plyfold.gallery import CURVES
 
 LOOP = "0,0\n9,0\n9,6\n3,6\n3,-3\n4,-3\n4,5\n8,5\n8,1\n0,1\n"
@@ -242,6 +243,25 @@ def test_messages_replace_the_line_of_progress(eight, tmp_path, monkeypatch):
     main(["lift", str(eight), "-o", str(tmp_path / "out.glb")])
     assert "\r\x1b[Kfinding the crossings" in sys.stderr.getvalue()
     assert [line.partition(":")[0] for line in shown(sys.stderr.getvalue())] == ["plyfold"]
+
+
+def test_progress_tells_the_stage_and_the_time_left(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    monkeypatch.setattr("time.perf_counter", lambda: now[0])
+    watch = Stopwatch()
+    watch("smoothing heights")
+    now[0] = 10.0
+    watch("smoothing heights", 0.25)
+    assert shown(sys.stderr.getvalue()) == ["smoothing heights 25%, about 30 s left"]
+
+
+def test_a_film_tells_how_far_it_is(loop, tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    monkeypatch.setattr("plyfold.draw.film._STEPS", 1)
+    assert main(["lift", str(loop), "--triangles", "50", "-o", str(tmp_path / "film.gif")]) == 0
+    assert "drawing the film 67%" in sys.stderr.getvalue()
+    assert (tmp_path / "film.gif").exists()
 
 
 def test_an_interruption_replaces_the_line_of_progress(loop, monkeypatch):
