@@ -3,10 +3,8 @@
 import io
 import json
 import os
-import signal
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
@@ -15,6 +13,7 @@ import trimesh
 
 import plyfold as pf
 from plyfold.cli import main
+from plyfold.cli.progress import Stopwatch
 from plyfold.gallery import CURVES
 
 LOOP = "0,0\n9,0\n9,6\n3,6\n3,-3\n4,-3\n4,5\n8,5\n8,1\n0,1\n"
@@ -246,6 +245,25 @@ def test_messages_replace_the_line_of_progress(eight, tmp_path, monkeypatch):
     assert [line.partition(":")[0] for line in shown(sys.stderr.getvalue())] == ["plyfold"]
 
 
+def test_progress_tells_the_stage_and_the_time_left(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    monkeypatch.setattr("time.perf_counter", lambda: now[0])
+    watch = Stopwatch()
+    watch("smoothing heights")
+    now[0] = 10.0
+    watch("smoothing heights", 0.25)
+    assert shown(sys.stderr.getvalue()) == ["smoothing heights 25%, about 30 s left"]
+
+
+def test_a_film_tells_how_far_it_is(loop, tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    monkeypatch.setattr("plyfold.draw.film._STEPS", 1)
+    assert main(["lift", str(loop), "--triangles", "50", "-o", str(tmp_path / "film.gif")]) == 0
+    assert "drawing the film 67%" in sys.stderr.getvalue()
+    assert (tmp_path / "film.gif").exists()
+
+
 def test_an_interruption_replaces_the_line_of_progress(loop, monkeypatch):
     def interrupt(*_, **__):
         raise KeyboardInterrupt
@@ -296,20 +314,6 @@ def test_a_reader_that_goes_away_is_no_error():
     with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         process.stdout.close()
         assert b"Traceback" not in process.stderr.read()
-
-
-@pytest.mark.skipif(os.name == "nt", reason="signals")
-def test_interrupted_runs_leave_nothing(tmp_path):
-    out = tmp_path / "big.glb"
-    words = [sys.executable, "-m", "plyfold", "lift", "gallery:bennequin", "--triangles", "1500000", "-o", str(out)]
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
-        time.sleep(5)
-        process.send_signal(signal.SIGINT)
-        errors = process.stderr.read()
-    assert process.returncode == 130
-    assert b"interrupted" in errors
-    assert b"Traceback" not in errors
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_split_writes_polygons_that_cover_the_disk_once(loop, tmp_path, capsys):

@@ -53,10 +53,11 @@ def test_numba_is_loaded_when_there_was_much_to_do(monkeypatch):
     monkeypatch.setattr(compiled, "_can_be_imported", lambda: True)
     monkeypatch.delitem(sys.modules, "numba", raising=False)
     assert [compiled._machine_code_pays(60) for _ in range(3)] == [False, True, True]
-    monkeypatch.setattr(compiled, "_can_be_imported", lambda: False)
-    assert not compiled._machine_code_pays(60)
+    monkeypatch.setattr(compiled, "_steps_so_far", 0)
     monkeypatch.setitem(sys.modules, "numba", compiled)
     assert compiled._machine_code_pays(1)
+    monkeypatch.setattr(compiled, "_can_be_imported", lambda: False)
+    assert not compiled._machine_code_pays(60)
 
 
 def test_numba_that_cannot_be_imported_is_left_alone(monkeypatch):

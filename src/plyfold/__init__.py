@@ -6,6 +6,14 @@
 (True, 1)
 """
 
+import sys as _sys
+
+# `python -m plyfold` is looking for plyfold.__main__: Ctrl-C has to end it quietly already.
+if _sys.argv[:1] == ["-m"] and _sys.orig_argv[-len(_sys.argv)] in ("plyfold", "-mplyfold"):
+    import plyfold_command as _command
+
+    _command.end_at_interrupts()
+
 from plyfold import errors, gallery
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.gauss import GaussCode

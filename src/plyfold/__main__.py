@@ -1,8 +1,6 @@
 """``python -m plyfold`` is the same as ``plyfold``."""
 
-import sys
-
-from plyfold.cli import main
+from plyfold_command import main
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

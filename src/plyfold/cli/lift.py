@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 from typing import Any
 
 from plyfold.cli.heights import add_height_options, height_options
@@ -10,6 +11,9 @@ from plyfold.cli.inputs import DISK, add_command, add_outputs, add_time_limit, p
 from plyfold.cli.progress import Stopwatch, timing
 
 __all__ = ["add_lift_command"]
+
+# These take minutes for a large surface, and say how far they are.
+_FILMS = (".gif", ".mp4")
 
 
 def add_lift_command(commands: Any) -> None:
@@ -48,7 +52,7 @@ def _lift(options: argparse.Namespace) -> int:
     from plyfold.surface import lift
 
     watch = Stopwatch()
-    pages = () if options.thicken is not None else (".html", ".gif", ".mp4")
+    pages = () if options.thicken is not None else (".html", *_FILMS)
     endings = (".glb", ".obj", ".ply", ".stl", ".3mf", *pages)
     arranged = prepare(options, endings, watch)
     surface = lift(
@@ -61,7 +65,7 @@ def _lift(options: argparse.Namespace) -> int:
         **height_options(options),
     )
     watch("writing")
-    _export(surface, options)
+    _export(surface, options, watch)
     watch.stop()
     levels = int(surface.layering.level.max())
     print(
@@ -75,11 +79,20 @@ def _lift(options: argparse.Namespace) -> int:
     return DISK
 
 
-def _export(surface: Any, options: argparse.Namespace) -> None:
+def _export(surface: Any, options: argparse.Namespace, watch: Stopwatch) -> None:
     solid = None if options.thicken is None else surface.thicken(options.thicken)
     for path in options.output:
         choices: dict[str, Any] = {"colours": options.colours, "unwrapped": False if options.no_unwrap else None}
         if solid is not None:
             solid.export(path, options.force, **choices)
+        elif Path(path).suffix.lower() in _FILMS:
+            _film(surface, path, options.force, watch)
         else:
             surface.export(path, options.force, title(options.file), **choices)
+
+
+def _film(surface: Any, path: str, force: bool, watch: Stopwatch) -> None:
+    from plyfold.draw.film import save_film
+
+    save_film(surface, path, force, watch)
+    watch("writing")

@@ -8,6 +8,8 @@ import time
 __all__ = ["Stopwatch", "clear_progress", "timing"]
 
 _CLEAR_LINE = "\r\x1b[K"
+# Before so much of a stage is done, and so many seconds of it are over, what is left is a mere guess.
+_LEAST_SHARE, _LEAST_SECONDS = 0.05, 2.0
 
 
 def _progress_is_seen() -> bool:
@@ -33,8 +35,8 @@ class Stopwatch:
             self.stop()
             self._stage = stage
         if stage and _progress_is_seen():
-            share = f" {done:.0%}" if done else ""
-            print(f"{_CLEAR_LINE}{stage}{share}", end="", file=sys.stderr, flush=True)
+            told = f"{stage} {done:.0%}{_left(time.perf_counter() - self._since, done)}" if done else stage
+            print(f"{_CLEAR_LINE}{told}", end="", file=sys.stderr, flush=True)
 
     def stop(self) -> None:
         """End the current stage and clear the line."""
@@ -43,6 +45,20 @@ class Stopwatch:
             self.seconds[self._stage] = self.seconds.get(self._stage, 0.0) + now - self._since
             clear_progress()
         self._stage, self._since = "", now
+
+
+def _left(spent: float, done: float) -> str:
+    """Say how much time a stage will take yet, if it goes on as it went so far and that can be told.
+
+    Examples
+    --------
+    >>> _left(10.0, 0.25), _left(300.0, 0.5), _left(0.5, 0.5), _left(10.0, 0.01)
+    (', about 30 s left', ', about 5 min left', '', '')
+    """
+    if done < _LEAST_SHARE or spent < _LEAST_SECONDS:
+        return ""
+    seconds = spent * (1 - done) / done
+    return f", about {seconds:.0f} s left" if seconds < 100 else f", about {seconds / 60:.0f} min left"
 
 
 def timing(watch: Stopwatch) -> str:

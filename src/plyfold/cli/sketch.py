@@ -9,6 +9,7 @@ import threading
 from typing import Any, NoReturn
 
 from plyfold.errors import InputError
+from plyfold_command import raise_interrupts
 
 __all__ = ["add_sketch_command"]
 
@@ -45,6 +46,7 @@ def _sketch(options: argparse.Namespace) -> int:
     from plyfold.sketch.workers import Workers
 
     beginning = json_answer(start(options.file))
+    raise_interrupts()
     signal.signal(signal.SIGTERM, _interrupt)
     workers = Workers()
     try:

@@ -19,7 +19,7 @@ from plyfold.draw.depth_buffer import View
 from plyfold.draw.places import middle_and_size, natural_stretch
 from plyfold.draw.render import Image, Mesh, shade
 from plyfold.errors import InputError, PlyfoldError
-from plyfold.io.saving import refuse_existing, save_bytes
+from plyfold.io.saving import draft_in, refuse_existing, save_bytes
 from plyfold.surface.animation import Motion
 
 if TYPE_CHECKING:
@@ -160,8 +160,7 @@ def _mp4(shown: list[tuple[_Frame, int]]) -> bytes:
     raw = ("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(_PER_SECOND), "-i", "-")
     coded = ("-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart")
     content = b"".join(frame.tobytes() * steps for frame, steps in shown)
-    with tempfile.TemporaryDirectory(prefix="plyfold-") as folder:
-        draft = Path(folder) / "film.mp4"
+    with draft_in(Path(tempfile.gettempdir()), ".mp4") as draft:
         command = ["ffmpeg", "-loglevel", "error", *raw, *coded, str(draft)]
         done = subprocess.run(command, input=content, capture_output=True, check=False)
         if done.returncode != 0:

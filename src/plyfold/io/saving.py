@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import os
 import shutil
-import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from plyfold.errors import InputError
 from plyfold.options import refuse_unless_flag
 
-__all__ = ["refuse_existing", "refuse_output", "save_bytes"]
+__all__ = ["draft_in", "refuse_existing", "refuse_output", "save_bytes", "unfinished"]
+
+# Drafts that are to be removed when the program is ended at this moment.
+unfinished: set[Path] = set()
 
 
 def refuse_existing(path: str | os.PathLike[str], force: bool = False) -> None:
@@ -61,12 +65,24 @@ def save_bytes(path: str | os.PathLike[str], content: bytes, force: bool = False
 
 
 def _replace(target: Path, content: bytes) -> None:
-    with tempfile.TemporaryDirectory(dir=target.parent, prefix=".plyfold-") as folder:
-        draft = Path(folder) / target.name
-        draft.write_bytes(content)
+    with draft_in(target.parent) as draft:
+        with draft.open("xb") as file:
+            file.write(content)
         if target.exists():
             shutil.copymode(target, draft)
         draft.replace(target)
+
+
+@contextmanager
+def draft_in(folder: Path, suffix: str = "") -> Iterator[Path]:
+    """Give the path of a file that is not there yet, and is gone in the end: removed, or renamed."""
+    draft = folder / f".plyfold-{os.urandom(8).hex()}{suffix}"
+    unfinished.add(draft)
+    try:
+        yield draft
+    finally:
+        draft.unlink(missing_ok=True)
+        unfinished.discard(draft)
 
 
 def refuse_output(path: str, endings: tuple[str, ...], force: bool) -> None:
