@@ -211,7 +211,7 @@ FAMILIES: Mapping[str, Family] = {
     "coil": Family("a ribbon of 12 loops, sampled ever finer", coil, True, (400, 1_600, *DECADES[5:])),
     "chain": Family("a ribbon with one loop for 48 vertices", chain, True, DECADES),
     "spiral": Family("a wavy ribbon that lies on itself √n / 10 times", spiral, True, DECADES),
-    "band": Family("a wide band wound n / 120 times, on itself everywhere", band, True, (240, 720, 1_440, 2_880, 7_200)),
+    "band": Family("a wide band wound n / 120 times on itself", band, True, (240, 720, 1_440, 2_880, 7_200)),
     "dense-disk": Family("random triangles glued", glued_disk, True, (100, 200, 500, 1_000, 2_000, 3_000, 4_000)),
     "piled-disk": Family(
         "random triangles glued, all over the same place",

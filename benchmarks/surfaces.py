@@ -91,7 +91,7 @@ def once(case: Case) -> tuple[list[float], pf.Layering, CellTriangulation, int]:
         seconds.append(time.perf_counter() - start)
         return made
 
-    layering = timed(lambda: layering_of(case.points, False, None, lambda stage, done: None))
+    layering = timed(lambda: layering_of(case.points, False))
     drawn = layering.immersion.arrangement
     mesh = timed(lambda: triangulate_cells(drawn, triangles=case.triangles))
     lifted = timed(lambda: glue_sheets(layering, mesh))
