@@ -21,7 +21,7 @@ __all__ = ["add_draw_command"]
 def add_draw_command(commands: Any) -> None:
     """Add the subcommand to a parser."""
     draw = add_command(commands, "draw", _draw, "draw the arrangement, the disk layout, the layers and the surface")
-    add_time_limit(draw)
+    add_time_limit(draw, "lifting it")
     add_outputs(draw, ".svg .png .pdf; of the view over-under .svg .tikz .tex")
     draw.add_argument(
         "--what",
