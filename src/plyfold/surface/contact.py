@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
+from plyfold.blas import one_thread
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.surface.energy import Cloth, Response, held_response, response
 
@@ -83,6 +84,7 @@ class Problem:
     tolerance: float
 
 
+@one_thread()
 def forced_heights(problem: Problem, watch: Watch) -> Floats | None:
     """Return the heights of least energy, from the forces that keep the distances.
 
