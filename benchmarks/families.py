@@ -87,6 +87,21 @@ def spiral(vertices: int, seed: int = 0) -> Points:
     return on_grid(ribbon(np.stack([radius * np.cos(t), radius * np.sin(t)], axis=1), 1.2))
 
 
+def band(vertices: int, seed: int = 0) -> Points:
+    """Return a wide band wound round and round, 60 points a side and turn; two crossings for each turn but one.
+
+    With each turn the radii, 10 and 5.005 at first, grow by 0.01, so that no two strands coincide before turn 500. Each
+    turn lies on all of the others, everywhere: winding numbers grow as n, and the triangles as n².
+    """
+    rng = np.random.default_rng(seed)
+    turn = np.arange(vertices // 2) / 60
+    outer = (10 + 0.01 * turn) * np.exp(2j * np.pi * turn)
+    # Half a step on, for the ends are not to pass through the points of other turns.
+    inner = (5.005 + 0.01 * turn) * np.exp(2j * np.pi * (turn + 1 / 120))
+    outline = np.concatenate([outer, inner[::-1]])
+    return on_grid(turned(np.stack([outline.real, outline.imag], axis=1), rng))
+
+
 def random_walk(vertices: int, seed: int = 0) -> Points:
     """Return a random walk closed up: it practically never bounds a disk."""
     steps = np.random.default_rng(seed).normal(size=(vertices, 2))
@@ -196,6 +211,7 @@ FAMILIES: Mapping[str, Family] = {
     "coil": Family("a ribbon of 12 loops, sampled ever finer", coil, True, (400, 1_600, *DECADES[5:])),
     "chain": Family("a ribbon with one loop for 48 vertices", chain, True, DECADES),
     "spiral": Family("a wavy ribbon that lies on itself √n / 10 times", spiral, True, DECADES),
+    "band": Family("a wide band wound n / 120 times on itself", band, True, (240, 720, 1_440, 2_880, 7_200)),
     "dense-disk": Family("random triangles glued", glued_disk, True, (100, 200, 500, 1_000, 2_000, 3_000, 4_000)),
     "piled-disk": Family(
         "random triangles glued, all over the same place",

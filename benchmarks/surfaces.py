@@ -41,8 +41,8 @@ class Case(NamedTuple):
     repeats: int
 
 
-def band(t: Any, outer: Any, inner: Any) -> Any:
-    """Return the outline of a band around the origin, of two radii at each angle."""
+def between_radii(t: Any, outer: Any, inner: Any) -> Any:
+    """Return the outline of a strip around the origin, of two radii at each angle."""
     direction = np.column_stack([np.cos(t), np.sin(t)])
     return np.vstack([outer[:, None] * direction, (inner[:, None] * direction)[::-1]])
 
@@ -50,14 +50,14 @@ def band(t: Any, outer: Any, inner: Any) -> Any:
 def helix(turns: int) -> Any:
     """Return a band of 60 points a side and turn that winds ever a little further out: two crossings for each turn."""
     t = np.linspace(0, 2 * np.pi * turns + 0.3, 60 * turns)
-    return band(t, 3 + 0.01 * t, 2 + 0.01 * t)
+    return between_radii(t, 3 + 0.01 * t, 2 + 0.01 * t)
 
 
 def kiss(height: float) -> Any:
     """Return a band whose ends lie on each other for a sixth of a turn, with strands so close."""
     t = np.linspace(0, 2 * np.pi + 0.8, 260)
     sway = height * np.sin(6 * np.pi * np.clip((t - 2 * np.pi + 0.9) / 1.7, 0, 1))
-    return band(t, 3 + sway, 2 + 0.7 * sway)
+    return between_radii(t, 3 + sway, 2 + 0.7 * sway)
 
 
 def strip(width: float) -> Any:
@@ -91,7 +91,7 @@ def once(case: Case) -> tuple[list[float], pf.Layering, CellTriangulation, int]:
         seconds.append(time.perf_counter() - start)
         return made
 
-    layering = timed(lambda: layering_of(case.points, False, None, lambda stage, done: None))
+    layering = timed(lambda: layering_of(case.points, False))
     drawn = layering.immersion.arrangement
     mesh = timed(lambda: triangulate_cells(drawn, triangles=case.triangles))
     lifted = timed(lambda: glue_sheets(layering, mesh))

@@ -122,7 +122,17 @@ class PrecisionError(PlyfoldError):
 
 
 class TimeLimitError(PlyfoldError):
-    """The time limit ended a step before it had an answer."""
+    """The time limit ended a step before it had an answer; ``stage`` names it, where there are several.
+
+    Examples
+    --------
+    >>> TimeLimitError("not done after 5 seconds", stage="smoothing heights").stage
+    'smoothing heights'
+    """
+
+    def __init__(self, message: str, where: Iterable[Iterable[float]] = (), hint: str = "", stage: str = "") -> None:
+        super().__init__(message, where, hint)
+        self.stage = stage
 
 
 class MemoryLimitError(PlyfoldError, MemoryError):

@@ -8,7 +8,7 @@ from families import FAMILIES
 import plyfold as pf
 from reference import crossings, gluings, planar_maps
 
-RIBBONS = ("ribbon", "wild-ribbon", "coil", "chain", "spiral")
+RIBBONS = ("ribbon", "wild-ribbon", "coil", "chain", "spiral", "band")
 
 
 def whole(points):
@@ -60,6 +60,12 @@ class TestRibbons:
     def test_winding_of_a_spiral_grows_as_the_root_of_its_size(self):
         highest = [int(pf.arrangement(families.spiral(100 * turns**2)).winding.max()) for turns in (5, 10, 20)]
         assert all(0 <= winding - turns <= 2 for winding, turns in zip(highest, (5, 10, 20), strict=True))
+
+    @pytest.mark.parametrize("turns", [2, 6, 24])
+    def test_band_has_two_crossings_for_each_turn(self, turns):
+        drawn = pf.arrangement(families.band(120 * turns))
+        assert drawn.n_crossings == 2 * turns - 2
+        assert drawn.winding.max() == turns
 
 
 class TestGluedDisks:

@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
+from plyfold.clock import Clock
 from plyfold.errors import InputError
 from plyfold.gallery import CURVES, chain
 from plyfold.layering import count_layerings, layerings, nicest_layering
-from plyfold.layering.clock import Clock
 from plyfold.layering.counting import count_solutions
 from plyfold.layering.listing import solutions
 from plyfold.layering.orders import order_problem

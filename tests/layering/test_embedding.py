@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from plyfold.arrangement import Arrangement, arrangement
+from plyfold.clock import Clock
 from plyfold.curve import Curve
 from plyfold.gallery import chain
 from plyfold.immersion import count_immersions, immersions
 from plyfold.layering import count_layerings, find_layering, layerings
-from plyfold.layering.clock import Clock
 from plyfold.layering.embedding import count_embeddings, embeddings, find_embedding
 from plyfold.layering.level_clauses import LevelClauses, list_levels, solve_levels
 from plyfold.layering.level_counting import count_level_solutions

@@ -7,10 +7,10 @@ import pytest
 
 import plyfold as pf
 from plyfold.arrangement import arrangement
+from plyfold.clock import Clock
 from plyfold.curve import Curve
 from plyfold.errors import GeneralPositionError, InputError
 from plyfold.gallery import CURVES
-from plyfold.layering.clock import Clock
 from plyfold.layering.embedding import count_embeddings, embeddings, find_embedding
 from plyfold.layering.layered_surface import (
     LayeredSurface,

@@ -80,7 +80,7 @@ def test_the_limit_covers_setting_up(monkeypatch):
     """Looks at the clock are counted instead of seconds: it is looked at while the problem is set up, too."""
     immersion = formula_disk([(1, 2, 3), (1, 4, 5)]).disk.immersion
     seconds = iter(range(10**9))
-    monkeypatch.setattr("plyfold.layering.clock.time.monotonic", lambda: float(next(seconds)))
+    monkeypatch.setattr("plyfold.clock.time.monotonic", lambda: float(next(seconds)))
     monkeypatch.setattr(search, "solve", None)
     for ask in (pf.find_layering, pf.count_layerings, pf.nicest_layering):
         assert ask(immersion, time_limit=4).reason == "time limit"

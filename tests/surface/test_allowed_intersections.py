@@ -139,13 +139,13 @@ def test_not_without_permission():
 
 def test_best_of_several_immersions(monkeypatch):
     candidates = failing("bennequin")
-    monkeypatch.setattr("plyfold.surface.surface.immersions", lambda _: iter(candidates))
+    monkeypatch.setattr("plyfold.surface.surface.watched_immersions", lambda *_: iter(candidates))
     surface = lift(CURVES["bennequin"].curve, allow_intersections=True, triangles=50)
     assert surface.layering.total_length == min(least_intersecting_layering(i).total_length for i in candidates)
 
 
 def test_out_of_time():
-    surface = lift(failing("bennequin")[0], allow_intersections=True, triangles=50, time_limit=0)
+    surface = lift(least_intersecting_layering(failing("bennequin")[0], time_limit=0), triangles=50)
     assert not surface.layering.optimal
     surface.check()
 

@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import nnls
 
 from plyfold import find_layering, immersions
+from plyfold.clock import Watch
 from plyfold.flat.cells import triangulate_cells
 from plyfold.gallery import CURVES
 from plyfold.surface import lift
@@ -89,7 +90,7 @@ def test_long_stacks_take_few_triangles_and_rounds(turns):
     (points, mesh), (_, plain) = glued(helix(turns), triangles=4000), glued(helix(turns), triangles=0)
     assert 4000 <= len(mesh.faces) <= 1.5 * max(4000, 3 * len(plain.faces))
     told = []
-    z = smooth_heights(points, mesh, 1.0, progress=lambda stage, done: told.append(done))
+    z = smooth_heights(points, mesh, 1.0, watch=Watch(progress=lambda stage, done: told.append(done)))
     assert kept_apart(z, mesh, 1.0)
     assert len(told) <= 60
 
@@ -122,7 +123,7 @@ def test_nothing_overlaps():
 def test_progress_goes_up():
     points, mesh = glued(RAMP)
     told = []
-    smooth_heights(points, mesh, 1.0, progress=lambda stage, done: told.append((stage, done)))
+    smooth_heights(points, mesh, 1.0, watch=Watch(progress=lambda stage, done: told.append((stage, done))))
     assert {stage for stage, _ in told} == {"smoothing heights"}
     done = [share for _, share in told]
     assert done == sorted(done)
@@ -188,7 +189,7 @@ def test_interrupted_from_the_keyboard():
 
     points, mesh = glued(RAMP)
     with pytest.raises(KeyboardInterrupt):
-        smooth_heights(points, mesh, 1.0, progress=interrupt)
+        smooth_heights(points, mesh, 1.0, watch=Watch(progress=interrupt))
 
 
 def heights_at(surface, points):

@@ -156,7 +156,7 @@ def test_no_layering(monkeypatch):
     curve = CURVES["bennequin"].curve
     failing = [immersion for immersion in immersions(curve) if not find_layering(immersion)]
     assert len(failing) == 2
-    monkeypatch.setattr("plyfold.surface.surface.immersions", lambda _: iter(failing))
+    monkeypatch.setattr("plyfold.surface.surface.watched_immersions", lambda *_: iter(failing))
     with pytest.raises(NotEmbeddableError) as caught:
         lift(curve)
     assert caught.value.obstruction.reason == "reversed pair"

@@ -21,6 +21,7 @@ from plyfold.arrangement.planar_map import (
     whitney_turning_number,
 )
 from plyfold.arrays import Bools, Floats, Ints
+from plyfold.clock import UNWATCHED, Watch
 from plyfold.curve import Curve, as_curve
 from plyfold.errors import GaussCodeError, PlyfoldError
 from plyfold.predicates import cross_sign, orient
@@ -28,7 +29,14 @@ from plyfold.predicates import cross_sign, orient
 # Anything that stands for a closed curve: Curve, array-like (n, 2), shapely geometry, Arrangement or GaussCode.
 CurveLike: TypeAlias = Any
 
-__all__ = ["Arrangement", "CurveLike", "arrangement", "polygon_turning_number", "winding_number"]
+__all__ = [
+    "Arrangement",
+    "CurveLike",
+    "arrangement",
+    "polygon_turning_number",
+    "watched_arrangement",
+    "winding_number",
+]
 
 
 def _no_points() -> Floats:
@@ -400,11 +408,18 @@ def arrangement(curve: CurveLike, general_position: Literal["perturb", "raise"] 
     >>> loop.n_crossings, loop.crossings.tolist()
     (1, [[1.75, 0.0]])
     """
+    return watched_arrangement(curve, general_position, UNWATCHED)
+
+
+def watched_arrangement(curve: CurveLike, general_position: Literal["perturb", "raise"], watch: Watch) -> Arrangement:
+    """Return the same as :func:`arrangement`, or raise TimeLimitError."""
+    watch = watch.begin("finding the crossings")
     if isinstance(curve, Arrangement):
         return curve
     if hasattr(curve, "partner"):  # a GaussCode, which a module further on defines
         return Arrangement.from_gauss(curve.partner, curve.ccw, curve.outer)
-    separated, visits = in_general_position(as_curve(curve), general_position)
+    separated, visits = in_general_position(as_curve(curve), general_position, watch)
+    watch.step()
     edge, point = visits.edge, visits.point
     code = visits.partner, visits.ccw, _outer_dart(separated.points, edge)
     turning = whitney_turning_number(*code)

@@ -10,6 +10,7 @@ import numpy as np
 
 from plyfold.arrangement.edge_pairs import near_pairs
 from plyfold.arrays import Bools, Floats, Ints, Signs
+from plyfold.clock import UNWATCHED, Watch
 from plyfold.predicates import counted_cross_sign, exact_parameter, parameter_along_edge
 
 __all__ = ["Contacts", "Visits", "edge_ends", "find_contacts", "order_visits"]
@@ -65,13 +66,14 @@ class Visits:
     exact_signs: int
 
 
-def find_contacts(points: Floats) -> Contacts:
+def find_contacts(points: Floats, watch: Watch = UNWATCHED) -> Contacts:
     """Find all pairs of edges of a closed polyline that cross or touch.
 
     Parameters
     ----------
     points : (n, 2) float
         Vertices; edge i runs from point i to point i + 1, the last one back to point 0.
+    watch : Watch, optional
 
     Returns
     -------
@@ -80,7 +82,10 @@ def find_contacts(points: Floats) -> Contacts:
     """
     # Neighbours need no look: where one runs back over the other, the edge beyond touches too.
     ends = edge_ends(points)
-    parts = [_meetings(ends, first, second) for first, second in near_pairs(points)]
+    parts = []
+    for first, second in near_pairs(points):
+        watch.step()
+        parts.append(_meetings(ends, first, second))
     touches = np.concatenate([part.touches for part in parts])
     return Contacts(
         edges=np.concatenate([part.edges for part in parts]),

@@ -15,6 +15,7 @@ import numpy as np
 
 from plyfold.arrangement.crossings import Contacts, Visits, find_contacts, order_visits
 from plyfold.arrays import Bools, Floats, Ints
+from plyfold.clock import UNWATCHED, Watch
 from plyfold.curve import Curve, Repair
 from plyfold.errors import GeneralPositionError, InputError
 from plyfold.predicates import orient
@@ -32,7 +33,9 @@ _LEAST_STEP = 1000
 _LARGEST_STEP = 0.002
 
 
-def in_general_position(curve: Curve, policy: Literal["perturb", "raise"]) -> tuple[Curve, Visits]:
+def in_general_position(
+    curve: Curve, policy: Literal["perturb", "raise"], watch: Watch = UNWATCHED
+) -> tuple[Curve, Visits]:
     """Return the curve with touching strands moved apart, and its visits to the crossings.
 
     Parameters
@@ -40,6 +43,7 @@ def in_general_position(curve: Curve, policy: Literal["perturb", "raise"]) -> tu
     curve : Curve
     policy : {"perturb", "raise"}
         Move vertices, or raise an error where one would have to be moved.
+    watch : Watch, optional
 
     Returns
     -------
@@ -55,7 +59,7 @@ def in_general_position(curve: Curve, policy: Literal["perturb", "raise"]) -> tu
     """
     if policy not in ("perturb", "raise"):
         raise InputError(f'general_position must be "perturb" or "raise", not {policy!r}')
-    contacts = find_contacts(curve.points)
+    contacts = find_contacts(curve.points, watch)
     visits = order_visits(curve.points, contacts)
     if _is_general(contacts, visits):
         return curve, visits
@@ -66,7 +70,7 @@ def in_general_position(curve: Curve, policy: Literal["perturb", "raise"]) -> tu
             where=touching_places(curve.points, contacts, visits),
             hint='move these vertices, or use general_position="perturb"',
         )
-    return _separate(curve, contacts, visits)
+    return _separate(curve, contacts, visits, watch)
 
 
 def _is_general(contacts: Contacts, visits: Visits) -> bool:
@@ -81,7 +85,7 @@ def touching_places(points: Floats, contacts: Contacts, visits: Visits) -> list[
     return [(float(x), float(y)) for x, y in places]
 
 
-def _separate(curve: Curve, contacts: Contacts, visits: Visits) -> tuple[Curve, Visits]:
+def _separate(curve: Curve, contacts: Contacts, visits: Visits, watch: Watch) -> tuple[Curve, Visits]:
     """Try small moves of the touching vertices until the curve is in general position and nothing else has changed."""
     n = len(curve.points)
     required = _pair_numbers(contacts.edges, n)
@@ -89,7 +93,7 @@ def _separate(curve: Curve, contacts: Contacts, visits: Visits) -> tuple[Curve, 
     for moved, step in _candidates(curve.points):
         if _clearance(moved, contacts.touches) < _CLEARANCE * step:
             continue
-        new_contacts = find_contacts(moved)
+        new_contacts = find_contacts(moved, watch)
         new_visits = order_visits(moved, new_contacts)
         found = _pair_numbers(new_contacts.edges, n)
         nothing_else = bool(np.isin(required, found).all() and np.isin(found, allowed).all())

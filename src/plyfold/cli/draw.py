@@ -21,7 +21,7 @@ __all__ = ["add_draw_command"]
 def add_draw_command(commands: Any) -> None:
     """Add the subcommand to a parser."""
     draw = add_command(commands, "draw", _draw, "draw the arrangement, the disk layout, the layers and the surface")
-    add_time_limit(draw)
+    add_time_limit(draw, "lifting it")
     add_outputs(draw, ".svg .png .pdf; of the view over-under .svg .tikz .tex")
     draw.add_argument(
         "--what",
@@ -64,12 +64,13 @@ def _draw(options: argparse.Namespace) -> int:
 
 
 def _draw_over_under(options: argparse.Namespace) -> int:
+    from plyfold.clock import Clock, Watch
     from plyfold.draw.over_under_files import OVER_UNDER_WRITERS
     from plyfold.surface.surface import layering_of
 
     watch = Stopwatch()
     arranged = prepare(options, tuple(OVER_UNDER_WRITERS), watch)
-    layering = layering_of(arranged, False, options.time_limit, watch)
+    layering = layering_of(arranged, False, Watch(Clock(options.time_limit), watch))
     watch.stop()
     choices = {"colours": options.colours, "hidden": options.hidden}
     write_texts(options, {ending: partial(write, layering, **choices) for ending, write in OVER_UNDER_WRITERS.items()})

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plyfold.cli.progress import Stopwatch
+from plyfold.clock import Clock, Watch
 from plyfold.io.saving import refuse_output, save_bytes
 
 if TYPE_CHECKING:
@@ -47,11 +48,9 @@ def add_command(commands: Any, name: str, run: Callable[..., int], summary: str)
     return command
 
 
-def add_time_limit(command: argparse.ArgumentParser) -> None:
+def add_time_limit(command: argparse.ArgumentParser, of: str = "the search for a layering") -> None:
     """Give a subcommand the option ``--time-limit``."""
-    command.add_argument(
-        "--time-limit", type=_seconds, metavar="S", help="seconds for the search for a layering; then it is unknown"
-    )
+    command.add_argument("--time-limit", type=_seconds, metavar="S", help=f"seconds for {of}; then it is unknown")
 
 
 def _seconds(text: str) -> float:
@@ -67,9 +66,9 @@ def add_outputs(command: argparse.ArgumentParser, endings: str) -> None:
     command.add_argument("--force", action="store_true", help="replace existing files")
 
 
-def read_arrangement(options: argparse.Namespace, watch: Stopwatch) -> Arrangement:
+def read_arrangement(options: argparse.Namespace, watch: Stopwatch, clock: Clock | None = None) -> Arrangement:
     """Return the arrangement of the drawing that is named."""
-    from plyfold.arrangement import arrangement
+    from plyfold.arrangement.core import watched_arrangement
     from plyfold.io import read
 
     watch("reading")
@@ -79,16 +78,17 @@ def read_arrangement(options: argparse.Namespace, watch: Stopwatch) -> Arrangeme
         curve = named_curve(options.file.removeprefix("gallery:")).curve
     else:
         curve = read(options.file, id=options.id, tolerance=options.tolerance)
-    watch("finding the crossings")
-    return arrangement(curve, options.general_position)
+    return watched_arrangement(curve, options.general_position, Watch(clock or Clock(None), watch))
 
 
-def prepare(options: argparse.Namespace, endings: tuple[str, ...], watch: Stopwatch) -> Arrangement:
+def prepare(
+    options: argparse.Namespace, endings: tuple[str, ...], watch: Stopwatch, clock: Clock | None = None
+) -> Arrangement:
     """Refuse outputs that cannot be written, then read the input."""
     options.output = list(dict.fromkeys(options.output))
     for path in options.output:
         refuse_output(path, endings, options.force)
-    return read_arrangement(options, watch)
+    return read_arrangement(options, watch, clock)
 
 
 def write_texts(options: argparse.Namespace, content: dict[str, Callable[[], str]]) -> None:

@@ -9,6 +9,7 @@ from typing import Any
 from plyfold.cli.heights import add_height_options, height_options
 from plyfold.cli.inputs import DISK, add_command, add_outputs, add_time_limit, prepare, title
 from plyfold.cli.progress import Stopwatch, timing
+from plyfold.clock import Clock
 
 __all__ = ["add_lift_command"]
 
@@ -19,7 +20,7 @@ _FILMS = (".gif", ".mp4")
 def add_lift_command(commands: Any) -> None:
     """Add the subcommand to a parser."""
     lift = add_command(commands, "lift", _lift, "lift a curve to a layered surface that does not cut itself")
-    add_time_limit(lift)
+    add_time_limit(lift, "all of it but writing")
     add_outputs(lift, ".glb .obj .ply .stl .3mf .html .gif .mp4")
     lift.add_argument(
         "--gap", type=float, help="least distance of sheets, in units of the drawing (default: 1/20 of its larger side)"
@@ -51,15 +52,15 @@ def add_lift_command(commands: Any) -> None:
 def _lift(options: argparse.Namespace) -> int:
     from plyfold.surface import lift
 
-    watch = Stopwatch()
+    watch, clock = Stopwatch(), Clock(options.time_limit)
     pages = () if options.thicken is not None else (".html", *_FILMS)
     endings = (".glb", ".obj", ".ply", ".stl", ".3mf", *pages)
-    arranged = prepare(options, endings, watch)
+    arranged = prepare(options, endings, watch, clock)
     surface = lift(
         arranged,
         gap=options.gap,
         triangles=options.triangles,
-        time_limit=options.time_limit,
+        time_limit=clock.left,
         progress=watch,
         allow_intersections=options.allow_intersections,
         **height_options(options),

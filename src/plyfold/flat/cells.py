@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
+from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import InputError, PrecisionError
 from plyfold.flat.cavity import FREE, GIVEN, Edged
 from plyfold.flat.chains import left_of_chain, split_chain
@@ -88,7 +90,10 @@ class CellTriangulation:
 
 
 def triangulate_cells(
-    arrangement: Arrangement, max_area: float | None = None, triangles: int = DEFAULT_TRIANGLES
+    arrangement: Arrangement,
+    max_area: float | None = None,
+    triangles: int = DEFAULT_TRIANGLES,
+    watch: Watch = UNWATCHED,
 ) -> CellTriangulation:
     """Triangulate all cells with winding number 1 or more, with the borders as edges.
 
@@ -101,6 +106,7 @@ def triangulate_cells(
     triangles : int, optional
         Roughly how many triangles the *lifted surface* shall have (a triangle over a cell with winding number w counts
         w times). With 0, no points are added.
+    watch : Watch, optional
 
     Returns
     -------
@@ -137,6 +143,7 @@ def triangulate_cells(
     >>> mesh.points[:4].tolist(), mesh.chain[0]
     ([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]], np.int64(0))
     """
+    watch = watch.begin("triangulating the cells")
     _refuse_tiny(arrangement)
     outline = outline_of(arrangement)
     if triangles:
@@ -144,8 +151,9 @@ def triangulate_cells(
         for finest in _FINEST:
             # Added points are rounded too, and may not fit where the cells are as thin as rounding errors.
             with suppress(PrecisionError):
-                return _with_good_angles(arrangement, outline, size, finest * outline.rounding)
-    return _verified(arrangement, _plain(outline))
+                return _with_good_angles(arrangement, outline, size, finest * outline.rounding, watch)
+    plain = _plain(outline, watch)
+    return watch.wait_for(lambda: _verified(arrangement, plain), len(plain.triangles))
 
 
 def _refuse_tiny(arrangement: Arrangement) -> None:
@@ -172,21 +180,23 @@ def refuse_max_area(points: Floats, max_area: float) -> None:
         )
 
 
-def _plain(outline: Outline) -> PlanarMesh:
+def _plain(outline: Outline, watch: Watch) -> PlanarMesh:
     """Triangulate without adding points."""
-    return planar_mesh(constrained(outline), outline.points, outline.chain, outline.chain_border)
+    return planar_mesh(constrained(outline, watch), outline.points, outline.chain, outline.chain_border)
 
 
-def _refined(arrangement: Arrangement, outline: Outline, size: Size, finest: float) -> tuple[PlanarMesh, int]:
+def _refined(
+    arrangement: Arrangement, outline: Outline, size: Size, finest: float, watch: Watch
+) -> tuple[PlanarMesh, int]:
     """Triangulate, and refine what the surface covers; the library cannot take back steps that were too many.
 
     Also return how many triangles the surface has without points added.
     """
     while True:
-        library = constrained(outline)
+        library = constrained(outline, watch)
         plain = planar_mesh(library, outline.points, outline.chain, outline.chain_border)
         winding = arrangement.winding[_cells(arrangement, plain)[0]]
-        affordable = refine(library, outline, winding, size, finest)
+        affordable = refine(library, outline, winding, size, finest, watch=watch)
         if affordable <= finest:
             break
         finest = affordable
@@ -198,15 +208,18 @@ def _refined(arrangement: Arrangement, outline: Outline, size: Size, finest: flo
     return planar_mesh(library, points, *chain), int(winding[winding > 0].sum())
 
 
-def _with_good_angles(arrangement: Arrangement, outline: Outline, size: Size, finest: float) -> CellTriangulation:
+def _with_good_angles(
+    arrangement: Arrangement, outline: Outline, size: Size, finest: float, watch: Watch
+) -> CellTriangulation:
     """Refine, and mend; if that takes too many triangles, larger ones elsewhere leave room for more."""
     found: list[CellTriangulation] = []
     for share in _SHARES:
         sparser = size._replace(wanted=share * size.wanted)
-        refined, fewest = _refined(arrangement, outline, sparser, finest)
-        found.append(_verified(arrangement, refined))
+        refined, fewest = _refined(arrangement, outline, sparser, finest, watch)
+        found.append(watch.wait_for(partial(_verified, arrangement, refined), len(refined.triangles)))
         enough = max((1 + _MENDING) * size.wanted, min(_GROWTH * fewest, DEFAULT_TRIANGLES))
-        mended = _mended(arrangement, outline, found[-1], enough, finest)
+        mend = partial(_mended, arrangement, outline, found[-1], enough, finest)
+        mended = watch.wait_for(mend, int(enough))
         if mended:
             return mended
         if size.most or len(found[-1].points) == len(outline.points):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
+from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import PlyfoldError, PrecisionError
 
 if TYPE_CHECKING:
@@ -83,15 +84,14 @@ def _unit_square(points: Floats) -> tuple[Floats, Floats, float]:
     return (points - centre) / scale, centre, float(scale)
 
 
-def constrained(outline: Outline) -> Any:
+def constrained(outline: Outline, watch: Watch = UNWATCHED) -> Any:
     """Return the constrained Delaunay triangulation; its first three vertices are those of an enclosing triangle."""
     import pythoncdt as cdt
 
     edges = np.stack([outline.chain, np.roll(outline.chain, -1)], axis=1)
     mesh = cdt.Triangulation(cdt.VertexInsertionOrder.AUTO, cdt.IntersectingConstraintEdges.NOT_ALLOWED, 0.0)
     try:
-        mesh.insert_vertices(outline.unit_points)  # type: ignore[call-overload,unused-ignore]
-        mesh.insert_edges(edges.astype(np.uintc))  # type: ignore[call-overload,unused-ignore]
+        watch.wait_for(lambda: _insert(mesh, outline.unit_points, edges.astype(np.uintc)), len(edges))
     except RuntimeError as error:
         _refuse_equal(outline.points)
         named = [int(number) for pair in re.findall(r"\((\d+), (\d+)\)", str(error)) for number in pair]
@@ -100,6 +100,11 @@ def constrained(outline: Outline) -> Any:
         named = [edge.v1 - ENCLOSING for originals in mesh.piece_to_originals.values() for edge in originals]
         raise too_close(outline.points[named])
     return mesh
+
+
+def _insert(mesh: Any, points: Floats, edges: Any) -> None:
+    mesh.insert_vertices(points)
+    mesh.insert_edges(edges)
 
 
 def _refuse_equal(points: Floats) -> None:

@@ -20,6 +20,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
+from plyfold.clock import UNWATCHED, Watch
 from plyfold.flat.constrained import ENCLOSING, Outline
 
 __all__ = ["Size", "refine", "split_points", "usual_area"]
@@ -53,6 +54,7 @@ class _Covered:
     library: Any
     outline: Outline
     uncovered: set[int]
+    watch: Watch
 
     def add_points(self, criterion: str, threshold: float, shortest: float, limit: int) -> int:
         """Split bad triangles, but no edge below the shortest length; return how many points were added."""
@@ -60,7 +62,10 @@ class _Covered:
 
         before = self.library.vertices_count()
         named = getattr(cdt.RefinementCriterion, criterion)
-        self.library.refine_triangles(min(limit, _MOST_POINTS), named, threshold, self.uncovered, shortest)
+        self.watch.wait_for(
+            lambda: self.library.refine_triangles(min(limit, _MOST_POINTS), named, threshold, self.uncovered, shortest),
+            before + limit,
+        )
         return int(self.library.vertices_count() - before)
 
     def improve_angles(self, shortest: float, limit: int) -> int:
@@ -83,7 +88,9 @@ def usual_area(outline: Outline, triangles: int, max_area: float | None) -> Size
     return Size(max(1.0, outline.covered / (_USUAL_SHARE * most)), most)
 
 
-def refine(library: Any, outline: Outline, winding: Ints, size: Size, finest: float) -> float:
+def refine(  # noqa: PLR0913 - what is refined, where, how far, and how long
+    library: Any, outline: Outline, winding: Ints, size: Size, finest: float, *, watch: Watch = UNWATCHED
+) -> float:
     """Add points to a constrained triangulation where the surface is, for good angles and the size asked for.
 
     Parameters
@@ -96,6 +103,7 @@ def refine(library: Any, outline: Outline, winding: Ints, size: Size, finest: fl
     size : Size
     finest : float
         No edge shorter than this is split for the sake of thin places, in the unit square.
+    watch : Watch, optional
 
     Returns
     -------
@@ -103,7 +111,7 @@ def refine(library: Any, outline: Outline, winding: Ints, size: Size, finest: fl
         The shortest length with which there are triangles enough. If it is larger than ``finest``, the triangulation
         is unfinished, and has to be made again with this length as ``finest``.
     """
-    covered = _Covered(library, outline, set(np.flatnonzero(winding <= 0).tolist()))
+    covered = _Covered(library, outline, set(np.flatnonzero(winding <= 0).tolist()), watch)
     fewest = int(winding[winding > 0].sum())
     layers = max(1, fewest) / max(1, int((winding > 0).sum()))
     # A planar point more makes two planar triangles more.

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from math import prod
 from typing import Any, TypeAlias
 
+from plyfold.clock import UNWATCHED, Watch
 from plyfold.immersion.propagation import Conflict, Narrowed, narrow
 from plyfold.immersion.word import Word
 
@@ -59,7 +60,7 @@ class Groupings:
     counts: dict[Interval, int] = field(default_factory=dict)
 
 
-def find_groupings(word: Word) -> Groupings | Conflict:
+def find_groupings(word: Word, watch: Watch = UNWATCHED) -> Groupings | Conflict:
     """Decide whether a word has a grouping, and prepare all of them.
 
     Returns
@@ -68,25 +69,26 @@ def find_groupings(word: Word) -> Groupings | Conflict:
         A conflict, which is false, if there is none. Exact. Cost: propagation, and for each region left open with n
         letters and c chords O(c n / 64) time and O(n² / 16) bytes; regions are small as a rule.
     """
-    narrowed = narrow(word)
+    narrowed = narrow(word, watch)
     if isinstance(narrowed, Conflict):
         return narrowed
     groupings = Groupings(word, narrowed.chosen, [], [], [], [])
     for region in narrowed.regions:
         first = len(groupings.groupable)
-        _lay_out(groupings, narrowed, region)
+        _lay_out(groupings, narrowed, region, watch)
         if not _has_grouping(groupings, (first, first + len(region))):
             return narrowed.conflict(region)
     return groupings
 
 
-def _lay_out(groupings: Groupings, narrowed: Narrowed, region: list[int]) -> None:
+def _lay_out(groupings: Groupings, narrowed: Narrowed, region: list[int], watch: Watch) -> None:
     """Add the places of a region, and one more that ends it."""
     first = len(groupings.groupable)
     openings = _openings(narrowed, region, first)
     minus = [letter == narrowed.word.minus[narrowed.word.label[letter]] for letter in region]
     rows = [1] * (len(region) + 1)
     for place in reversed(range(len(region))):
+        watch.step()
         row = 1 if minus[place] else 1 | rows[place + 1] << 1
         for inside, end, behind, _ in openings[place]:
             if rows[inside - first] >> (end - inside) & 1:
@@ -155,11 +157,12 @@ def _count(groupings: Groupings, whole: Interval) -> int:
     return counts[whole]
 
 
-def list_groupings(groupings: Groupings) -> Iterator[Grouping]:
+def list_groupings(groupings: Groupings, watch: Watch = UNWATCHED) -> Iterator[Grouping]:
     """List all groupings without repeats and in a stable order; between two of them lies O(n²) work at most."""
     # Pending intervals and letters found are linked lists, (first, rest) or None: branches share their tails.
     stack: list[tuple[Any, Any]] = [(_linked(groupings.regions, None), None)]
     while stack:
+        watch.step()
         pending, found = stack.pop()
         if pending is None:
             yield _grouping(groupings, _unlinked(found))

@@ -15,6 +15,7 @@ from collections import deque
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+from plyfold.clock import UNWATCHED, Watch
 from plyfold.immersion.parts import independent_parts
 from plyfold.immersion.word import Word
 
@@ -59,7 +60,7 @@ class Conflict:
         return False
 
 
-def narrow(word: Word) -> Narrowed | Conflict:
+def narrow(word: Word, watch: Watch = UNWATCHED) -> Narrowed | Conflict:
     """Remove the partners that fit no grouping, as far as looking at two labels at a time can tell.
 
     Returns
@@ -76,6 +77,7 @@ def narrow(word: Word) -> Narrowed | Conflict:
     if not all(board.partners):
         return Conflict((board.partners.index([]),))
     while board.due:
+        watch.step()
         label = board.due.popleft()
         board.waiting[label] = False
         for letter in _misfits(board, label):

@@ -11,6 +11,7 @@ import numpy as np
 from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.base import base_visit, begun_at, numbered_from
 from plyfold.arrangement.core import CurveLike
+from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import InputError
 from plyfold.immersion.dual_tree import DualTree, grow_dual_tree
 from plyfold.immersion.gluing import glue_sheets
@@ -35,6 +36,7 @@ __all__ = [
     "immersions",
     "nth_immersion",
     "sample_immersion",
+    "watched_immersions",
 ]
 
 
@@ -112,9 +114,15 @@ def immersions(curve: CurveLike) -> Iterator[Immersion]:
     >>> [len(immersion.disk_layout()) for immersion in immersions(milnor)]
     [9, 9]
     """
-    family = _family(curve)
+    yield from watched_immersions(arrangement(curve), UNWATCHED)
+
+
+def watched_immersions(arranged: Arrangement, watch: Watch) -> Iterator[Immersion]:
+    """List the same as :func:`immersions`, or raise TimeLimitError."""
+    watch = watch.begin("finding an immersion")
+    family = None if visible_obstruction(arranged) is not None else _family_of(arranged, watch)
     if family is not None:
-        for grouping in list_groupings(family.groupings):
+        for grouping in list_groupings(family.groupings, watch):
             yield _glued(family, grouping)
 
 
@@ -277,12 +285,12 @@ def _family(curve: CurveLike) -> _Family | None:
     return None if visible_obstruction(arranged) is not None else _family_of(arranged)
 
 
-def _family_of(arranged: Arrangement) -> _Family | None:
+def _family_of(arranged: Arrangement, watch: Watch = UNWATCHED) -> _Family | None:
     """Return the family of a curve without a visible obstruction; None if its word has no grouping."""
     base = base_visit(arranged)
     numbered = numbered_from(arranged, base)
     tree = grow_dual_tree(numbered)
-    groupings = find_groupings(write_word(tree))
+    groupings = find_groupings(write_word(tree), watch)
     return _Family(arranged, base, numbered, tree, groupings) if isinstance(groupings, Groupings) else None
 
 

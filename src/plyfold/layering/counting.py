@@ -12,8 +12,8 @@ from collections import defaultdict
 from dataclasses import dataclass
 from itertools import permutations, product
 
+from plyfold.clock import Clock
 from plyfold.immersion import Immersion
-from plyfold.layering.clock import Clock
 from plyfold.layering.orders import OrderProblem, order_problem
 from plyfold.layering.search import undecided
 from plyfold.obstruction import Obstruction, Unknown

@@ -15,9 +15,9 @@ from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.core import CurveLike
 from plyfold.arrangement.several import are_several
 from plyfold.arrays import Ints
+from plyfold.clock import Clock
 from plyfold.immersion import bounds_disk, count_immersions, find_immersion, immersions
 from plyfold.layering.casing import layering_of_levels
-from plyfold.layering.clock import Clock
 from plyfold.layering.counting import count_layerings
 from plyfold.layering.layered_surface import (
     LayeredSurface,

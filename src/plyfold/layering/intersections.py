@@ -23,10 +23,10 @@ import numpy as np
 
 from plyfold.arrangement import Arrangement
 from plyfold.arrays import Floats, Ints
+from plyfold.clock import Clock
 from plyfold.errors import PlyfoldError
 from plyfold.immersion import Immersion
 from plyfold.immersion.immersion import count_each
-from plyfold.layering.clock import Clock
 from plyfold.layering.maxsat import fewest_failures
 from plyfold.layering.orders import OrderProblem, independent_orders
 from plyfold.layering.sat import StoppableSolver, in_time, solver_of

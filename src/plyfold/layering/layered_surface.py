@@ -18,10 +18,10 @@ import numpy.typing as npt
 from plyfold.arrangement.core import CurveLike
 from plyfold.arrangement.several import Loops, arrange_loops, components
 from plyfold.arrays import Bools, Ints
+from plyfold.clock import Clock
 from plyfold.errors import InputError
 from plyfold.immersion.immersion import count_each
 from plyfold.layering.casing import casing_of_visits
-from plyfold.layering.clock import Clock
 from plyfold.layering.level_clauses import LevelClauses, contradicting_crossings, list_levels, solve_levels
 from plyfold.layering.level_counting import count_level_solutions
 from plyfold.layering.levels import level_equations_of_loops

@@ -14,9 +14,9 @@ from itertools import chain
 import numpy as np
 
 from plyfold.arrays import Bools, Ints
+from plyfold.clock import Clock
 from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import count_each
-from plyfold.layering.clock import Clock
 from plyfold.layering.levels import LevelEquations
 from plyfold.layering.sat import Clauses, minimal_core, solver_of
 from plyfold.memory import require_memory

@@ -17,7 +17,7 @@ from math import prod
 
 import numpy as np
 
-from plyfold.layering.clock import Clock
+from plyfold.clock import Clock
 from plyfold.layering.levels import LevelEquations
 
 __all__ = ["count_level_solutions"]

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from plyfold.layering.clock import Clock
+from plyfold.clock import Clock
 from plyfold.layering.sat import Clauses, StoppableSolver, in_time, solve
 
 __all__ = ["fewest_failures"]

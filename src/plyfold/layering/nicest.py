@@ -19,8 +19,8 @@ from dataclasses import replace
 from functools import partial
 from itertools import chain
 
+from plyfold.clock import Clock
 from plyfold.immersion import Immersion
-from plyfold.layering.clock import Clock
 from plyfold.layering.layering import Layering, meeting_sheets
 from plyfold.layering.maxsat import fewest_failures
 from plyfold.layering.orders import OrderProblem, order_problem

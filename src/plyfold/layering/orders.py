@@ -16,8 +16,8 @@ import numpy as np
 
 from plyfold.arrangement.base import visits_from_base
 from plyfold.arrays import Ints
+from plyfold.clock import NO_LIMIT, Clock
 from plyfold.immersion import Immersion
-from plyfold.layering.clock import NO_LIMIT, Clock
 from plyfold.layering.layering import Layering, meeting_sheets
 from plyfold.layering.sheet_pairs import PairGraph, chain_to_reverse, pair_graph, pair_of
 from plyfold.memory import number_of_tuples, require_memory

@@ -13,7 +13,7 @@ from itertools import chain
 from threading import Event, Thread
 from typing import Any, TypeAlias, TypeVar
 
-from plyfold.layering.clock import NO_LIMIT, Clock
+from plyfold.clock import NO_LIMIT, Clock
 
 __all__ = ["Clauses", "StoppableSolver", "in_time", "minimal_core", "solve", "solver_of"]
 

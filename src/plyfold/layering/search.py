@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from itertools import chain
 from typing import Literal, TypeAlias, cast
 
 import numpy as np
 
+from plyfold.clock import Clock, Progress
 from plyfold.errors import InputError, TimeLimitError
 from plyfold.immersion import Immersion
-from plyfold.layering.clock import Clock
 from plyfold.layering.layering import Layering
 from plyfold.layering.orders import OrderProblem, order_problem, places_of_cells
 from plyfold.layering.sat import minimal_core, solve
@@ -19,7 +19,6 @@ from plyfold.obstruction import Obstruction, Unknown
 
 __all__ = ["FixedOrders", "Progress", "find_layering", "first_layering", "solve_orders", "undecided"]
 
-Progress: TypeAlias = Callable[[str, float], None]
 FixedOrders: TypeAlias = Mapping[tuple[int, int, int], Literal["above", "below"]]
 
 _QUESTION = "whether there is a layering"
@@ -141,15 +140,18 @@ def first_layering(
     first: Obstruction | None = None
     examined = 0
     for examined, immersion in enumerate(candidates, 1):
+        stage = f"layering immersion {examined}"
         if progress is not None:
-            progress(f"layering immersion {examined}", 0.0)
+            progress(stage, 0.0)
         found = find_layering(immersion, clock.left)
         if isinstance(found, Layering):
             return found, examined
         if isinstance(found, Unknown):
             raise TimeLimitError(
-                f"whether the surface can be layered is unknown after {time_limit or 0:g} seconds",
+                f"whether the surface can be layered is unknown after {time_limit or 0:.3g} seconds, which ended while "
+                f"{stage}",
                 hint="allow more time",
+                stage=stage,
             )
         first = found if first is None else first
     if first is None:

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from plyfold.arrays import Ints
+from plyfold.clock import NO_LIMIT, Clock
 from plyfold.immersion import Immersion
 from plyfold.immersion.immersion import require_immersion
-from plyfold.layering.clock import NO_LIMIT, Clock
 from plyfold.memory import number_of_tuples, require_memory
 
 __all__ = ["PairGraph", "chain_to_reverse", "pair_graph", "pair_of"]

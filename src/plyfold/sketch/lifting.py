@@ -7,6 +7,7 @@ from time import perf_counter
 from typing import Any
 
 import plyfold.surface as lifted
+from plyfold.clock import Clock, Watch
 from plyfold.draw.viewer import mesh_data
 from plyfold.errors import NotEmbeddableError, NotImmersibleError, TimeLimitError
 from plyfold.layering import Layering
@@ -14,6 +15,7 @@ from plyfold.obstruction import Obstruction
 from plyfold.sketch.drawings import immersed, immersion_count, layered
 from plyfold.sketch.lie import obstruction_data
 from plyfold.sketch.schema import VERSION, Surface
+from plyfold.surface.surface import layering_of
 
 __all__ = ["lifted_surface", "surface"]
 
@@ -79,7 +81,8 @@ def lifted_surface(question: Surface) -> lifted.Surface:
         return lifted.lift(found, **options)
     if question.allow_intersections:
         disk = immersed(question.strokes, question.immersion)
-        return lifted.lift(disk, allow_intersections=True, time_limit=_SECONDS_TO_INTERSECT, **options)
+        within = Watch(Clock(_SECONDS_TO_INTERSECT))
+        return lifted.lift(layering_of(disk, True, within), **options)
     if isinstance(found, Obstruction):
         raise NotEmbeddableError(found)
     raise TimeLimitError(found.sentence)

@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
-from plyfold.layering import Progress
+from plyfold.blas import one_thread
+from plyfold.clock import UNWATCHED, Watch
 from plyfold.surface.energy import Cloth, Response, held_response, response
 
 __all__ = ["Distances", "Problem", "forced_heights", "least_forces"]
@@ -83,13 +84,14 @@ class Problem:
     tolerance: float
 
 
-def forced_heights(problem: Problem, progress: Progress) -> Floats | None:
+@one_thread()
+def forced_heights(problem: Problem, watch: Watch) -> Floats | None:
     """Return the heights of least energy, from the forces that keep the distances.
 
     Parameters
     ----------
     problem : Problem
-    progress : callable
+    watch : Watch
 
     Returns
     -------
@@ -98,7 +100,7 @@ def forced_heights(problem: Problem, progress: Progress) -> Floats | None:
         them apart. Cost: two or three answers to forces for each place of contact.
     """
     cloth, held, wanted, tolerance = problem.cloth, problem.held, problem.wanted, problem.tolerance
-    respond = held_response(cloth, held) if held.any() else response(cloth)
+    respond = held_response(cloth, held, watch) if held.any() else response(cloth, watch)
     base = problem.given - respond(cloth.stiffness @ problem.given) if held.any() else problem.given
     places, force, flexibility, done = np.empty(0, dtype=np.int64), np.empty(0), np.empty((0, 0)), 0.0
     z, short = base, wanted.least - wanted.rows @ base
@@ -109,14 +111,14 @@ def forced_heights(problem: Problem, progress: Progress) -> Floats | None:
             return None
         flexibility = _bordered(flexibility, _columns(wanted.rows, respond, places, added))
         pressing = np.append(force != 0, np.ones(len(added), dtype=bool))
-        found = least_forces(flexibility, short[places], wanted.exact, pressing)
+        found = least_forces(flexibility, short[places], wanted.exact, pressing, watch)
         if found is None:
             return None
         force = found
         z = base + respond(wanted.rows[places].T @ force)
         missing = wanted.missing(z)
         done = max(done, _share_done(missing, tolerance))
-        progress("smoothing heights", done)
+        watch.step(done)
         added = _worst(wanted, missing, places, tolerance)
     return z
 
@@ -154,7 +156,9 @@ def _share_done(missing: Floats, tolerance: float) -> float:
     return float(np.log(left) / np.log(tolerance))
 
 
-def least_forces(flexibility: Floats, short: Floats, exact: int, pressing: Bools) -> Floats | None:
+def least_forces(
+    flexibility: Floats, short: Floats, exact: int, pressing: Bools, watch: Watch = UNWATCHED
+) -> Floats | None:
     """Return forces f, none of them pulling, that bring distances about at the least energy.
 
     Parameters
@@ -167,6 +171,7 @@ def least_forces(flexibility: Floats, short: Floats, exact: int, pressing: Bools
         So many of the first forces may pull too; they are pressing from the beginning.
     pressing : (c,) bool
         The places where forces are expected; others only cost time.
+    watch : Watch, optional
 
     Returns
     -------
@@ -181,6 +186,7 @@ def least_forces(flexibility: Floats, short: Floats, exact: int, pressing: Bools
     """
     fewest, patience = len(short) + 1, _PATIENCE
     for _ in range(_ROUNDS_PER_PLACE * len(short) + 100):
+        watch.step()
         force = np.zeros(len(short))
         try:
             force[pressing] = np.linalg.solve(flexibility[np.ix_(pressing, pressing)], short[pressing])

@@ -20,6 +20,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
+from plyfold.clock import UNWATCHED, Watch
 from plyfold.surface.glue import LiftedMesh
 
 __all__ = ["Cloth", "Response", "cloth_of", "held_response", "response"]
@@ -65,17 +66,18 @@ class Cloth:
         slope = self.laplacian @ z
         return float(self.bending * (slope / self.area) @ slope + z @ slope) / 2
 
-    def smoothed(self, values: Floats) -> Floats:
+    def smoothed(self, values: Floats, watch: Watch = UNWATCHED) -> Floats:
         """Return values that change within the bending length ℓ instead of at once."""
-        return np.asarray(self._near().solve(self.area * values))
+        return np.asarray(self.near(watch).solve(self.area * values))
 
-    def _near(self) -> Any:
+    def near(self, watch: Watch) -> Any:
+        """Return the factors of M + ℓ² L."""
         from scipy.sparse import diags_array
 
-        return factorised(diags_array(self.area) + self.bending * self.laplacian)
+        return factorised(diags_array(self.area) + self.bending * self.laplacian, watch)
 
 
-def cloth_of(points: Floats, mesh: LiftedMesh, stiffness: float, flat: float) -> Cloth:
+def cloth_of(points: Floats, mesh: LiftedMesh, stiffness: float, flat: float, watch: Watch = UNWATCHED) -> Cloth:
     """Return the energy of a mesh in the drawing's units of length, whatever they are.
 
     Parameters
@@ -87,54 +89,58 @@ def cloth_of(points: Floats, mesh: LiftedMesh, stiffness: float, flat: float) ->
         ℓ as a fraction of the mean width of the cloth.
     flat : float
         How many times as stiff the cloth is where nothing overlaps; the change is gradual.
+    watch : Watch, optional
     """
     corners = points[mesh.planar_vertex]
     corners = (corners - corners[0]) / np.ptp(corners, axis=0).max()
     outline = corners[mesh.boundary]
     perimeter = np.hypot(*(np.roll(outline, -1, axis=0) - outline).T).sum()
     even = np.ones(len(mesh.faces))
-    laplacian, area = _cotangent_laplacian(corners, mesh.faces, even)
+    laplacian, area = watch.wait_for(lambda: _cotangent_laplacian(corners, mesh.faces, even), len(even))
     mean_width = 2 * area.sum() / perimeter
     plain = Cloth(laplacian, area, (stiffness * mean_width) ** 2)
     if flat == 1:
         return plain
-    share = plain.smoothed(_alone(mesh).astype(np.float64)).clip(0, 1)
+    share = plain.smoothed(_alone(mesh).astype(np.float64), watch).clip(0, 1)
     weighted, _ = _cotangent_laplacian(corners, mesh.faces, flat ** share[mesh.faces].mean(axis=1))
     return Cloth(weighted, area * flat**share, plain.bending)
 
 
-def response(cloth: Cloth) -> Response:
+def response(cloth: Cloth, watch: Watch = UNWATCHED) -> Response:
     """Return the heights that balance forces whose sum is 0, up to a constant."""
     # Hold one vertex: heights are known up to a constant.
-    far, near = factorised(cloth.laplacian[1:, 1:]), cloth._near()
+    far, near = factorised(cloth.laplacian[1:, 1:], watch), cloth.near(watch)
 
     def balance(force: Floats) -> Floats:
         curved = np.zeros(force.shape)
-        curved[1:] = far.solve(force[1:])
-        return np.asarray(near.solve((cloth.area * curved.T).T))
+        curved[1:] = watch.wait_for(lambda: far.solve(force[1:]), force.size)
+        return np.asarray(watch.wait_for(lambda: near.solve((cloth.area * curved.T).T), force.size))
 
     return balance
 
 
-def held_response(cloth: Cloth, held: Bools) -> Response:
+def held_response(cloth: Cloth, held: Bools, watch: Watch = UNWATCHED) -> Response:
     """Return the heights that balance forces on vertices that are not held; those that are stay at 0."""
     free = np.flatnonzero(~held)
-    inner = factorised(cloth.stiffness[free][:, free])
+    inner = factorised(cloth.stiffness[free][:, free], watch)
 
     def balance(force: Floats) -> Floats:
         z = np.zeros(force.shape)
-        z[free] = inner.solve(force[free])
+        z[free] = watch.wait_for(lambda: inner.solve(force[free]), force.size)
         return z
 
     return balance
 
 
-def factorised(matrix: Any) -> Any:
+def factorised(matrix: Any, watch: Watch) -> Any:
     """Return the factors of a symmetric positive definite matrix."""
     from scipy.sparse.linalg import splu
 
     options = {"SymmetricMode": True}
-    return splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+    columns = matrix.tocsc()
+    return watch.wait_for(
+        lambda: splu(columns, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options), columns.shape[0]
+    )
 
 
 def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[Any, Floats]:

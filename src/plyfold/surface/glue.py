@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from plyfold.arrays import Ints
+from plyfold.clock import UNWATCHED, Watch
 from plyfold.flat.cells import CellTriangulation
 from plyfold.flat.sheets import SheetMesh, glue_copies
 from plyfold.immersion import Immersion
@@ -50,7 +51,9 @@ class LiftedMesh:
     passing: Ints
 
 
-def glue_sheets(layering: Layering | IntersectingLayering, mesh: CellTriangulation) -> LiftedMesh:
+def glue_sheets(
+    layering: Layering | IntersectingLayering, mesh: CellTriangulation, watch: Watch = UNWATCHED
+) -> LiftedMesh:
     """Copy the triangles of each cell once per sheet, glue the copies and stack them.
 
     Parameters
@@ -58,6 +61,7 @@ def glue_sheets(layering: Layering | IntersectingLayering, mesh: CellTriangulati
     layering : Layering or IntersectingLayering
     mesh : CellTriangulation
         Of the same arrangement.
+    watch : Watch, optional
 
     Returns
     -------
@@ -74,10 +78,13 @@ def glue_sheets(layering: Layering | IntersectingLayering, mesh: CellTriangulati
     >>> lifted.faces.shape, lifted.boundary.tolist(), lifted.stacked.tolist()
     ((1, 3), [0, 1, 2], [])
     """
-    glued = glue_copies(layering.immersion, mesh)
-    level, stacked = _stacks(layering.immersion, layering.level, mesh, glued)
+    watch = watch.begin("gluing the sheets")
+    immersion, copies = layering.immersion, int(layering.immersion.arrangement.winding[mesh.cell].sum())
+    glued = watch.wait_for(lambda: glue_copies(immersion, mesh), copies)
+    level, stacked = watch.wait_for(lambda: _stacks(immersion, layering.level, mesh, glued), copies)
     passing = np.empty((0, 4), dtype=np.int64)
     if isinstance(layering, IntersectingLayering):
+        watch.step()
         passing = passing_edges(layering, mesh, glued)
         stacked = stacked_but_passing(stacked, level, glued.planar_vertex, passing)
     return LiftedMesh(

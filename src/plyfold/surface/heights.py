@@ -24,8 +24,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from plyfold.arrays import Bools, Floats
+from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import InputError
-from plyfold.layering import Progress
 from plyfold.surface.contact import Distances, Problem, forced_heights
 from plyfold.surface.energy import cloth_of
 from plyfold.surface.glue import LiftedMesh
@@ -59,7 +59,7 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
     stiffness: float = DEFAULT_STIFFNESS,
     pins: Mapping[PinKey, float] | None = None,
     flat: float = 1.0,
-    progress: Progress | None = None,
+    watch: Watch = UNWATCHED,
 ) -> Floats:
     """Return smooth heights that keep stacked vertices apart.
 
@@ -77,8 +77,7 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
         Heights of sheets and points, see :func:`plyfold.surface.lift`.
     flat : float
         How many times as stiff the cloth is where nothing overlaps.
-    progress : callable, optional
-        Called with a few words and the fraction done.
+    watch : Watch, optional
 
     Returns
     -------
@@ -97,21 +96,21 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
     10 to 25 ms for 4,000 triangles, 0.1 to 0.2 s for 40,000, 8 to 20 s for a million, most where sheets touch along
     whole curves or in hundreds of places; with pinned sheets up to twice as long.
     """
+    watch = watch.begin("smoothing heights")
     given = pins_of(pins or {}, points, mesh, _HIGHEST_PIN * float(np.ptp(points, axis=0).max()))
     if len(mesh.stacked) == 0 and not pins:
         return np.zeros(len(mesh.planar_vertex))
     shares = shares_of_gap(points, mesh, gap)
     room = room_between(given, points, mesh, gap * shares)
     held, fixed = _without_room(given, room, gap)
-    cloth = cloth_of(points, mesh, stiffness, flat)
+    cloth = cloth_of(points, mesh, stiffness, flat, watch)
     # With the gap as the unit of height, the numbers are of the order of 1.
     tolerance = max(_TOLERANCE, _RELATIVE * float(np.abs([*fixed, *given.heights]).max()) / gap)
     wanted = _distances(mesh, shares + tolerance, given, held, gap)
     problem = Problem(cloth, wanted, held, fixed / gap, tolerance)
-    report = progress or _silent
-    z = forced_heights(problem, report)
+    z = forced_heights(problem, watch)
     if z is None:
-        z = sprung_heights(problem, report)
+        z = sprung_heights(problem, watch)
     if pins and np.max(missing := wanted.missing(z), initial=0.0) > _LARGEST_REST:
         place = points[mesh.planar_vertex[wanted.rows[[int(np.argmax(missing))]].indices[:1]]]
         raise InputError("the pins leave less room than the gap", where=place, hint="move the pinned heights apart")
@@ -137,10 +136,6 @@ def flat_weight(flat: bool | float) -> float:
     if not 1 <= flat <= _FLATTEST:
         raise InputError(f"how flat parts are must be true, false or from 1 to {_FLATTEST:g}, not {flat!r}")
     return float(flat)
-
-
-def _silent(stage: str, done: float) -> None:
-    """Report nothing."""
 
 
 def _without_room(pins: Pins, room: Room, gap: float) -> tuple[Bools, Floats]:

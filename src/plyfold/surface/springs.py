@@ -13,7 +13,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from plyfold.arrays import Bools, Floats
-from plyfold.layering import Progress
+from plyfold.clock import Watch
 from plyfold.surface.contact import Distances, Problem
 from plyfold.surface.energy import factorised
 
@@ -24,13 +24,13 @@ _STIFFNESS = (1.0, 1e1, 1e2, *[1e3] * 6, *[1e4] * 6)
 _NEWTON_STEPS = 25
 
 
-def sprung_heights(problem: Problem, progress: Progress) -> Floats:
+def sprung_heights(problem: Problem, watch: Watch) -> Floats:
     """Return the heights of least energy that keep all distances as well as can be.
 
     Parameters
     ----------
     problem : Problem
-    progress : callable
+    watch : Watch
 
     Returns
     -------
@@ -40,9 +40,9 @@ def sprung_heights(problem: Problem, progress: Progress) -> Floats:
     wanted = problem.wanted
     z, force = problem.given, np.zeros(len(wanted.least))
     for done, stiffness in enumerate(_STIFFNESS):
-        for step, better in enumerate(_newton_steps(problem, z, force, stiffness)):
+        for step, better in enumerate(_newton_steps(problem, z, force, stiffness, watch)):
             z = better
-            progress("smoothing heights", (done + step / _NEWTON_STEPS) / len(_STIFFNESS))
+            watch.step((done + step / _NEWTON_STEPS) / len(_STIFFNESS))
         if np.max(wanted.missing(z), initial=0.0) <= problem.tolerance:
             break
         force = force + stiffness * (wanted.least - wanted.rows @ z)
@@ -50,7 +50,7 @@ def sprung_heights(problem: Problem, progress: Progress) -> Floats:
     return z
 
 
-def _newton_steps(problem: Problem, z: Floats, force: Floats, stiffness: float) -> Iterator[Floats]:
+def _newton_steps(problem: Problem, z: Floats, force: Floats, stiffness: float, watch: Watch) -> Iterator[Floats]:
     """Yield ever better minimisers of the energy with springs and forces, until the same contacts press again."""
     wanted, held = problem.wanted, problem.held.copy()
     # Heights may be known up to a constant only: hold one vertex.
@@ -62,7 +62,7 @@ def _newton_steps(problem: Problem, z: Floats, force: Floats, stiffness: float) 
         sprung = matrix + stiffness * (contact.T @ contact)
         load = contact.T @ (force + stiffness * wanted.least)[pressing] - sprung @ np.where(held, z, 0.0)
         z = z.copy()
-        z[free] = factorised(sprung[free][:, free]).solve(load[free])
+        z[free] = factorised(sprung[free][:, free], watch).solve(load[free])
         yield z
         before, pressing = pressing, _pressing(wanted, z, force, stiffness)
         if (before == pressing).all():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain
 from pathlib import Path
@@ -12,16 +12,17 @@ from typing import cast
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement, arrangement
-from plyfold.arrangement.core import CurveLike
+from plyfold.arrangement import Arrangement
+from plyfold.arrangement.core import CurveLike, watched_arrangement
 from plyfold.arrays import Floats, Ints
+from plyfold.clock import UNWATCHED, Clock, Progress, Watch
 from plyfold.curve import Curve
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
 from plyfold.flat.cells import DEFAULT_TRIANGLES, triangulate_cells
-from plyfold.immersion import Immersion, find_immersion, immersions
+from plyfold.immersion import Immersion, find_immersion
+from plyfold.immersion.solve import watched_immersions
 from plyfold.io.saving import save_bytes
-from plyfold.layering import Layering, Progress, first_layering
-from plyfold.layering.clock import Clock
+from plyfold.layering import Layering, first_layering
 from plyfold.layering.intersections import IntersectingLayering, least_intersecting_layering
 from plyfold.obstruction import IMMERSION_REASONS, Obstruction
 from plyfold.options import refuse_unless_flag, refuse_unless_number
@@ -272,9 +273,12 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         Keep those parts level that nothing overlaps: they are so many times as stiff (at least 1), or 100 times if
         true. The way up and down is made where sheets overlap, as far as it can be.
     time_limit : float, optional
-        Seconds after which the search for a layering gives up; none by default.
+        Seconds for all of it; none by default. What ends it is given back within a second, even where a library's
+        routine is still to come to its end. With ``allow_intersections``, half of the time is for the search.
     progress : callable, optional
-        Called with the name of the stage and the fraction of it done.
+        Called with the name of the stage and the fraction of it done: "finding the crossings", "finding an immersion",
+        "layering immersion 1", "looking for short intersections", "triangulating the cells", "gluing the sheets",
+        "smoothing heights".
 
     Returns
     -------
@@ -288,7 +292,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         If none of its immersions can be layered; ``error.obstruction`` belongs to the first. Not with
         ``allow_intersections``.
     TimeLimitError
-        If the time limit was reached: the answer is unknown. Not with ``allow_intersections``.
+        If the time limit was reached: the answer is unknown. ``error.stage`` is the stage that was going on.
     PrecisionError
         If double precision cannot hold the mesh.
     InputError
@@ -307,22 +311,19 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     ([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]], [[0, 1, 2]])
     """
     _refuse_wrong_kinds(allow_intersections, stiffness, pins, flat)
-    report = progress or _silent
-    layering = layering_of(curve, allow_intersections, time_limit, report)
+    watch = Watch(Clock(time_limit), progress)
+    layering = layering_of(curve, allow_intersections, watch)
     drawn = layering.immersion.arrangement
     distance = _distance(drawn, gap)
     max_area = area_of_edge(size, max_area)
     refuse_sizes(cast(Curve, drawn.curve).points, triangles, max_area)
     refuse_stiffness(stiffness)
     weight = flat_weight(flat)
-    report("triangulating the cells", 0.0)
-    cells = triangulate_cells(drawn, max_area, triangles)
+    cells = triangulate_cells(drawn, max_area, triangles, watch)
     if isinstance(layering, IntersectingLayering):
         cells = split_chords(cells, layering.intersections[:, 0])
-    report("gluing the sheets", 0.0)
-    mesh = glue_sheets(layering, cells)
-    report("smoothing heights", 0.0)
-    heights = smooth_heights(cells.points, mesh, distance, stiffness=stiffness, pins=pins, flat=weight, progress=report)
+    mesh = glue_sheets(layering, cells, watch)
+    heights = smooth_heights(cells.points, mesh, distance, stiffness=stiffness, pins=pins, flat=weight, watch=watch)
     vertices = np.column_stack([cells.points[mesh.planar_vertex], heights])
     curves = intersection_curves(vertices, mesh)
     return Surface(layering, vertices, mesh.faces, mesh.sheet, mesh.boundary, distance, mesh.passing, curves)
@@ -336,10 +337,6 @@ def _refuse_wrong_kinds(allow_intersections: object, stiffness: object, pins: ob
         refuse_unless_number("flat", flat)
     if pins is not None and not isinstance(pins, Mapping):
         raise InputError(f"pins must be a mapping from sheets or points to heights, not {pins!r}")
-
-
-def _silent(stage: str, done: float) -> None:
-    """Report nothing."""
 
 
 def _distance(drawn: Arrangement, gap: float | None) -> float:
@@ -359,8 +356,7 @@ def _distance(drawn: Arrangement, gap: float | None) -> float:
 def layering_of(
     curve: CurveLike | Immersion | Layering | IntersectingLayering,
     allow_intersections: bool,
-    time_limit: float | None,
-    report: Progress,
+    watch: Watch = UNWATCHED,
 ) -> Layering | IntersectingLayering:
     """Return the layering that :func:`lift` lifts, with its options and errors."""
     if isinstance(curve, Layering | IntersectingLayering):
@@ -369,34 +365,30 @@ def layering_of(
     if isinstance(curve, Obstruction):
         raise (NotImmersibleError if curve.reason in IMMERSION_REASONS else NotEmbeddableError)(curve)
     if isinstance(curve, Immersion):
-        return choose([curve], time_limit, report)
-    report("finding the crossings", 0.0)
-    drawn = arrangement(curve)
-    report("finding an immersion", 0.0)
-    candidates = immersions(drawn)
+        return choose([curve], watch)
+    drawn = watched_arrangement(curve, "perturb", watch)
+    candidates = watched_immersions(drawn, watch)
     first = next(candidates, None)
     if first is None:
         raise NotImmersibleError(cast(Obstruction, find_immersion(drawn)))
-    return choose(chain([first], candidates), time_limit, report)
+    return choose(chain([first], candidates), watch)
 
 
-def _liftable(candidates: Iterable[Immersion], time_limit: float | None, report: Progress) -> Layering:
-    found, examined = first_layering(candidates, time_limit, report)
+def _liftable(candidates: Iterable[Immersion], watch: Watch) -> Layering:
+    found, examined = first_layering(candidates, watch.clock.left, watch.progress)
     if isinstance(found, Layering):
         return found
     raise NotEmbeddableError(found, hint=f"{examined} immersion(s) were examined")
 
 
-def _least_intersecting(
-    candidates: Iterable[Immersion], time_limit: float | None, report: Progress
-) -> Layering | IntersectingLayering:
+def _least_intersecting(candidates: Iterable[Immersion], watch: Watch) -> Layering | IntersectingLayering:
     """Return a layering of the first immersion that has one, or else the best of those examined in time."""
-    clock = Clock(time_limit)
+    clock = watch.clock.share(1 / 2)
     examined: list[Immersion] = []
     try:
-        return _liftable(_noted(candidates, examined), None if time_limit is None else time_limit / 2, report)
+        return _liftable(_noted(candidates, examined), replace(watch, clock=clock.share(1 / 2)))
     except (NotEmbeddableError, TimeLimitError):
-        report("looking for short intersections", 0.0)
+        watch.begin("looking for short intersections")
     best = least_intersecting_layering(examined[0], clock.left)
     for immersion in examined[1:]:
         if not clock.over:
