@@ -129,14 +129,12 @@ SEVERAL = [
 ]
 
 
-@pytest.mark.xfail(strict=True, reason="the base visit compares the ends of the edges that cross")
 def test_points_in_the_middle_of_edges_change_no_order_of_answers():
     expected = [all_answers(points) for points in SEVERAL]
     for parts in (2, 3, 4):
         assert [all_answers(divided(points, parts)) for points in SEVERAL] == expected
 
 
-@pytest.mark.xfail(strict=True, reason="the base visit compares the ends of the edges that cross")
 def test_the_order_of_answers_is_that_of_the_gauss_code_from_the_base_visit():
     for points in SEVERAL:
         drawn = pf.arrangement(points)
@@ -144,7 +142,6 @@ def test_the_order_of_answers_is_that_of_the_gauss_code_from_the_base_visit():
         assert all_answers(code) == all_answers(drawn)
 
 
-@pytest.mark.xfail(strict=True, reason="the equations between levels are numbered from the first point")
 def test_the_order_of_embeddings_over_many_immersions_belongs_to_the_drawing():
     points = chain(MILNOR_LIKE, 7)
     assert pf.count_immersions(points) == 128

@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from plyfold.arrangement import Arrangement, arrangement
-from plyfold.arrangement.base import base_visit, begun_at, numbered_from
+from plyfold.arrangement.base import begun_at, numbered_from
 from plyfold.arrangement.core import CurveLike
 from plyfold.errors import InputError
 from plyfold.immersion.dual_tree import DualTree, grow_dual_tree
@@ -279,7 +279,7 @@ def _family(curve: CurveLike) -> _Family | None:
 
 def _family_of(arranged: Arrangement) -> _Family | None:
     """Return the family of a curve without a visible obstruction; None if its word has no grouping."""
-    base = base_visit(arranged)
+    base = arranged.base_visit
     numbered = numbered_from(arranged, base)
     tree = grow_dual_tree(numbered)
     groupings = find_groupings(write_word(tree))
