@@ -155,7 +155,6 @@ def test_the_order_of_embeddings_over_many_immersions_belongs_to_the_drawing():
         assert first_embeddings(np.roll(points, start, axis=0)[::-1]) == expected
 
 
-@pytest.mark.xfail(strict=True, reason="equally nice layerings are told apart from the first point on")
 def test_the_nicest_layering_belongs_to_the_drawing():
     for seed in range(100, 106):
         points = np.array(glued_disk(np.random.default_rng(seed), 60), dtype=float)
