@@ -29,7 +29,6 @@ def refused(points):
     return found if not found and found.reason == "turning number" else None
 
 
-@pytest.mark.xfail(strict=True, reason="a wrong turning number has no place")
 def test_a_curve_that_does_not_turn_once_has_a_place():
     seen = 0
     for seed in range(150):
@@ -44,7 +43,6 @@ def test_a_curve_that_does_not_turn_once_has_a_place():
     assert seen > 60
 
 
-@pytest.mark.xfail(strict=True, reason="a wrong turning number has no place")
 def test_a_curl_is_the_place():
     curl = [(0, 0), (6, 0), (6, 3), (5, 3), (5, -1), (7, -1), (7, 6), (0, 6)]
     assert pf.find_immersion(curl).where == ((5.0, 0.0),)
@@ -54,7 +52,6 @@ def test_a_curl_is_the_place():
     assert pf.embed_cased(curl, [True]).where == ((5.0, 0.0),)
 
 
-@pytest.mark.xfail(strict=True, reason="a wrong turning number has no place")
 @pytest.mark.parametrize("name", NOT_ONCE)
 def test_python_the_command_line_and_the_page_name_the_same_place(name, capsys):
     curve = CURVES[name].curve
@@ -68,7 +65,6 @@ def test_python_the_command_line_and_the_page_name_the_same_place(name, capsys):
     assert f"at ({places[0][0]:.6g}, {places[0][1]:.6g})" in capsys.readouterr().out
 
 
-@pytest.mark.xfail(strict=True, reason="a wrong turning number has no place")
 def test_one_curl_of_a_long_ribbon_is_the_place():
     points = np.array(ribbon_outline(np.random.default_rng(3), 1500, 0.05, 100_000), dtype=float)
     lowest = int(points[:, 1].argmin())

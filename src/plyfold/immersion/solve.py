@@ -23,7 +23,7 @@ from plyfold.immersion.grouping import (
     nth_grouping,
 )
 from plyfold.immersion.immersion import Immersion
-from plyfold.immersion.obstructions import no_grouping, visible_obstruction
+from plyfold.immersion.obstructions import is_visibly_no_disk, no_grouping, visible_obstruction
 from plyfold.immersion.word import write_word
 from plyfold.obstruction import Obstruction
 
@@ -274,7 +274,7 @@ class _Family:
 
 def _family(curve: CurveLike) -> _Family | None:
     arranged = arrangement(curve)
-    return None if visible_obstruction(arranged) is not None else _family_of(arranged)
+    return None if is_visibly_no_disk(arranged) else _family_of(arranged)
 
 
 def _family_of(arranged: Arrangement) -> _Family | None:
