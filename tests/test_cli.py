@@ -324,7 +324,6 @@ def test_split_writes_polygons_that_cover_the_disk_once(loop, tmp_path, capsys):
     assert paths[2].read_text().count("<path") == 2
 
 
-@pytest.mark.xfail(strict=True, reason="nothing says whose sign the winding numbers have")
 @pytest.mark.parametrize("clockwise", [False, True])
 def test_split_cells_says_in_which_direction_they_wind(loop, tmp_path, capsys, clockwise):
     if clockwise:
