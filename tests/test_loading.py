@@ -1,0 +1,56 @@
+"""Importing libraries is a stage of its own: no other one that shows its seconds does it."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+PROBE = """
+import json, sys
+from plyfold.cli import main, progress
+
+imported, stage = {}, ["start"]
+
+def entering(following, known=set(sys.modules)):
+    fresh = set(sys.modules) - known
+    outside = {name for name in fresh if name.split(".")[0] in ("scipy", "pysat", "shapely", "pythoncdt")}
+    imported.setdefault(stage[0], []).extend(sorted(outside))
+    known |= fresh
+    stage[0] = following
+
+call, stop = progress.Stopwatch.__call__, progress.Stopwatch.stop
+progress.Stopwatch.__call__ = lambda watch, name, done=0.0: (entering(name), call(watch, name, done))[1]
+progress.Stopwatch.stop = lambda watch: (entering("stopped"), stop(watch))[1]
+main(sys.argv[1:])
+entering("end")
+print(json.dumps(imported))
+"""
+
+
+def imports_by_stage(*words):
+    printed = subprocess.run([sys.executable, "-c", PROBE, *words], capture_output=True, text=True, check=True).stdout
+    return {stage: names for stage, names in json.loads(printed.splitlines()[-1]).items() if names}
+
+
+@pytest.mark.xfail(strict=True, reason="libraries are imported by the first stage that needs them")
+@pytest.mark.parametrize("command", ["check", "lift", "split", "unwrap", "triangulate"])
+def test_no_stage_but_one_imports_libraries(command, tmp_path):
+    path = tmp_path / ("out.wkt" if command == "split" else "out.obj")
+    outputs = () if command == "check" else ("-o", str(path))
+    assert imports_by_stage(command, "gallery:exit-ramp", *outputs).keys() == {"loading libraries"}
+
+
+@pytest.mark.xfail(strict=True, reason="libraries are imported by the first stage that needs them")
+def test_in_python_too():
+    program = (
+        "import sys, json, plyfold as pf\n"
+        "stages = []\n"
+        "pf.lift([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)],\n"
+        "        progress=lambda stage, done: stages.append((stage, 'scipy.sparse' in sys.modules)))\n"
+        "print(json.dumps(stages))"
+    )
+    printed = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
+    stages = json.loads(printed)
+    assert [loaded for stage, loaded in stages if stage == "loading libraries"] == [False]
+    assert all(loaded for stage, loaded in stages if "layering" in stage)
