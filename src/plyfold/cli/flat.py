@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from plyfold.cli.inputs import DISK, NO_DISK, add_command, add_outputs, prepare, read_arrangement, write_texts
 from plyfold.cli.progress import Stopwatch
+from plyfold.loading import FOR_MESHES, load_libraries
 
 if TYPE_CHECKING:
     from plyfold.arrangement import Arrangement
@@ -46,6 +47,7 @@ def _split(options: argparse.Namespace) -> int:
 
     watch = Stopwatch()
     arranged = prepare(options, tuple(POLYGON_WRITERS), watch)
+    load_libraries(() if options.cells else FOR_MESHES, watch)
     watch("cutting")
     if options.cells:
         cells = coverage(arranged)
@@ -94,6 +96,7 @@ def _unwrap(options: argparse.Namespace) -> int:
     found = find_immersion(arranged)
     if found and options.immersion != 0:
         found = nth_immersion(arranged, options.immersion)
+    load_libraries(FOR_MESHES, watch)
     watch("unwinding")
     unwound = unwrap(found or arranged, triangles=options.triangles)
     watch("writing")
