@@ -328,6 +328,20 @@ def test_split_writes_polygons_that_cover_the_disk_once(loop, tmp_path, capsys):
     assert paths[2].read_text().count("<path") == 2
 
 
+@pytest.mark.parametrize("clockwise", [False, True])
+def test_split_cells_says_in_which_direction_they_wind(loop, tmp_path, capsys, clockwise):
+    if clockwise:
+        loop.write_text("".join(reversed(LOOP.splitlines(keepends=True))))
+    paths = [tmp_path / "cells.geojson", tmp_path / "cells.svg"]
+    assert main(["split", str(loop), "--cells", *(word for path in paths for word in ("-o", str(path)))]) == 0
+    told = [feature["properties"] for feature in json.loads(paths[0].read_text())["features"]]
+    assert sorted(properties["winding"] for properties in told) == [1, 1, 1, 2]
+    assert {properties["reversed"] for properties in told} == {clockwise}
+    direction = "turned round, for the drawing turns clockwise" if clockwise else "the direction of the drawing"
+    assert direction in capsys.readouterr().out
+    assert f"reversed {'true' if clockwise else 'false'}" in paths[1].read_text()
+
+
 def test_split_cells_of_a_curve_that_is_no_disk(eight, tmp_path):
     path = tmp_path / "cells.geojson"
     assert main(["split", str(eight), "--cells", "-o", str(path)]) == 0

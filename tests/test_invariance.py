@@ -1,13 +1,16 @@
 """Answers do not depend on scale, place, starting point, direction, or the side one looks from."""
 
+from itertools import islice
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
-from plyfold.gallery import CURVES
-from reference.random_curves import glued_disk, random_polygon, ribbon_outline
+from plyfold.gallery import CURVES, chain
+from reference.crossings import base_visit
+from reference.random_curves import MILNOR_LIKE, SEVERAL_IMMERSIONS, glued_disk, random_polygon, ribbon_outline
 
 
 def answers(points):
@@ -94,3 +97,67 @@ def test_the_first_answer_of_random_disks_belongs_to_the_drawing(seed, start, ba
     points = np.array(glued_disk(np.random.default_rng(seed), 40), dtype=float)
     changed = np.roll(points, start, axis=0)[:: -1 if backward else 1]
     assert lying(pf.find_layering(pf.find_immersion(changed))) == lying(pf.find_layering(pf.find_immersion(points)))
+
+
+def counted_from_base(immersion, layerings):
+    """The borders that share a sheet, and the visits that pass over, numbered from the base visit on."""
+    n = immersion.arrangement.n_borders
+    base = base_visit(immersion.arrangement.curve.points) if immersion.arrangement.curve else 0
+    groups = {frozenset((border - base) % n for border in group.borders) for group in immersion.disk_layout()}
+    return groups, [np.roll(layering.casing, -base).tolist() for layering in layerings]
+
+
+def all_answers(curve):
+    """All immersions and all layerings of each, in the order in which they are listed."""
+    return [counted_from_base(immersion, pf.layerings(immersion)) for immersion in pf.immersions(curve)]
+
+
+def divided(points, parts):
+    """The polygon with every edge cut into so many parts, exactly."""
+    step = (np.roll(points, -1, axis=0) - points) / parts
+    return np.stack([points + part * step for part in range(parts)], axis=1).reshape(-1, 2)
+
+
+AFFINE_MAPS = [
+    ((1, 0), (0, 1)), ((0, -1), (1, 0)), ((1, 1), (0, 1)), ((1, 0), (1, 1)), ((2, 1), (1, 1)),
+    ((1, -1), (1, 1)), ((3, 1), (-1, 2)), ((-1, 0), (0, -1)), ((0, 1), (-1, 0)), ((-2, 1), (-1, -1)),
+]  # fmt: skip
+SEVERAL = [
+    12.0 * np.array(polygon, dtype=float) @ np.array(rows, dtype=float).T
+    for polygon, *_ in SEVERAL_IMMERSIONS
+    for rows in AFFINE_MAPS
+]
+
+
+def test_points_in_the_middle_of_edges_change_no_order_of_answers():
+    expected = [all_answers(points) for points in SEVERAL]
+    for parts in (2, 3, 4):
+        assert [all_answers(divided(points, parts)) for points in SEVERAL] == expected
+
+
+def test_the_order_of_answers_is_that_of_the_gauss_code_from_the_base_visit():
+    for points in SEVERAL:
+        drawn = pf.arrangement(points)
+        code = pf.GaussCode.of(drawn).rotated(base_visit(drawn.curve.points))
+        assert all_answers(code) == all_answers(drawn)
+
+
+def test_the_order_of_embeddings_over_many_immersions_belongs_to_the_drawing():
+    points = chain(MILNOR_LIKE, 7)
+    assert pf.count_immersions(points) == 128
+
+    def first_embeddings(changed):
+        return [counted_from_base(found.immersion, [found]) for found in islice(pf.embeddings(changed), 3)]
+
+    expected = first_embeddings(points)
+    for start in (5, 44):
+        assert first_embeddings(np.roll(points, start, axis=0)) == expected
+        assert first_embeddings(np.roll(points, start, axis=0)[::-1]) == expected
+
+
+def test_the_nicest_layering_belongs_to_the_drawing():
+    for seed in range(100, 106):
+        points = np.array(glued_disk(np.random.default_rng(seed), 60), dtype=float)
+        drawn = [pf.nicest_layering(pf.find_immersion(np.roll(points, start, axis=0))) for start in (0, 11, 25)]
+        first, *others = [counted_from_base(found.immersion, [found]) for found in drawn]
+        assert others == [first, first]

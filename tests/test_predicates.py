@@ -1,12 +1,21 @@
 """Exact signs, against plain fractions."""
 
 from fractions import Fraction
+from itertools import permutations
 
 import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from plyfold.predicates import compare_along_edge, counted_cross_sign, cross_sign, orient
+from plyfold.predicates import (
+    compare_along_edge,
+    counted_cross_sign,
+    cross_sign,
+    crossing_bounds,
+    exact_crossings,
+    orient,
+)
+from reference.crossings import exact, meetings
 
 numbers = st.one_of(
     st.integers(-3, 3).map(float),
@@ -106,3 +115,23 @@ def test_signs_of_nearly_parallel_directions_are_exact(data):
     assume(np.isfinite(places).all())
     assert cross_sign(*places) == exact_cross(*places)
     assert orient(*places[:3]) == exact_cross(places[0], places[1], places[0], places[2])
+
+
+def crossing_edges(four):
+    """Two edges between four points that cross, and where they do, in fractions; None if the points allow none."""
+    for a, b, c, d in permutations(exact(four)):
+        for meeting in meetings([a, b, c, d]):
+            if (meeting.first, meeting.second) == (0, 2):
+                return np.array([[a], [b], [c], [d]], dtype=float), meeting.point
+    return None
+
+
+@given(st.tuples(points, points, points, points))
+def test_places_of_crossings_are_exact_and_within_their_bounds(four):
+    found = crossing_edges(four)
+    assume(found is not None)
+    ends, place = found
+    low, high = crossing_bounds(*ends)
+    for axis in range(2):
+        assert exact_crossings(ends, axis) == [place[axis]]
+        assert Fraction(low[0, axis]) <= place[axis] <= Fraction(high[0, axis])

@@ -18,6 +18,8 @@ __all__ = [
     "compare_along_edge",
     "counted_cross_sign",
     "cross_sign",
+    "crossing_bounds",
+    "exact_crossings",
     "exact_parameter",
     "orient",
     "parameter_along_edge",
@@ -33,6 +35,8 @@ _SMALL_PRODUCT, _LARGE_PRODUCT = 1e-250, 1e250
 _SPLITTER = 2.0**27 + 1
 # The parameter of a crossing is a quotient of two sums, each within 8 u of its magnitude.
 _PARAMETER_ERROR = 4e-15
+# A place on an edge takes a difference, a product and a sum more, and its bounds one each; these are some 9 u.
+_PLACE_ERROR = 1e-15
 
 
 def orient(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> Signs:
@@ -209,6 +213,49 @@ def exact_parameter(a: Floats, b: Floats, c: Floats, d: Floats) -> Fraction:
     """Return where the edge a → b crosses the edge c → d, as an exact fraction of a → b."""
     p, q, r, s = _exact(a), _exact(b), _exact(c), _exact(d)
     return _cross(p, r, r, s) / _cross(p, q, r, s)
+
+
+def crossing_bounds(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Floats]:
+    """Return the lower left and the upper right corner of a box in which each edge a → b crosses its edge c → d.
+
+    All have shape (m, 2); each pair of edges is known to cross. The box is as small as rounding allows, and as narrow
+    or as flat as an edge that is upright or level.
+    """
+    parameter, error = parameter_along_edge(a, b, c, d)
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+        along = b - a
+        place = a + parameter[:, None] * along
+        reach = (error[:, None] + _PLACE_ERROR) * np.abs(along) + _PLACE_ERROR * np.abs(place) + _UNDERFLOW
+        # What overflowed is not a number, and leaves the choice to the ends of the edges.
+        low = np.fmax(np.maximum(np.minimum(a, b), np.minimum(c, d)), place - reach)
+        high = np.fmin(np.minimum(np.maximum(a, b), np.maximum(c, d)), place + reach)
+    return low, high
+
+
+def exact_crossings(ends: Floats, axis: int) -> list[Fraction]:
+    """Return one exact coordinate of the places where the edges a → b cross the edges c → d; ``ends`` are (4, m, 2).
+
+    In whole numbers of one unit up to the last step, which takes a tenth of the time that fractions would.
+
+    Examples
+    --------
+    >>> exact_crossings(np.array([[[0.0, 0.0]], [[3.0, 1.0]], [[0.5, 0.0]], [[0.5, 9.0]]]), axis=1)
+    [Fraction(1, 6)]
+    """
+    (p, q, r, s), unit = _whole(ends)
+    along, across, between = q - p, s - r, r - p
+    below = along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]
+    above = between[:, 0] * across[:, 1] - between[:, 1] * across[:, 0]
+    numerator = p[:, axis] * below + above * along[:, axis]
+    return [Fraction(n, m) * unit for n, m in zip(numerator.tolist(), below.tolist(), strict=True)]
+
+
+def _whole(numbers: Floats) -> tuple[npt.NDArray[np.object_], Fraction]:
+    """Return doubles as whole numbers, however large, of a power of two."""
+    mantissa, exponent = np.frexp(numbers)
+    least = int(exponent.min())
+    whole = np.ldexp(mantissa, 53).astype(np.int64).astype(object)
+    return whole << (exponent - least).astype(object), Fraction(2) ** (least - 53)
 
 
 def compare_along_edge(edge: npt.ArrayLike, first: npt.ArrayLike, second: npt.ArrayLike) -> int:

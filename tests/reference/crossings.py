@@ -144,6 +144,18 @@ def crossings(points: Iterable[Sequence[float]]) -> PolygonCrossings:
     return PolygonCrossings(code, tuple(found[name].point for name in names), visit_edges)
 
 
+def base_visit(points: Iterable[Sequence[float]]) -> int:
+    """The visit at the leftmost crossing, the lowest of several, of the strand that the other crosses from the right.
+
+    0 for a curve without crossings.
+    """
+    found = crossings(points)
+    if not found.points:
+        return 0
+    visit = found.points.index(min(found.points))
+    return visit if found.code.ccw[visit] else found.code.partner[visit]
+
+
 def winding_number(points: Iterable[Sequence[float]], place: Sequence[float]) -> int:
     """How often the polygon winds round a point, exactly: edges that cross the ray to the right, upward minus downward.
 

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrangement.general_position import in_general_position
+from plyfold.arrangement.leftmost import leftmost_crossing
 from plyfold.arrangement.planar_map import (
     cell_boundaries,
     checked_code,
@@ -213,6 +214,26 @@ class Arrangement:
         """The boundary of each cell: its darts in order, walked with the cell on the left."""
         darts = self.cell_darts.tolist()
         return tuple(tuple(darts[low:high]) for low, high in pairwise(self.cell_start.tolist()))
+
+    @cached_property
+    def base_visit(self) -> int:
+        """The visit that the first of several answers is counted from, so that it belongs to the drawing.
+
+        At the leftmost crossing, the lowest one of several, it is that of the strand which the other crosses from
+        right to left. Exact: points added on edges do not change it. 0 for a curve without crossings and where only
+        the code is known.
+
+        Examples
+        --------
+        >>> points = [(0, 0), (4, 0), (4, 3), (1, -1)]
+        >>> [arrangement(points[i:] + points[:i]).base_visit for i in range(4)]
+        [1, 0, 0, 1]
+        """
+        if self.curve is None or not self.n_crossings:
+            return 0
+        visits = np.flatnonzero(self.ccw)
+        edge, other = self.visit_edge[visits], self.visit_edge[self.partner[visits]]
+        return int(visits[leftmost_crossing(self.curve.points, edge, other)])
 
     def border_points(self, border: int) -> Floats:
         """Return the polyline of a border, shape (m, 2), from crossing to crossing with both ends.

@@ -61,12 +61,24 @@ def _quarter_turns(left: Ints, right: Ints) -> Ints:
     """
     parent, border, order = _tree_of_cells(left, right)
     corners = np.bincount(np.concatenate([left, right]), minlength=len(parent))
-    lacking = (4 - corners).tolist()
+    lacking = 4 - corners
+    for level in _levels(parent, order)[:0:-1]:
+        np.add.at(lacking, parent[level], lacking[level])
     turns = np.zeros(len(left), dtype=np.int64)
-    for cell in order[:0:-1].tolist():
-        lacking[parent[cell]] += lacking[cell]
-        turns[border[cell]] = lacking[cell] if left[border[cell]] == cell else -lacking[cell]
+    cell = order[1:]
+    turns[border[cell]] = np.where(left[border[cell]] == cell, lacking[cell], -lacking[cell])
     return turns
+
+
+def _levels(parent: Ints, order: Ints) -> list[Ints]:
+    """Return the cells level by level, from the root on; in their order, parents are in order as well."""
+    place = np.empty(len(order), dtype=np.int64)
+    place[order] = np.arange(len(order))
+    place_of_parent = place[parent[order[1:]]]
+    starts = [0, 1]
+    while starts[-1] < len(order):
+        starts.append(1 + int(np.searchsorted(place_of_parent, starts[-1])))
+    return np.split(order, starts[1:-1])
 
 
 def _tree_of_cells(left: Ints, right: Ints) -> tuple[Ints, Ints, Ints]:

@@ -8,6 +8,7 @@ from typing import Any
 
 from plyfold.cli.inputs import DISK, NO_DISK, add_command, add_time_limit, read_arrangement
 from plyfold.cli.progress import Stopwatch, timing
+from plyfold.loading import FOR_LAYERINGS, load_libraries
 
 __all__ = ["add_check_command"]
 
@@ -40,6 +41,7 @@ def _check(options: argparse.Namespace) -> int:
 
     watch = Stopwatch()
     arranged = read_arrangement(options, watch)
+    load_libraries(FOR_LAYERINGS, watch)
     watch("finding immersions and layerings")
     figures = verdict(arranged, options.time_limit)
     watch.stop()

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import argparse
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from plyfold.cli.inputs import DISK, NO_DISK, add_command, add_outputs, prepare, read_arrangement, write_texts
 from plyfold.cli.progress import Stopwatch
+from plyfold.loading import FOR_MESHES, load_libraries
+
+if TYPE_CHECKING:
+    from plyfold.arrangement import Arrangement
 
 __all__ = ["add_flat_commands"]
 
@@ -17,7 +21,10 @@ def add_flat_commands(commands: Any) -> None:
     split = add_command(commands, "split", _split, "cut a disk into simple polygons, or any curve into its cells")
     add_outputs(split, ".geojson .wkt .svg")
     split.add_argument(
-        "--cells", action="store_true", help="the cells with their winding numbers, of a curve that need be no disk"
+        "--cells",
+        action="store_true",
+        help="the cells with their winding numbers, of a curve that need be no disk; "
+        "one whose turning number is negative is turned round first",
     )
     triangles = add_command(
         commands, "triangulate", _triangulate, "cut a disk into triangles on the points of the curve"
@@ -40,17 +47,26 @@ def _split(options: argparse.Namespace) -> int:
 
     watch = Stopwatch()
     arranged = prepare(options, tuple(POLYGON_WRITERS), watch)
+    load_libraries(() if options.cells else FOR_MESHES, watch)
     watch("cutting")
     if options.cells:
         cells = coverage(arranged)
-        polygons, told = [cell.polygon for cell in cells], [{"winding": cell.winding} for cell in cells]
+        polygons = [cell.polygon for cell in cells]
+        told = [{"winding": cell.winding, "reversed": arranged.reversed} for cell in cells]
     else:
         polygons = decompose(arranged)
         told = [{"piece": number} for number in range(len(polygons))]
     watch.stop()
-    print(f"{len(polygons)} {'cell(s)' if options.cells else 'simple polygon(s)'}")
+    print(f"{len(polygons)} " + (f"cell(s), {_direction(arranged)}" if options.cells else "simple polygon(s)"))
     write_texts(options, {ending: partial(write, polygons, told) for ending, write in POLYGON_WRITERS.items()})
     return DISK
+
+
+def _direction(arranged: Arrangement) -> str:
+    """Say whose sign the winding numbers of the cells have."""
+    if arranged.reversed:
+        return "with winding numbers of the curve turned round, for the drawing turns clockwise"
+    return "with winding numbers in the direction of the drawing"
 
 
 def _triangulate(options: argparse.Namespace) -> int:
@@ -80,6 +96,7 @@ def _unwrap(options: argparse.Namespace) -> int:
     found = find_immersion(arranged)
     if found and options.immersion != 0:
         found = nth_immersion(arranged, options.immersion)
+    load_libraries(FOR_MESHES, watch)
     watch("unwinding")
     unwound = unwrap(found or arranged, triangles=options.triangles)
     watch("writing")

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from plyfold.cli.progress import Stopwatch
 from plyfold.clock import Clock, Watch
 from plyfold.io.saving import refuse_output, save_bytes
+from plyfold.loading import FOR_CROSSINGS, load_libraries
 
 if TYPE_CHECKING:
     from plyfold.arrangement import Arrangement
@@ -78,6 +79,7 @@ def read_arrangement(options: argparse.Namespace, watch: Stopwatch, clock: Clock
         curve = named_curve(options.file.removeprefix("gallery:")).curve
     else:
         curve = read(options.file, id=options.id, tolerance=options.tolerance)
+    load_libraries(FOR_CROSSINGS, watch)
     return watched_arrangement(curve, options.general_position, Watch(clock or Clock(None), watch))
 
 

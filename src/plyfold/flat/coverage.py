@@ -17,7 +17,7 @@ __all__ = ["Covered", "coverage"]
 
 
 class Covered(NamedTuple):
-    """A cell, and how often the curve goes round it."""
+    """A cell, and how often the curve goes round it, counter-clockwise in the direction of its arrangement."""
 
     polygon: Polygon
     winding: int
@@ -36,8 +36,10 @@ def coverage(curve: CurveLike) -> list[Covered]:
     list of Covered
         Pairs (polygon, winding), in the order of the arrangement's cells; those with winding number 0 are left out.
         The polygons are valid and do not overlap; one that touches itself at a crossing has a hole that touches its
-        outline there. A curve with negative turning number counts as turned round, see
-        :class:`~plyfold.Arrangement`. Crossings are rounded to double precision.
+        outline there. Crossings are rounded to double precision.
+
+        The signs are those of the direction in which the turning number is not negative: of the points as given, or,
+        if ``arrangement(curve).reversed``, of the curve turned round. In the other direction they are the opposite.
 
     Raises
     ------
@@ -53,6 +55,9 @@ def coverage(curve: CurveLike) -> list[Covered]:
     >>> eight = [(0, 0), (2, 2), (2, 0), (0, 2)]
     >>> [(cell.polygon.area, cell.winding) for cell in coverage(eight)]
     [(1.0, -1), (1.0, 1)]
+    >>> clockwise = [(0, 0), (0, 1), (1, 1), (1, 0)]
+    >>> coverage(clockwise)[0].winding, arrangement(clockwise).reversed
+    (1, True)
     """
     drawn = arrangement(curve)
     wound = np.flatnonzero(drawn.winding).tolist()

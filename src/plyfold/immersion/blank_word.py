@@ -16,7 +16,7 @@ from plyfold.arrangement import Arrangement, arrangement
 from plyfold.arrangement.core import CurveLike
 from plyfold.immersion.dual_tree import grow_dual_tree
 from plyfold.immersion.grouping import Grouping, Groupings, find_groupings, list_groupings
-from plyfold.immersion.obstructions import visible_obstruction
+from plyfold.immersion.obstructions import is_visibly_no_disk
 from plyfold.immersion.word import Word, write_word
 
 __all__ = ["BlankWord", "Letter", "blank_word"]
@@ -102,7 +102,7 @@ class BlankWord:
             One grouping for every immersion of the curve, in the order of :func:`plyfold.immersions`; nothing if the
             curve does not turn once or winds a negative number of times somewhere.
         """
-        found = find_groupings(self.word) if visible_obstruction(self.arrangement) is None else None
+        found = None if is_visibly_no_disk(self.arrangement) else find_groupings(self.word)
         if isinstance(found, Groupings):
             yield from (self._pairs(grouping) for grouping in list_groupings(found))
 

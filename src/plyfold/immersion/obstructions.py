@@ -8,13 +8,19 @@ from plyfold.arrangement import Arrangement
 from plyfold.immersion.dual_tree import DualTree, grow_dual_tree
 from plyfold.immersion.grouping import find_groupings
 from plyfold.immersion.propagation import Conflict
+from plyfold.immersion.shorter_loops import place_of_turning
 from plyfold.immersion.word import write_word
 from plyfold.obstruction import Obstruction
 
-__all__ = ["no_grouping", "visible_obstruction"]
+__all__ = ["is_visibly_no_disk", "no_grouping", "visible_obstruction"]
 
 # Above this many ascending links, the conflict that an obstruction names is not made minimal.
 _MINIMISE_UP_TO = 300
+
+
+def is_visibly_no_disk(arranged: Arrangement) -> bool:
+    """Tell whether there is a visible obstruction, without looking for its place."""
+    return arranged.turning_number != 1 or bool(arranged.winding.min() < 0)
 
 
 def visible_obstruction(arranged: Arrangement) -> Obstruction | None:
@@ -22,7 +28,7 @@ def visible_obstruction(arranged: Arrangement) -> Obstruction | None:
     turning = arranged.turning_number
     if turning != 1:
         sentence = f"The curve turns {turning} times, and the outline of a disk turns once."
-        return Obstruction("turning number", sentence, value=turning)
+        return Obstruction("turning number", sentence, place_of_turning(arranged), turning)
     lowest = int(np.argmin(arranged.winding))
     winding = int(arranged.winding[lowest])
     if winding < 0:

@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from plyfold.arrangement import Arrangement, arrangement
-from plyfold.arrangement.base import base_visit, begun_at, numbered_from
+from plyfold.arrangement.base import begun_at, numbered_from
 from plyfold.arrangement.core import CurveLike
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import InputError
@@ -24,7 +24,7 @@ from plyfold.immersion.grouping import (
     nth_grouping,
 )
 from plyfold.immersion.immersion import Immersion, require_memory_for_gluing
-from plyfold.immersion.obstructions import no_grouping, visible_obstruction
+from plyfold.immersion.obstructions import is_visibly_no_disk, no_grouping, visible_obstruction
 from plyfold.immersion.word import write_word
 from plyfold.obstruction import Obstruction
 
@@ -282,12 +282,12 @@ class _Family:
 
 def _family(curve: CurveLike) -> _Family | None:
     arranged = arrangement(curve)
-    return None if visible_obstruction(arranged) is not None else _family_of(arranged)
+    return None if is_visibly_no_disk(arranged) else _family_of(arranged)
 
 
 def _family_of(arranged: Arrangement, watch: Watch = UNWATCHED) -> _Family | None:
     """Return the family of a curve without a visible obstruction; None if its word has no grouping."""
-    base = base_visit(arranged)
+    base = arranged.base_visit
     numbered = numbered_from(arranged, base)
     tree = grow_dual_tree(numbered)
     groupings = find_groupings(write_word(tree), watch)

@@ -63,7 +63,7 @@ def _path(polygon: Polygon) -> str:
 
 
 def _title(told: dict[str, Any]) -> str:
-    return ", ".join(f"{name} {value}" for name, value in told.items())
+    return ", ".join(f"{name} {json.dumps(value)}" for name, value in told.items())
 
 
 def as_obj(points: Floats, faces: Ints) -> str:

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from itertools import islice
 
 from plyfold.arrangement import Arrangement, arrangement
+from plyfold.arrangement.base import begun_at, numbered_from, visits_from_base
 from plyfold.arrangement.core import CurveLike
 from plyfold.arrangement.several import are_several
 from plyfold.arrays import Ints
@@ -28,7 +29,7 @@ from plyfold.layering.layered_surface import (
 from plyfold.layering.layering import Layering
 from plyfold.layering.level_clauses import LevelClauses, contradicting_crossings, list_levels, solve_levels
 from plyfold.layering.level_counting import count_level_solutions
-from plyfold.layering.levels import level_equations
+from plyfold.layering.levels import LevelEquations, level_equations
 from plyfold.layering.listing import layerings
 from plyfold.layering.search import find_layering
 from plyfold.obstruction import Obstruction, Unknown
@@ -87,7 +88,7 @@ def find_embedding(
         found = find_layering(immersion, clock.left)
         if not isinstance(found, Obstruction):
             return found
-    clauses = LevelClauses(level_equations(arranged))
+    clauses = LevelClauses(_equations(arranged))
     try:
         level = solve_levels(clauses, clock) if count_immersions(arranged) > _FEW else None
     except TimeoutError:
@@ -125,7 +126,7 @@ def embeddings(curve: CurveLike) -> Iterator[Layering | LayeredSurface]:
         for immersion in immersions(arranged):
             yield from layerings(immersion)
     elif total:
-        for level in list_levels(LevelClauses(level_equations(arranged))):
+        for level in list_levels(LevelClauses(_equations(arranged))):
             yield _checked(arranged, level)
 
 
@@ -172,7 +173,7 @@ def count_embeddings(curve: CurveLike, time_limit: float | None = None) -> int |
 
 def _count(arranged: Arrangement, clock: Clock) -> int:
     if count_immersions(arranged) > _FEW:
-        return count_level_solutions(level_equations(arranged), clock)
+        return count_level_solutions(_equations(arranged), clock)
     total = 0
     for immersion in immersions(arranged):
         number = count_layerings(immersion, clock.left)
@@ -182,15 +183,21 @@ def _count(arranged: Arrangement, clock: Clock) -> int:
     return total
 
 
+def _equations(arranged: Arrangement) -> LevelEquations:
+    """Return the equations with borders and crossings numbered from the base visit on, for the order of answers."""
+    return level_equations(numbered_from(arranged, arranged.base_visit))
+
+
 def _checked(arranged: Arrangement, level: Ints) -> Layering:
-    layering = layering_of_levels(arranged, level)
+    layering = layering_of_levels(arranged, begun_at(level, arranged.n_borders - arranged.base_visit))
     layering.immersion.check()
     layering.check()
     return layering
 
 
 def _no_embedding(arranged: Arrangement, clauses: LevelClauses, clock: Clock) -> Obstruction:
-    crossings = tuple(contradicting_crossings(clauses, clock))
+    from_base = list(dict.fromkeys(arranged.crossing_of_visit[visits_from_base(arranged)].tolist()))
+    crossings = tuple(sorted(from_base[crossing] for crossing in contradicting_crossings(clauses, clock)))
     number = count_immersions(arranged)
     which = "the only immersion does not lift" if number == 1 else f"none of the {_written(number)} immersions lifts"
     sentence = f"No embedding: {which}. No levels of the strands fit together at {len(crossings)} crossings."

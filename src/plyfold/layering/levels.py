@@ -69,7 +69,7 @@ class LevelEquations:
 
 
 def level_equations(arranged: Arrangement) -> LevelEquations:
-    """Return the equations of a closed curve without negative winding numbers; crossings in their usual order.
+    """Return the equations of a closed curve without negative winding numbers; crossings by their first visits.
 
     Examples
     --------
@@ -79,7 +79,7 @@ def level_equations(arranged: Arrangement) -> LevelEquations:
     [2, 1, 2, 1, 2, 1, 2, 1]
     """
     first = np.flatnonzero(arranged.ccw)
-    first = first[np.argsort(arranged.crossing_of_visit[first])]
+    first = first[np.argsort(np.minimum(first, arranged.partner[first]))]
     before = (np.arange(arranged.n_borders) - 1) % arranged.n_borders
     return _equations(arranged.winding[arranged.left_cell], first, arranged.partner[first], before)
 

@@ -19,6 +19,7 @@ from dataclasses import replace
 from functools import partial
 from itertools import chain
 
+from plyfold.arrangement.base import visits_from_base
 from plyfold.clock import Clock
 from plyfold.immersion import Immersion
 from plyfold.layering.layering import Layering, meeting_sheets
@@ -45,9 +46,10 @@ def nicest_layering(immersion: Immersion, time_limit: float | None = None) -> La
     Returns
     -------
     Layering or Obstruction or Unknown
-        A layering with the fewest :attr:`Layering.changes`, or the obstruction of :func:`find_layering`. If the time
-        limit was reached, it is unknown which layering is the nicest; then ``established`` has a good one as
-        ``"layering"``, if one was found, and a bound for all of them as ``"changes at least"``.
+        A layering with the fewest :attr:`Layering.changes`, the same for the same drawing; or the obstruction of
+        :func:`find_layering`. If the time limit was reached, it is unknown which layering is the nicest; then
+        ``established`` has a good one as ``"layering"``, if one was found, and a bound for all of them as
+        ``"changes at least"``.
 
     Notes
     -----
@@ -82,8 +84,9 @@ def nicest_layering(immersion: Immersion, time_limit: float | None = None) -> La
 
 
 def _over(problem: OrderProblem) -> list[int]:
-    """Return for each visit the literal that is true if the strand passes over."""
-    here, there = meeting_sheets(problem.immersion)
+    """Return for each visit, from the base visit on, the literal that is true if the strand passes over."""
+    from_base = visits_from_base(problem.immersion.arrangement)
+    here, there = (sheets[from_base] for sheets in meeting_sheets(problem.immersion))
     return [int(literal) for literal in problem.above(there, here)]
 
 

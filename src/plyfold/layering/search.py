@@ -15,6 +15,7 @@ from plyfold.immersion import Immersion
 from plyfold.layering.layering import Layering
 from plyfold.layering.orders import OrderProblem, order_problem, places_of_cells
 from plyfold.layering.sat import minimal_core, solve
+from plyfold.loading import FOR_LAYERINGS, load_libraries
 from plyfold.obstruction import Obstruction, Unknown
 
 __all__ = ["FixedOrders", "Progress", "find_layering", "first_layering", "solve_orders", "undecided"]
@@ -120,7 +121,7 @@ def first_layering(
     candidates : iterable of Immersion
         At least one, for example all immersions of a curve.
     time_limit : float, optional
-        Seconds for all of them together; none by default.
+        Seconds for all of them together, once the libraries are loaded; none by default.
     progress : callable, optional
         Called with a few words and the fraction done before each immersion.
 
@@ -136,6 +137,7 @@ def first_layering(
     TimeLimitError
         If the time limit was reached: the answer is unknown.
     """
+    load_libraries(FOR_LAYERINGS, progress)
     clock = Clock(time_limit)
     first: Obstruction | None = None
     examined = 0

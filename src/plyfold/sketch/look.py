@@ -14,7 +14,7 @@ from plyfold.draw.places import label_circle
 from plyfold.immersion import blank_word, count_immersions, find_immersion
 from plyfold.obstruction import Obstruction
 from plyfold.sketch.drawings import arranged
-from plyfold.sketch.kinks import Kink, find_kink, place_of_turning
+from plyfold.sketch.kinks import Kink, find_kink
 from plyfold.sketch.schema import VERSION, Look
 
 __all__ = ["in_words", "look"]
@@ -120,13 +120,12 @@ def _verdict(drawn: Arrangement) -> dict[str, Any]:
 
 def _no_disk(drawn: Arrangement, obstruction: Obstruction) -> dict[str, Any]:
     kink = find_kink(drawn)
-    where = obstruction.where or (kink.places if kink else place_of_turning(drawn))
     return {
         "immersible": False,
         "immersions": "0",
         "reason": obstruction.reason,
         "sentence": f"No disk. {obstruction.sentence}",
-        "where": [list(place) for place in where],
+        "where": [list(place) for place in obstruction.where],
         "kink": kink and _kink(kink),
     }
 
