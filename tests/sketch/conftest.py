@@ -99,3 +99,9 @@ def page(server, browser):
     context.close()
     assert tab.complaints == []
     assert all(address.startswith((server.url, "data:", "blob:")) for address in tab.asked)
+
+
+@pytest.fixture
+def sketch(page):
+    page.wait_for_selector("html[data-ready]")
+    return page
