@@ -89,3 +89,34 @@ def draw_by_finger(page, points):
     for kind, (x, y) in zip(kinds, places(page, points), strict=True):
         session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": y}]})
     session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+
+def touch(session, kind, *places):
+    session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": y} for x, y in places]})
+
+
+def draw_by_pen(page, points, palm):
+    """Draw with a pen; ``palm``, if any, is a place where the hand rests, and whether it came before the pen or during.
+
+    The palm moves a little, and is lifted after the pen.
+    """
+    session = page.context.new_cdp_session(page)
+    way = places(page, points)
+    place, when = palm or (None, None)
+    if when == "before":
+        touch(session, "touchStart", place)
+    pen(session, "mousePressed", way[0])
+    for number, here in enumerate(way[1:]):
+        if when == "during" and number == len(way) // 3:
+            touch(session, "touchStart", place)
+        if place and number == len(way) // 2:
+            touch(session, "touchMove", [place[0] + 3, place[1] - 2])
+        pen(session, "mouseMoved", here)
+    pen(session, "mouseReleased", way[-1])
+    if place:
+        touch(session, "touchEnd")
+
+
+def pen(session, kind, place):
+    about = {"x": place[0], "y": place[1], "pointerType": "pen", "button": "left", "buttons": 1, "clickCount": 1}
+    session.send("Input.dispatchMouseEvent", {"type": kind} | about)

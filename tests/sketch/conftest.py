@@ -105,3 +105,15 @@ def page(server, browser):
 def sketch(page):
     page.wait_for_selector("html[data-ready]")
     return page
+
+
+@pytest.fixture(params=[(360, 740), (412, 915), (740, 360)], ids=lambda size: f"{size[0]}x{size[1]}")
+def phone(request, browser, server):
+    """The page on a phone, under a finger."""
+    width, height = request.param
+    context = browser.new_context(viewport={"width": width, "height": height}, has_touch=True, is_mobile=True)
+    tab = context.new_page()
+    tab.goto(server.url)
+    tab.wait_for_selector("html[data-ready]")
+    yield tab
+    context.close()

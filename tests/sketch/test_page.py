@@ -284,18 +284,6 @@ def test_a_sheet_that_cannot_be_lifted_says_why(sketch):
     assert sum("cannot be lifted" in text for text in seen) == 1
 
 
-@pytest.fixture(params=[(360, 740), (412, 915), (740, 360)], ids=lambda size: f"{size[0]}x{size[1]}")
-def phone(request, browser, server):
-    """The page on a phone, under a finger."""
-    width, height = request.param
-    context = browser.new_context(viewport={"width": width, "height": height}, has_touch=True, is_mobile=True)
-    tab = context.new_page()
-    tab.goto(server.url)
-    tab.wait_for_selector("html[data-ready]")
-    yield tab
-    context.close()
-
-
 # The box of an element, without what scrolls out of sight.
 IN_SIGHT = """element => new Promise((resolve) => new IntersectionObserver(([{ intersectionRect }]) =>
     resolve([intersectionRect.width, intersectionRect.height])).observe(element))"""
