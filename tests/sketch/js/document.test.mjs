@@ -4,7 +4,7 @@ import { test } from "node:test";
 import * as camera from "../../../src/plyfold/sketch/static/camera.js";
 import * as drawing from "../../../src/plyfold/sketch/static/document.js";
 import { begin, canRedo, canUndo, record, redo, undo } from "../../../src/plyfold/sketch/static/history.js";
-import { checked, decode, encode, hasDrawing } from "../../../src/plyfold/sketch/static/link.js";
+import { asText, checked, decode, encode, hasDrawing } from "../../../src/plyfold/sketch/static/link.js";
 
 const square = drawing.loop([[0, 0], [10, 0], [10, 10], [0, 10]]);
 const open = (...points) => ({ points, closed: false });
@@ -63,6 +63,14 @@ test("a link holds the whole drawing", async () => {
   assert.ok(hasDrawing(link));
   assert.match(link, /^#d=[\w-]+$/);
   assert.deepEqual(await decode(link), { ...square, view: { immersion: "1" } });
+});
+
+test("numbers come back as they were from links and files, at every scale", async () => {
+  for (let power = -12; power <= 12; power++) {
+    const points = Array.from({ length: 50 }, (_, i) => [Math.sin(9 * i) * 10 ** power, Math.cos(7 * i) * 10 ** power]);
+    assert.deepEqual((await decode(await encode(drawing.loop(points)))).strokes[0].points, points);
+    assert.deepEqual(checked(JSON.parse(asText(drawing.loop(points)))).strokes[0].points, points);
+  }
 });
 
 test("what is no drawing is refused", async () => {

@@ -45,10 +45,6 @@ export function toggleClosed(document) {
   return changeStroke(document, target, (stroke) => ({ ...stroke, closed: !stroke.closed }));
 }
 
-/** Coordinates with two decimals more than a screen pixel can show, so that links and files stay short. */
-export const rounded = (document, digits = 3) => withStrokes(document, document.strokes.map(({ points, closed }) => (
-  { closed, points: points.map(([x, y]) => [Number(x.toFixed(digits)), Number(y.toFixed(digits))]) })));
-
 // ---- finding ------------------------------------------------------------------------------------------------------
 
 /** The vertex nearest to a place, within reach, as {stroke, vertex}, or null. */
