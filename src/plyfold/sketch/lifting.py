@@ -13,6 +13,7 @@ from plyfold.layering import Layering
 from plyfold.obstruction import Obstruction
 from plyfold.sketch.drawings import immersed, immersion_count, layered
 from plyfold.sketch.lie import obstruction_data
+from plyfold.sketch.patience import patient
 from plyfold.sketch.schema import VERSION, Surface
 
 __all__ = ["lifted_surface", "surface"]
@@ -79,7 +80,7 @@ def lifted_surface(question: Surface) -> lifted.Surface:
         return lifted.lift(found, **options)
     if question.allow_intersections:
         disk = immersed(question.strokes, question.immersion)
-        return lifted.lift(disk, allow_intersections=True, time_limit=_SECONDS_TO_INTERSECT, **options)
+        return lifted.lift(disk, allow_intersections=True, time_limit=patient(_SECONDS_TO_INTERSECT), **options)
     if isinstance(found, Obstruction):
         raise NotEmbeddableError(found)
     raise TimeLimitError(found.sentence)
