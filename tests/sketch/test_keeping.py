@@ -8,7 +8,21 @@ import pytest
 from plyfold.sketch.look import look
 from plyfold.sketch.opening import open_file
 from plyfold.sketch.schema import Look
-from sketch.by_hand import WORD, draw, draw_by_pen, eight, named, places, saved, settled, verdict, wait_until
+from sketch.by_hand import (
+    WORD,
+    draw,
+    draw_by_pen,
+    eight,
+    figure,
+    named,
+    pen,
+    places,
+    saved,
+    settled,
+    touch,
+    verdict,
+    wait_until,
+)
 
 pytest.importorskip("playwright")
 
@@ -152,6 +166,22 @@ def test_a_drawing_that_cannot_be_kept_can_be_left_behind_or_saved_as_a_file(ske
     assert len(sketch.evaluate(KEPT)) == count
 
 
+def test_a_page_with_work_that_is_not_kept_asks_before_it_closes(sketch):
+    sketch.evaluate(FILL)
+    draw(sketch, eight())
+    sketch.wait_for_function(TOLD)
+    asked = []
+    sketch.on("dialog", lambda dialog: (asked.append(dialog.type), dialog.accept()))
+    reloaded(sketch)
+    assert asked == ["beforeunload"]
+    sketch.evaluate("localStorage.clear()")
+    sketch.keyboard.press("n")
+    draw(sketch, eight())
+    verdict(sketch, WORD["none"])
+    reloaded(sketch)
+    assert len(asked) == 1
+
+
 # ---- every scale -----------------------------------------------------------------------------------------------------
 
 
@@ -186,6 +216,22 @@ def test_link_and_file_hold_the_drawing_at_every_scale(sketch, scale, tmp_path):
     verdict(sketch, "A disk of cloth, in 2 ways")
     back = sketch.evaluate("async () => (await (await import('/link.js')).decode(location.hash)).strokes")
     assert answers(open_file("link.json", json.dumps(document | {"strokes": back}).encode())) == answers(begun)
+
+
+def test_a_long_drawing_still_fits_into_a_link_if_rounding_changes_no_answer(sketch, tmp_path):
+    t = np.linspace(0, 2 * np.pi, 500, endpoint=False)
+    points = 1e-7 * np.c_[np.sin(t) + 0.3 * np.sin(7 * t), np.cos(t) + 0.3 * np.cos(7 * t)]
+    opened_with(sketch, {"plyfold": 1, "strokes": [{"points": points.tolist(), "closed": True}]}, tmp_path)
+    verdict(sketch, "")
+    sketch.wait_for_selector("#figures dd")
+    code = figure(sketch, "Gauss code")
+    sketch.keyboard.press("Shift+S")
+    sketch.wait_for_function("() => location.hash.startsWith('#d=')")
+    link = sketch.url
+    sketch.goto("about:blank")
+    sketch.goto(link)
+    sketch.wait_for_selector("#figures dd")
+    assert figure(sketch, "Gauss code") == code
 
 
 # ---- two tabs, and hands ---------------------------------------------------------------------------------------------
@@ -259,3 +305,22 @@ def test_a_palm_on_the_screen_leaves_the_pens_stroke_alone(phone, palm):
     assert len(saved(phone)["strokes"]) == 1
     draw_by_pen(phone, named("exit-ramp", 0.4 * size), palm=None)
     wait_until(lambda: len(saved(phone)["strokes"]) == 2, "the pen draws again")
+
+
+def test_a_palm_and_a_second_finger_take_no_points_away(phone):
+    phone.tap("[data-action=points]")
+    session = phone.context.new_cdp_session(phone)
+    first, second, third, palm, *fingers = places(phone, [[-90, -60], [90, -60], [0, 60], [60, -90], [-9, 0], [40, 0]])
+    for place in (first, second):
+        touch(session, "touchStart", place)
+        touch(session, "touchEnd")
+    touch(session, "touchStart", fingers[0])
+    touch(session, "touchStart", *fingers)
+    touch(session, "touchEnd")
+    touch(session, "touchStart", palm)
+    pen(session, "mousePressed", third)
+    pen(session, "mouseReleased", third)
+    touch(session, "touchEnd")
+    phone.keyboard.press("c")
+    verdict(phone, WORD["immersible"])
+    assert len(saved(phone)["strokes"][0]["points"]) == 3

@@ -73,6 +73,16 @@ test("numbers come back as they were from links and files, at every scale", asyn
   }
 });
 
+test("rounded drawings have six digits of their size, at every scale", () => {
+  for (let power = -12; power <= 12; power++) {
+    const size = 3 * 10 ** power;
+    const points = Array.from({ length: 50 }, (_, i) => [Math.sin(9 * i) * size, Math.cos(7 * i) * size]);
+    const after = drawing.rounded(drawing.loop(points)).strokes[0].points;
+    assert.ok(after.every(([x, y], i) => Math.hypot(x - points[i][0], y - points[i][1]) < 1e-5 * size));
+    assert.ok(after.flat().every((value) => `${value}`.replace(/e.*/, "").replace(/[-.]/g, "").replace(/^0+|0+$/g, "").length <= 6));
+  }
+});
+
 test("what is no drawing is refused", async () => {
   await assert.rejects(decode("#d=AAAA"));
   for (const wrong of [null, {}, { plyfold: 2, strokes: [] }, { plyfold: 1, strokes: [{ points: [[0, null]] }] }]) {

@@ -1,9 +1,10 @@
 // What can be done to the page: small steps that actions, tools and dialogs share. Each takes the page,
 // {store, size(), question(), place, former, writing}, and changes its store.
 
+import { ask } from "./answers.js";
 import { fitted } from "./camera.js";
 import { crossingCode } from "./crossings.js";
-import { EMPTY, addStroke, allPoints, ends, isEmpty, joins, paths, withImage } from "./document.js";
+import { EMPTY, addStroke, allPoints, ends, isEmpty, joins, paths, rounded, withImage } from "./document.js";
 import { begin, record, redo, undo } from "./history.js";
 import { complete, keepNewPicture, save, settingsOf, whole } from "./keeping.js";
 import { LONGEST_LINK, asText, encode } from "./link.js";
@@ -146,8 +147,19 @@ async function usePicture(page, image) {
 
 // ---- giving away --------------------------------------------------------------------------------------------------
 
+/** The drawing as it is; or rounded, if it is too long for a link else and the answers stay as they are. */
+async function linkOf(page) {
+  const document = complete(page);
+  const fragment = await encode(document);
+  const answer = answerShown(page.store.state);
+  if (fragment.length <= LONGEST_LINK || !answer) return fragment;
+  const shorter = rounded(document);
+  const told = await ask("look", { strokes: shorter.strokes });
+  return told?.gauss === answer.gauss && told.verdict.immersions === answer.verdict.immersions ? encode(shorter) : fragment;
+}
+
 export async function share(page) {
-  const fragment = await encode(complete(page));
+  const fragment = await linkOf(page);
   if (fragment.length > LONGEST_LINK) {
     return tell(page, "This drawing is too long for a link. Save it as a file and send that instead.", ["saveFile"]);
   }

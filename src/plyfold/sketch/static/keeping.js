@@ -5,8 +5,8 @@ import { isEmpty, withImage } from "./document.js";
 import { keepPicture, recallPicture } from "./pictures.js";
 import { keep } from "./storage.js";
 
-const NO_ROOM = "This drawing is not kept: the browser has no room left. Save it as a file, or discard other drawings.";
-const NO_ROOM_FOR_PICTURE = "The picture is not kept: the browser has no room left for it. Save the drawing as a file, or discard other drawings.";
+const NO_ROOM = "This drawing is not kept: the browser has no room left.";
+const NO_ROOM_FOR_PICTURE = "The picture is not kept: the browser has no room left for it.";
 const TWIN = "This drawing is open in another page too. Here it goes on as a drawing of its own.";
 
 /** The drawing with the settings that belong to it. */
