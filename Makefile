@@ -30,6 +30,7 @@ test-slow: $(READY)  ## The tests that take minutes: every curve with six crossi
 nightly: $(READY)  ## 100,000 random curves against the slow references: under an hour; OPTIONS="--seconds 60" for a taste
 	PYTHONPATH=tests $(BIN)/python -m nightly $(OPTIONS)
 	PYTHONPATH=tests $(BIN)/python -m nightly.disturbed
+	PYTHONPATH=tests $(BIN)/python -m nightly.scales
 
 browser:  ## A browser for the tests of the pages, where there is none: Debian's Chromium, if this is root on Debian
 	@for program in chromium chromium-browser google-chrome; do \

@@ -1,6 +1,7 @@
 """A running server, and its page in a browser."""
 
 import json
+import os
 import re
 import signal
 import subprocess
@@ -12,6 +13,22 @@ from typing import Any
 from urllib.parse import urlsplit
 
 import pytest
+
+from sketch.by_hand import LIMIT
+
+LASTING = """
+    const wait = window.setTimeout;
+    window.setTimeout = (act, milliseconds, ...rest) => wait(act, milliseconds < 5000 ? milliseconds : 1e8, ...rest);
+"""
+"""What leaves the page by itself after some seconds stays: a busy machine may need them."""
+
+
+@pytest.fixture(scope="session", autouse=True)
+def patience():
+    """Time limits a hundred times as long: no test depends on how fast the machine is."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(os.environ, "PLYFOLD_PATIENCE", "100")
+        yield
 
 
 @dataclass
@@ -35,7 +52,7 @@ class Server:
     def host(self):
         return urlsplit(self.url).netloc
 
-    def connection(self, timeout=60):
+    def connection(self, timeout=LIMIT):
         return HTTPConnection(self.host, timeout=timeout)
 
     def request(self, method, path, body=None, headers=None):
@@ -67,7 +84,7 @@ def running_server(folder, *options):
             yield Server(re.search(r"http://\S+", said)[0], process, folder / "log.txt")
         finally:
             process.send_signal(signal.SIGINT)
-            process.communicate(timeout=20)
+            process.communicate(timeout=LIMIT)
 
 
 @pytest.fixture
@@ -89,6 +106,8 @@ def server(tmp_path_factory):
 def page(server, browser):
     """The page in a fresh browser profile; it must not complain, nor ask anything of anyone else."""
     context = browser.new_context(viewport={"width": 1280, "height": 800}, accept_downloads=True)
+    context.set_default_timeout(1000 * LIMIT)
+    context.add_init_script(LASTING)
     tab = context.new_page()
     tab.complaints, tab.asked = [], []
     tab.on("console", lambda message: tab.complaints.append(message.text) if message.type == "error" else None)
@@ -99,3 +118,23 @@ def page(server, browser):
     context.close()
     assert tab.complaints == []
     assert all(address.startswith((server.url, "data:", "blob:")) for address in tab.asked)
+
+
+@pytest.fixture
+def sketch(page):
+    page.wait_for_selector("html[data-ready]")
+    return page
+
+
+@pytest.fixture(params=[(360, 740), (412, 915), (740, 360)], ids=lambda size: f"{size[0]}x{size[1]}")
+def phone(request, browser, server):
+    """The page on a phone, under a finger."""
+    width, height = request.param
+    context = browser.new_context(viewport={"width": width, "height": height}, has_touch=True, is_mobile=True)
+    context.set_default_timeout(1000 * LIMIT)
+    context.add_init_script(LASTING)
+    tab = context.new_page()
+    tab.goto(server.url)
+    tab.wait_for_selector("html[data-ready]")
+    yield tab
+    context.close()

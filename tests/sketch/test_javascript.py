@@ -10,6 +10,7 @@ import pytest
 
 from plyfold import sketch
 from plyfold.draw import colours
+from sketch.by_hand import LIMIT
 
 TESTS = sorted((Path(__file__).parent / "js").glob("*.test.mjs"))
 
@@ -25,7 +26,7 @@ def node_version() -> int:
 @pytest.mark.skipif(node_version() < 20, reason="node 20 or later is not there")
 @pytest.mark.parametrize("test", TESTS, ids=lambda path: path.name)
 def test_module(test):
-    run = subprocess.run(["node", "--test", str(test)], capture_output=True, text=True, check=False, timeout=120)
+    run = subprocess.run(["node", "--test", str(test)], capture_output=True, text=True, check=False, timeout=LIMIT)
     assert run.returncode == 0, run.stdout
 
 

@@ -5,15 +5,21 @@ import os
 import signal
 import socket
 import threading
-import time
 from base64 import b64encode
+from dataclasses import dataclass
 from hashlib import sha256
 from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
 
+from plyfold.sketch.answers import json_answer
+from plyfold.sketch.opening import start
 from plyfold.sketch.pages import _policy
+from plyfold.sketch.server import SketchServer
+from plyfold.sketch.workers import Workers
+from sketch.by_hand import LIMIT, wait_until
+from sketch.conftest import Server
 
 RAMP = [[0, 0], [9, 0], [9, 6], [3, 6], [3, -3], [4, -3], [4, 5], [8, 5], [8, 1], [0, 1]]
 # Three million crossings: many seconds of work, whatever the machine.
@@ -250,7 +256,7 @@ def test_uploads_over_the_stated_size_are_refused_before_they_are_read(server):
     assert reply.status == 413
     assert "16 MiB" in error(reply)["sentence"]
     with socket.create_connection(server.host.split(":")) as line:  # and one that only says so is not waited for
-        line.settimeout(10)
+        line.settimeout(LIMIT)
         start = f"POST /api/v1/open HTTP/1.1\r\nHost: {server.host}\r\nContent-Length: {10**15}\r\n\r\n"
         line.sendall(start.encode())
         assert line.recv(4096).startswith(b"HTTP/1.1 413")
@@ -259,7 +265,7 @@ def test_uploads_over_the_stated_size_are_refused_before_they_are_read(server):
 @pytest.mark.parametrize("length", ["", "-1", "1e3", "\u0663", "9" * 40])
 def test_a_question_says_how_long_it_is(server, length):
     with socket.create_connection(server.host.split(":")) as line:
-        line.settimeout(10)
+        line.settimeout(LIMIT)
         start = f"POST /api/v1/open HTTP/1.1\r\nHost: {server.host}\r\nContent-Length: {length}\r\n\r\n"
         line.sendall(start.encode())
         assert line.recv(4096).startswith(b"HTTP/1.1 411")
@@ -288,7 +294,7 @@ def test_other_addresses_and_methods_are_refused_in_a_sentence(server, method, p
 
 def test_nonsense_on_the_line_is_answered_in_a_sentence(server):
     with socket.create_connection(server.host.split(":")) as line:
-        line.settimeout(10)
+        line.settimeout(LIMIT)
         line.sendall(b"what? is this?\r\n\r\n")
         assert b'"sentence"' in line.recv(4096)
 
@@ -303,7 +309,7 @@ def in_background(ask):
     thread.start()
 
     def done():
-        thread.join(60)
+        thread.join(LIMIT)
         return found[0]
 
     done.found = found
@@ -315,80 +321,96 @@ def children(process):
         return [int(child) for child in file.read().split()]
 
 
-def test_a_newer_question_of_a_page_ends_its_earlier_one(server):
-    slow = in_background(lambda: server.post("look", SLOW, X_Plyfold_Page="a"))
-    time.sleep(0.5)
-    quick = server.post("look", {"points": RAMP}, X_Plyfold_Page="a")
+@dataclass
+class Observed(Server):
+    """A server in this process, whose workers can be watched."""
+
+    workers: Workers
+
+    def is_working_on(self, count):
+        """Wait until so many questions are being answered."""
+        wait_until(lambda: len(self.workers._working) == count, f"{count} questions have arrived")
+
+
+@pytest.fixture
+def observed():
+    workers = Workers()
+    serving = SketchServer("127.0.0.1", 0, workers, json_answer(start(None)))
+    thread = threading.Thread(target=serving.serve_forever)
+    thread.start()
+    yield Observed(serving.address, None, None, workers)
+    serving.shutdown()
+    thread.join(LIMIT)
+    serving.server_close()
+    workers.close()
+
+
+def test_a_newer_question_of_a_page_ends_its_earlier_one(observed):
+    slow = in_background(lambda: observed.post("look", SLOW, X_Plyfold_Page="a"))
+    observed.is_working_on(1)
+    quick = observed.post("look", {"points": RAMP}, X_Plyfold_Page="a")
     assert quick.data["turning_number"] == 1
     ended = slow()
     assert ended.status == 200
     assert error(ended)["kind"] == "superseded"
 
 
-def test_a_slow_question_does_not_keep_others_waiting(server):
-    slow = [in_background(lambda n=n: server.post("look", SLOW, X_Plyfold_Page=f"slow{n}")) for n in range(3)]
-    time.sleep(0.3)
-    assert server.post("look", {"points": RAMP}, X_Plyfold_Page="quick").status == 200
-    assert server.post("lie", {"points": RAMP}, X_Plyfold_Page="slow0").status == 200
+def test_a_slow_question_does_not_keep_others_waiting(observed):
+    slow = [in_background(lambda n=n: observed.post("look", SLOW, X_Plyfold_Page=f"slow{n}")) for n in range(3)]
+    observed.is_working_on(3)
+    assert observed.post("look", {"points": RAMP}, X_Plyfold_Page="quick").status == 200
+    assert observed.post("lie", {"points": RAMP}, X_Plyfold_Page="slow0").status == 200
     assert not any(done.found for done in slow)
     for number, done in enumerate(slow):
-        server.post("look", {"points": RAMP}, X_Plyfold_Page=f"slow{number}")
+        observed.post("look", {"points": RAMP}, X_Plyfold_Page=f"slow{number}")
         assert error(done())["kind"] == "superseded"
 
 
-def test_a_page_that_goes_takes_its_question_with_it(server):
+def test_a_page_that_goes_takes_its_question_with_it(observed):
     """More of them than may work at the same time: each must be ended for the next to be heard."""
     for _ in range(10):
-        connection = server.connection()
+        connection = observed.connection()
         connection.request("POST", "/api/v1/look", SLOW, {"Content-Type": "application/json"})
-        time.sleep(0.05)
+        observed.is_working_on(1)
         connection.close()
-    time.sleep(0.3)
-    assert server.post("look", {"points": RAMP}).status == 200
+        observed.is_working_on(0)
+    assert observed.post("look", {"points": RAMP}).status == 200
 
 
-def test_too_many_questions_at_once_are_turned_away_in_a_sentence(server):
-    slow = [in_background(lambda n=n: server.post("look", SLOW, X_Plyfold_Page=f"many{n}")) for n in range(8)]
-    time.sleep(2.0)
-    reply = server.post("look", {"points": RAMP})
+def test_too_many_questions_at_once_are_turned_away_in_a_sentence(observed):
+    slow = [in_background(lambda n=n: observed.post("look", SLOW, X_Plyfold_Page=f"many{n}")) for n in range(8)]
+    observed.is_working_on(8)
+    reply = observed.post("look", {"points": RAMP})
     for number in range(8):
-        server.post("look", {"points": RAMP}, X_Plyfold_Page=f"many{number}")
+        observed.post("look", {"points": RAMP}, X_Plyfold_Page=f"many{number}")
     assert [error(done())["kind"] for done in slow] == ["superseded"] * 8
     assert reply.status == 503
     assert error(reply)["kind"] == "busy"
 
 
+def test_a_worker_that_dies_is_replaced(observed):
+    slow = in_background(lambda: observed.post("look", SLOW))
+    observed.is_working_on(1)
+    for worker in list(observed.workers._working):
+        os.kill(worker.process.pid, signal.SIGKILL)
+    died = slow()
+    assert died.status == 500
+    assert "died" in error(died)["sentence"]
+    assert observed.post("look", {"points": RAMP}).status == 200
+
+
 @pytest.mark.skipif(not os.path.exists("/proc/self/task"), reason="finds the workers in /proc")  # noqa: PTH110
-def test_a_worker_that_dies_is_replaced(start_server):
-    with start_server() as server:
-        slow = in_background(lambda: server.post("look", SLOW))
-        time.sleep(1.0)
-        helpers = children(server.process.pid)
-        workers = [worker for helper in helpers for worker in children(helper)]
-        assert workers
-        for worker in workers:
-            os.kill(worker, signal.SIGKILL)
-        died = slow()
-        assert died.status == 500
-        assert "died" in error(died)["sentence"]
-        time.sleep(0.3)
-        assert server.post("look", {"points": RAMP}).status == 200
-
-
 def test_the_server_leaves_nobody_behind_and_the_page_can_come_back(start_server):
     with start_server() as first:
         port = urlsplit(first.url).port
         slow = in_background(lambda: ask_in_vain(first))
-        time.sleep(1.0)
+        wait_until(lambda: any(map(children, children(first.process.pid))), "the workers are there")
         helpers = children(first.process.pid)
         workers = [worker for helper in helpers for worker in children(helper)]
         first.process.kill()
         first.process.wait()
         slow()
-    deadline = time.monotonic() + 10
-    while any(is_alive(process) for process in [*helpers, *workers]) and time.monotonic() < deadline:
-        time.sleep(0.1)
-    assert not any(is_alive(process) for process in [*helpers, *workers])
+    wait_until(lambda: not any(map(is_alive, [*helpers, *workers])), "all processes have ended")
     with start_server("--port", str(port)) as second:
         assert second.post("look", {"points": RAMP}).status == 200
 

@@ -13,6 +13,7 @@ from plyfold.errors import CurveError, NotImmersibleError, StrokeError
 from plyfold.immersion import Immersion, count_immersions, find_immersion, nth_immersion
 from plyfold.layering import Layering, count_layerings, find_layering, layerings
 from plyfold.obstruction import Obstruction, Unknown
+from plyfold.sketch.patience import patient
 from plyfold.sketch.schema import Stroke
 
 __all__ = ["Layered", "arranged", "curve_of", "immersed", "immersion_count", "layered"]
@@ -113,10 +114,10 @@ def layered(strokes: tuple[Stroke, ...], immersion: int, layering: int) -> Layer
     was found first.
     """
     disk = immersed(strokes, immersion)
-    found = find_layering(disk, _SECONDS_TO_DECIDE)
+    found = find_layering(disk, patient(_SECONDS_TO_DECIDE))
     if not isinstance(found, Layering):
         return Layered(found, 0, 0 if isinstance(found, Obstruction) else None)
-    count = count_layerings(disk, _SECONDS_TO_COUNT)
+    count = count_layerings(disk, patient(_SECONDS_TO_COUNT))
     if isinstance(count, Unknown):
         return Layered(found, 0, None)
     number = layering % min(count, _MOST_LISTED)

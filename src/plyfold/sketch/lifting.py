@@ -14,6 +14,7 @@ from plyfold.layering import Layering
 from plyfold.obstruction import Obstruction
 from plyfold.sketch.drawings import immersed, immersion_count, layered
 from plyfold.sketch.lie import obstruction_data
+from plyfold.sketch.patience import patient
 from plyfold.sketch.schema import VERSION, Surface
 from plyfold.surface.surface import layering_of
 
@@ -81,7 +82,7 @@ def lifted_surface(question: Surface) -> lifted.Surface:
         return lifted.lift(found, **options)
     if question.allow_intersections:
         disk = immersed(question.strokes, question.immersion)
-        within = Watch(Clock(_SECONDS_TO_INTERSECT))
+        within = Watch(Clock(patient(_SECONDS_TO_INTERSECT)))
         return lifted.lift(layering_of(disk, True, within), **options)
     if isinstance(found, Obstruction):
         raise NotEmbeddableError(found)

@@ -17,6 +17,7 @@ from urllib.parse import urlsplit
 from plyfold.sketch.answers import Answer, error_answer
 from plyfold.sketch.guard import objection
 from plyfold.sketch.pages import SECURITY_HEADERS, page_file
+from plyfold.sketch.patience import patient
 from plyfold.sketch.schema import MOST_BYTES
 from plyfold.sketch.workers import Question, Workers
 
@@ -123,7 +124,7 @@ class _Handler(BaseHTTPRequestHandler):
         page = self.headers.get("X-Plyfold-Page")
         place = (page, name) if page and name in _SUPERSEDING else None
         told = {key: self.headers[key] for key in _PASSED_ON if key in self.headers}
-        return self.server.workers.ask(Question(name, body, told, _SECONDS[name], place), self.connection)
+        return self.server.workers.ask(Question(name, body, told, patient(_SECONDS[name]), place), self.connection)
 
     def _refused_unread(self, refusal: Answer) -> Answer:
         """Swallow what was sent with a refused question, within reason: who is still talking does not hear."""

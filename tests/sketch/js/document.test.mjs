@@ -4,7 +4,7 @@ import { test } from "node:test";
 import * as camera from "../../../src/plyfold/sketch/static/camera.js";
 import * as drawing from "../../../src/plyfold/sketch/static/document.js";
 import { begin, canRedo, canUndo, record, redo, undo } from "../../../src/plyfold/sketch/static/history.js";
-import { checked, decode, encode, hasDrawing } from "../../../src/plyfold/sketch/static/link.js";
+import { asText, checked, decode, encode, hasDrawing } from "../../../src/plyfold/sketch/static/link.js";
 
 const square = drawing.loop([[0, 0], [10, 0], [10, 10], [0, 10]]);
 const open = (...points) => ({ points, closed: false });
@@ -63,6 +63,24 @@ test("a link holds the whole drawing", async () => {
   assert.ok(hasDrawing(link));
   assert.match(link, /^#d=[\w-]+$/);
   assert.deepEqual(await decode(link), { ...square, view: { immersion: "1" } });
+});
+
+test("numbers come back as they were from links and files, at every scale", async () => {
+  for (let power = -12; power <= 12; power++) {
+    const points = Array.from({ length: 50 }, (_, i) => [Math.sin(9 * i) * 10 ** power, Math.cos(7 * i) * 10 ** power]);
+    assert.deepEqual((await decode(await encode(drawing.loop(points)))).strokes[0].points, points);
+    assert.deepEqual(checked(JSON.parse(asText(drawing.loop(points)))).strokes[0].points, points);
+  }
+});
+
+test("rounded drawings have six digits of their size, at every scale", () => {
+  for (let power = -12; power <= 12; power++) {
+    const size = 3 * 10 ** power;
+    const points = Array.from({ length: 50 }, (_, i) => [Math.sin(9 * i) * size, Math.cos(7 * i) * size]);
+    const after = drawing.rounded(drawing.loop(points)).strokes[0].points;
+    assert.ok(after.every(([x, y], i) => Math.hypot(x - points[i][0], y - points[i][1]) < 1e-5 * size));
+    assert.ok(after.flat().every((value) => `${value}`.replace(/e.*/, "").replace(/[-.]/g, "").replace(/^0+|0+$/g, "").length <= 6));
+  }
 });
 
 test("what is no drawing is refused", async () => {

@@ -81,20 +81,45 @@ function loadedImages(onLoad) {
 
 // ---- pointers -----------------------------------------------------------------------------------------------------
 
+/** While a pen is on the screen, or just above it, a touch is the hand that holds it. */
+function palmsOf(canvas) {
+  let penIsNear = false;
+  const follow = (isNear) => ({ pointerType }) => {
+    if (pointerType === "pen") penIsNear = isNear;
+  };
+  for (const kind of ["pointerenter", "pointerdown", "pointermove"]) canvas.addEventListener(kind, follow(true));
+  for (const kind of ["pointerleave", "pointercancel"]) canvas.addEventListener(kind, follow(false));
+  return ({ pointerType }) => pointerType === "touch" && penIsNear;
+}
+
 function listen(page, canvas) {
+  const isPalm = palmsOf(canvas);
   const fingers = new Map(); // where each pointer is, in pixels of the canvas
   const place = (event) => [event.offsetX, event.offsetY];
   const drawn = (event) => toDrawing(page.store.state.camera, place(event));
   const reach = (event) => (REACH[event.pointerType] ?? REACH.mouse) / page.store.state.camera.scale;
   let tool = null;
+  let before = page.store.state; // what a stroke began with
+
+  const giveUp = () => {
+    const { path, ahead, history } = before;
+    const { history: now } = page.store.state;
+    cancel(page);
+    tool = null;
+    if (now === history) page.store.set({ path, ahead });
+  };
 
   canvas.addEventListener("pointerdown", (event) => {
+    if (isPalm(event)) return;
+    if (event.pointerType === "pen" && fingers.size) { // the hand came first
+      fingers.clear();
+      giveUp();
+    }
     canvas.setPointerCapture(event.pointerId);
     fingers.set(event.pointerId, place(event));
-    if (fingers.size > 1) {
-      cancel(page);
-      tool = null;
-    } else if (event.button !== 2) {
+    if (fingers.size > 1) giveUp();
+    else if (event.button !== 2) {
+      before = page.store.state;
       tool = event.button === 1 || page.spaceHeld ? TOOLS.hand : TOOLS[page.store.state.tool];
       page.store.set({ busy: true, cursor: null, hover: null });
       tool.down?.(page, drawn(event), reach(event));
@@ -103,23 +128,23 @@ function listen(page, canvas) {
 
   canvas.addEventListener("pointermove", (event) => {
     if (!page.store.state.busy) tool = null; // it was given up
-    if (!fingers.has(event.pointerId)) return hover(page, drawn(event), reach(event));
+    if (!fingers.has(event.pointerId)) return event.pointerType === "touch" ? undefined : hover(page, drawn(event), reach(event));
     if (fingers.size > 1) pinch(page, fingers, event.pointerId, place(event));
-    const before = fingers.get(event.pointerId);
+    const from = fingers.get(event.pointerId);
     fingers.set(event.pointerId, place(event));
     page.altHeld = event.altKey;
-    page.pan = () => page.store.set({ camera: panned(page.store.state.camera, minus(place(event), before)) });
+    page.pan = () => page.store.set({ camera: panned(page.store.state.camera, minus(place(event), from)) });
     const events = event.getCoalescedEvents?.() ?? [];
     return tool?.move?.(page, (events.length ? events : [event]).map(drawn));
   });
 
   const lift = (event) => {
-    if (!fingers.delete(event.pointerId)) return;
+    if (!fingers.delete(event.pointerId)) return undefined;
+    if (event.type === "pointercancel") return tool && giveUp();
     const ended = page.store.state.busy ? tool : null;
     tool = null;
     page.store.set({ busy: false });
-    if (event.type === "pointercancel") cancel(page);
-    else ended?.up?.(page);
+    return ended?.up?.(page);
   };
   canvas.addEventListener("pointerup", lift);
   canvas.addEventListener("pointercancel", lift);

@@ -1,13 +1,15 @@
 // What can be done to the page: small steps that actions, tools and dialogs share. Each takes the page,
-// {store, ask, size(), former, id}, and changes its store.
+// {store, size(), question(), place, former, writing}, and changes its store.
 
+import { ask } from "./answers.js";
 import { fitted } from "./camera.js";
 import { crossingCode } from "./crossings.js";
 import { EMPTY, addStroke, allPoints, ends, isEmpty, joins, paths, rounded, withImage } from "./document.js";
 import { begin, record, redo, undo } from "./history.js";
-import { LONGEST_LINK, encode } from "./link.js";
+import { complete, keepNewPicture, save, settingsOf, whole } from "./keeping.js";
+import { LONGEST_LINK, asText, encode } from "./link.js";
 import { answerShown, shown } from "./store.js";
-import { keep, newId, recall } from "./storage.js";
+import { newPlace, recall } from "./storage.js";
 
 export const tell = ({ store }, text, actions = []) => store.set({ notice: { text, actions } });
 
@@ -72,41 +74,48 @@ export function walk({ store }, kind, by) {
 
 // ---- opening ------------------------------------------------------------------------------------------------------
 
-/** The drawing with the settings that belong to it. */
-export function complete({ store }) {
-  const { history, immersion, layering, gap } = store.state;
-  const { immersion: _, layering: __, gap: ___, ...view } = history.present.view;
-  const settings = { ...(immersion === "0" ? {} : { immersion }), ...(layering === "0" ? {} : { layering }), ...(gap ? { gap } : {}) };
-  return { ...history.present, view: { ...view, ...settings } };
-}
-
 /** Show another drawing. The one before stays kept under its own name, and there is a way back. */
-export function openDrawing(page, document, name = null, id = newId()) {
+export async function openDrawing(page, document, name = null, place = newPlace()) {
   const { store } = page;
   const hadWork = !isEmpty(store.state.history.present);
-  if (hadWork) save(page);
-  page.former = hadWork ? page.id : null;
-  page.id = id;
-  const { immersion = "0", layering = "0", gap = null } = document.view ?? {};
+  if (hadWork && !(await mayLeave(page))) return;
+  page.former = hadWork && !store.state.unkept ? page.place.id : null;
+  page.place = place;
   store.set({
     history: begin(document), name, preview: null, path: [], ahead: [], selected: null, carried: null, answer: null, answered: null, lie: null,
-    mesh: null, unlifted: null, immersion, layering, gap, hover: null, notice: null,
+    mesh: null, unlifted: null, ...settingsOf(document), hover: null, notice: null, tool: toolFor(document, store.state),
   });
   fit(page);
   if (page.former) tell(page, `${name ?? "A new drawing"} is open. The drawing before is kept.`, ["back"]);
 }
 
-export function goBack(page) {
-  const former = page.former && recall(localStorage, page.former);
-  if (former) openDrawing(page, former.document, former.name, former.id);
+const SAVE = "Save it as a file";
+const LEAVE = "Leave it behind";
+
+/** Whether the drawing may make way for another: if it is kept, or else if its owner says so. */
+async function mayLeave(page) {
+  save(page);
+  await page.writing;
+  const { unkept } = page.store.state;
+  const choice = unkept && (await page.question("Leave this drawing behind?", unkept, [SAVE, LEAVE]));
+  if (choice === SAVE) saveFile(page);
+  return !unkept || choice !== null;
 }
 
-export function save(page) {
-  const document = complete(page);
-  if (isEmpty(document)) return;
-  if (!keep(localStorage, page.id, document, page.store.state.name)) {
-    tell(page, "This browser has no room left to keep the drawing: save it as a file.", ["saveFile"]);
-  }
+/** An empty paper is to be drawn on: tools that only change what is there make way. */
+function toolFor(document, { tool, cursor }) {
+  return isEmpty(document) && !["draw", "points"].includes(tool) ? (cursor ? "points" : "draw") : tool;
+}
+
+/** Show a drawing that is kept. */
+export async function openKept(page, kept) {
+  const { document, place } = await whole(kept);
+  await openDrawing(page, document, kept.name, place);
+}
+
+export async function goBack(page) {
+  const former = page.former && recall(localStorage, page.former);
+  if (former) await openKept(page, former);
 }
 
 export function fit({ store, size }) {
@@ -122,13 +131,35 @@ export async function openFile(page, file) {
   if (!answer || answer.error) return tell(page, answer?.error.sentence ?? "plyfold does not answer");
   const { document, name } = answer;
   if (document.strokes.length) return openDrawing(page, { ...EMPTY, ...document }, name ?? file.name);
-  return edit(page, withImage(page.store.state.history.present, document.image));
+  return usePicture(page, document.image);
+}
+
+const USE = "Use it all the same";
+const NO_PICTURE = "Leave the picture";
+const TOO_LARGE = "The browser has no room left to keep it: it would go with this page.";
+
+/** Put a picture behind the drawing, as soon as it is kept; where it cannot be, only if that is wanted. */
+async function usePicture(page, image) {
+  const isKept = await keepNewPicture(page, image.href);
+  if (!isKept && (await page.question("Draw after this picture?", TOO_LARGE, [USE, NO_PICTURE])) !== USE) return;
+  edit(page, withImage(page.store.state.history.present, image));
 }
 
 // ---- giving away --------------------------------------------------------------------------------------------------
 
+/** The drawing as it is; or rounded, if it is too long for a link else and the answers stay as they are. */
+async function linkOf(page) {
+  const document = complete(page);
+  const fragment = await encode(document);
+  const answer = answerShown(page.store.state);
+  if (fragment.length <= LONGEST_LINK || !answer) return fragment;
+  const shorter = rounded(document);
+  const told = await ask("look", { strokes: shorter.strokes });
+  return told?.gauss === answer.gauss && told.verdict.immersions === answer.verdict.immersions ? encode(shorter) : fragment;
+}
+
 export async function share(page) {
-  const fragment = await encode(rounded(complete(page)));
+  const fragment = await linkOf(page);
   if (fragment.length > LONGEST_LINK) {
     return tell(page, "This drawing is too long for a link. Save it as a file and send that instead.", ["saveFile"]);
   }
@@ -154,8 +185,7 @@ export async function exportAs(page, format) {
 
 /** JSON needs no server: what is drawn can always be saved. */
 export function saveFile(page) {
-  const text = JSON.stringify(rounded(complete(page)));
-  download(new Blob([text], { type: "application/json" }), fileName(page.store.state.name, "json"));
+  download(new Blob([asText(complete(page))], { type: "application/json" }), fileName(page.store.state.name, "json"));
 }
 
 const fileName = (name, format) => `${(name ?? "drawing").replace(/\.[^.]*$/, "").replace(/[^\p{L}\p{N}-]+/gu, "-")}.${format === "tikz" ? "tex" : format}`;

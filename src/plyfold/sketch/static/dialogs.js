@@ -3,10 +3,12 @@
 import { toScreen, fitted } from "./camera.js";
 import { ACTIONS } from "./actions.js";
 import { button, actionsIn } from "./buttons.js";
-import { openDrawing, tell } from "./commands.js";
+import { openDrawing, openKept, tell } from "./commands.js";
 import { allPoints, loop } from "./document.js";
+import { save } from "./keeping.js";
 import { CURSOR_KEYS } from "./keyboard.js";
 import { shownKey } from "./keys.js";
+import { discardPicture } from "./pictures.js";
 import { discard, kept } from "./storage.js";
 
 const find = (id) => document.getElementById(id);
@@ -30,6 +32,25 @@ export function listenToDialog() {
   find("dialog-close").addEventListener("click", closeDialog);
   find("dialog").addEventListener("click", (event) => {
     if (event.target === find("dialog")) closeDialog();
+  });
+}
+
+/** Ask something. @returns the choice, or null if the dialog was closed without one. */
+export function question(title, text, choices) {
+  return new Promise((resolve) => {
+    let chosen = null;
+    const buttons = choices.map((textContent) => make("button", { type: "button", textContent }));
+    buttons.forEach((made) => made.addEventListener("click", () => {
+      chosen = made.textContent;
+      closeDialog();
+    }));
+    const onClose = () => {
+      if (find("dialog").open) return; // this was the dialog before
+      find("dialog").removeEventListener("close", onClose);
+      resolve(chosen);
+    };
+    find("dialog").addEventListener("close", onClose);
+    show(title, make("p", { textContent: text }), make("div", { className: "choices" }, ...buttons));
   });
 }
 
@@ -82,15 +103,18 @@ function strokesOf({ strokes, image }) {
 }
 
 export function showDrawings(page) {
-  const others = kept(localStorage).filter(({ id }) => id !== page.id);
-  const cards = others.map(({ id, name, saved, document: drawing }) => {
+  const others = kept(localStorage).filter(({ id }) => id !== page.place.id);
+  const cards = others.map((other) => {
+    const { id, name, saved, document: drawing } = other;
     const when = timeOf(new Date(saved));
     const discardButton = make("button", { type: "button", className: "discard", textContent: "Discard" });
     discardButton.setAttribute("aria-label", `Discard the drawing of ${when}`);
-    const item = make("div", { className: "kept" }, card(drawing, name ?? strokesOf(drawing), when, () => openDrawing(page, drawing, name, id)), discardButton);
+    const item = make("div", { className: "kept" }, card(drawing, name ?? strokesOf(drawing), when, () => openKept(page, other)), discardButton);
     discardButton.addEventListener("click", () => {
       discard(localStorage, id);
+      discardPicture(id).catch(() => {}); // where no picture can be kept, there is none
       item.remove();
+      save(page); // there may be room now
     });
     return item;
   });

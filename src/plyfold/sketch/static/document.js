@@ -1,7 +1,7 @@
 // The drawing: an immutable document, and edits that return a new one. What is undone, saved, shared and exported.
 //   {plyfold: 1, strokes: [{points: [[x, y]..], closed}..], image: null | {href, place, opacity}, view: {}}
 
-import { distance, distanceToSegment, edges, middle, nearestOnSegment } from "./geometry.js";
+import { bounds, distance, distanceToSegment, edges, middle, nearestOnSegment } from "./geometry.js";
 
 export const EMPTY = Object.freeze({ plyfold: 1, strokes: [], image: null, view: {} });
 
@@ -45,9 +45,13 @@ export function toggleClosed(document) {
   return changeStroke(document, target, (stroke) => ({ ...stroke, closed: !stroke.closed }));
 }
 
-/** Coordinates with two decimals more than a screen pixel can show, so that links and files stay short. */
-export const rounded = (document, digits = 3) => withStrokes(document, document.strokes.map(({ points, closed }) => (
-  { closed, points: points.map(([x, y]) => [Number(x.toFixed(digits)), Number(y.toFixed(digits))]) })));
+/** With six digits of the drawing's size: as much as can be seen. */
+export function rounded(document) {
+  const box = bounds(allPoints(document)) ?? [0, 0, 0, 0];
+  const step = 10 ** (Math.floor(Math.log10(Math.max(box[2] - box[0], box[3] - box[1]) || 1)) - 5);
+  const near = (value) => Number((Math.round(value / step) * step).toPrecision(15));
+  return withStrokes(document, document.strokes.map(({ points, closed }) => ({ closed, points: points.map((point) => point.map(near)) })));
+}
 
 // ---- finding ------------------------------------------------------------------------------------------------------
 

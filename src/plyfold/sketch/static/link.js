@@ -8,9 +8,11 @@ export const LONGEST_LINK = 8000;
 /** Whatever stands there may be meant as a drawing: if it is none, the page says so. */
 export const hasDrawing = (fragment) => fragment.length > 1;
 
+/** The drawing as a file. Numbers are written so that they come back as they were, whatever their scale. */
+export const asText = ({ strokes, image, view }) => JSON.stringify({ plyfold: 1, strokes, image, view });
+
 export async function encode(document) {
-  const { strokes, view, image } = document;
-  const bytes = await through(new CompressionStream("deflate-raw"), new TextEncoder().encode(JSON.stringify({ plyfold: 1, strokes, image, view })));
+  const bytes = await through(new CompressionStream("deflate-raw"), new TextEncoder().encode(asText(document)));
   return PREFIX + btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 

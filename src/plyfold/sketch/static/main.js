@@ -4,16 +4,18 @@ import { actionNamed } from "./actions.js";
 import { followAnswers } from "./answers.js";
 import { button, fillButtons, listenToKeys } from "./buttons.js";
 import { createCanvas } from "./canvas.js";
-import { copy, finishPath, fit, openDrawing, openFile, save, tell } from "./commands.js";
+import { copy, finishPath, fit, openDrawing, openFile, tell } from "./commands.js";
 import * as dialogs from "./dialogs.js";
 import { EMPTY, isEmpty, withImage } from "./document.js";
+import { followGap } from "./gap.js";
 import { begin } from "./history.js";
 import { hoverOfSheet, sameHover } from "./hover.js";
+import { save, settingsOf, whole } from "./keeping.js";
 import { pressCursor, toggleCursor } from "./keyboard.js";
 import { lightLayout, paintLayout } from "./layout.js";
 import { decode, hasDrawing } from "./link.js";
 import { answersAsText, createPanel } from "./panel.js";
-import { kept, newId, recall } from "./storage.js";
+import { kept, newPlace, recall } from "./storage.js";
 import { createStore, lieShown, shown } from "./store.js";
 import { followTheme } from "./theme.js";
 import { createView3d } from "./view3d.js";
@@ -24,8 +26,10 @@ const store = createStore();
 
 const page = {
   store,
-  id: sessionStorage.getItem("plyfold.id") ?? newId(),
-  former: null,
+  place: newPlace(sessionStorage.getItem("plyfold.id") ?? undefined), // where the drawing is kept
+  former: null, // the name of the drawing that was open before
+  writing: null, // done as soon as a new picture is kept
+  question: dialogs.question,
   spaceHeld: false,
   altHeld: false,
   size: () => ({ width: canvas.clientWidth, height: canvas.clientHeight }),
@@ -47,17 +51,19 @@ function followWork() {
   store.follow((state, before) => {
     const changed = state.history.present !== before.history.present;
     if (!changed && state.immersion === before.immersion && state.layering === before.layering && state.gap === before.gap) return;
-    sessionStorage.setItem("plyfold.id", page.id);
     save(page);
     if (changed && hasDrawing(location.hash)) history.replaceState(null, "", location.pathname);
   });
   addEventListener("pagehide", () => finishPath(page, false));
+  addEventListener("beforeunload", (event) => {
+    if (store.state.unkept || page.writing) event.preventDefault();
+  });
 }
 
 /** Begin with the link in the address, the file that plyfold was started with, or what was drawn last. */
 async function restore() {
-  const last = recall(localStorage, page.id) ?? kept(localStorage)[0];
-  if (last) showKept(last);
+  const last = recall(localStorage, page.place.id) ?? kept(localStorage)[0];
+  if (last) await showKept(last);
   if (hasDrawing(location.hash)) return openLink();
   if (sessionStorage.getItem("plyfold.started")) return undefined;
   sessionStorage.setItem("plyfold.started", "yes");
@@ -66,9 +72,10 @@ async function restore() {
 }
 
 /** Another page's drawing is shown too, but goes on under a name of its own when it is changed. */
-function showKept({ document: drawing, name }) {
-  const { immersion = "0", layering = "0", gap = null } = drawing.view;
-  store.set({ history: begin(drawing), name, immersion, layering, gap });
+async function showKept(last) {
+  const { document: drawing, place } = await whole(last);
+  if (place.id === page.place.id) page.place = place;
+  store.set({ history: begin(drawing), name: last.name, ...settingsOf(drawing) });
   fit(page);
 }
 
@@ -76,7 +83,7 @@ async function openLink() {
   const fragment = location.hash;
   try {
     const drawing = await decode(fragment);
-    if (JSON.stringify(drawing.strokes) !== JSON.stringify(store.state.history.present.strokes)) openDrawing(page, drawing, "The drawing of the link");
+    if (JSON.stringify(drawing.strokes) !== JSON.stringify(store.state.history.present.strokes)) await openDrawing(page, drawing, "The drawing of the link");
     history.replaceState(null, "", fragment);
   } catch {
     history.replaceState(null, "", location.pathname);
@@ -134,21 +141,6 @@ function showScene(scene) {
   }
 }
 
-/** The gap is a share of the drawing's size: the middle of the slider is the gap that plyfold chooses. */
-function followGap() {
-  const slider = find("gap");
-  let waiting = 0;
-  slider.addEventListener("input", () => {
-    clearTimeout(waiting);
-    waiting = setTimeout(() => {
-      const xs = store.state.answer?.points ?? [];
-      const side = (axis) => Math.max(...xs.map((point) => point[axis])) - Math.min(...xs.map((point) => point[axis]));
-      if (xs.length) store.set({ gap: slider.valueAsNumber ? (2 ** slider.valueAsNumber * Math.max(side(0), side(1))) / 20 : null });
-    }, 60);
-    find("gap-value").textContent = slider.valueAsNumber ? `× ${(2 ** slider.valueAsNumber).toFixed(2)}` : "";
-  });
-}
-
 // ---- files --------------------------------------------------------------------------------------------------------
 
 function listenToFiles() {
@@ -200,6 +192,17 @@ function followNotices() {
   });
 }
 
+/** What cannot be kept is told for as long as that is so. */
+function followUnkept() {
+  const box = find("unkept");
+  box.append(...["saveFile", "drawings"].map((name) => button(page, actionNamed(name))));
+  store.follow(({ unkept }, before) => {
+    if (unkept === before.unkept) return;
+    box.hidden = !unkept;
+    box.querySelector("span").textContent = unkept ?? "";
+  });
+}
+
 /** Whether keys are meant for the drawing, not for a button. */
 const isDrawing = (target) => target === canvas || target === document.body;
 
@@ -224,8 +227,9 @@ createPanel(page);
 createCanvas(page, canvas);
 followTheme(page);
 followNotices();
+followUnkept();
 followPictures();
-followGap();
+followGap(page, find("gap"), find("gap-value"));
 listenToFiles();
 listenToSpace();
 listenToKeys(page, (event) => isDrawing(event.target) && (pressCursor(page, event) || endPath(event)));

@@ -1,36 +1,45 @@
 // Drawings kept in this browser, each under a name of its own. A page writes only to the drawing it has begun, so that
-// neither another page nor a link ever overwrites work.
+// neither another page nor a link ever overwrites work; and no drawing goes unless someone discards it.
 
 import { checked } from "./link.js";
 
 const PREFIX = "plyfold.drawing.";
-const MOST_KEPT = 60;
 
 export const newId = () => `${Date.now().toString(36)}-${Math.random().toString(36).slice(2, 8)}`;
 
-/** Keep a drawing. @returns false if the browser has no room even after the oldest ones are gone. */
-export function keep(storage, id, document, name = null, saved = Date.now()) {
-  const text = JSON.stringify({ saved, name, document });
-  for (;;) {
-    try {
-      storage.setItem(PREFIX + id, text);
-      kept(storage).slice(MOST_KEPT).forEach((drawing) => discard(storage, drawing.id));
-      return true;
-    } catch {
-      const oldest = kept(storage).filter((drawing) => drawing.id !== id).at(-1);
-      if (!oldest) return false;
-      discard(storage, oldest.id);
-    }
+/** Where a drawing is kept: its name there, the text last read or written, and the picture that is kept with it. */
+export const newPlace = (id = newId()) => ({ id, text: null, picture: null });
+
+/**
+ * Keep a drawing, without its picture. Where another page has written since this one read or wrote, a duplicate of it
+ * for example, the drawing goes on under a new name.
+ * @returns the place where it is kept now, or null if the browser has no room for it.
+ */
+export function keep(storage, place, document, name = null, saved = Date.now()) {
+  const text = JSON.stringify({ saved, name, document: withoutPicture(document) });
+  const found = storage.getItem(PREFIX + place.id);
+  const own = found === null || found === place.text ? place : newPlace();
+  try {
+    storage.setItem(PREFIX + own.id, text);
+    return { ...own, text };
+  } catch {
+    return null;
   }
 }
 
+/** Pictures are large, and are kept elsewhere: what is left of one is where it lies. */
+const withoutPicture = ({ image, ...document }) => ({ ...document, image: image && { ...image, href: null } });
+
 export const discard = (storage, id) => storage.removeItem(PREFIX + id);
 
-/** @returns {id, saved, name, document}, or null if there is no such drawing. */
+/** @returns {id, saved, name, text, document}, or null if there is no such drawing; its image.href is null if it is kept apart. */
 export function recall(storage, id) {
   try {
-    const { saved, name, document } = JSON.parse(storage.getItem(PREFIX + id));
-    return { id, saved, name, document: checked(document) };
+    const text = storage.getItem(PREFIX + id);
+    const { saved, name, document } = JSON.parse(text);
+    const drawing = checked(document);
+    const image = document.image?.href === null ? { ...document.image } : drawing.image;
+    return { id, saved, name, text, document: { ...drawing, image } };
   } catch {
     return null;
   }

@@ -34,6 +34,7 @@ export const START = Object.freeze({
   scene: "surface", // or "layout"
   hover: null, // {cell, border, sheets}
   notice: null, // {text, actions: [action names]}
+  unkept: null, // why the browser does not keep the drawing: a sentence
   theme: "system",
 });
 

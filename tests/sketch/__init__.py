@@ -1,0 +1,1 @@
+"""The sketching page: its server, its files, and itself in a browser."""
