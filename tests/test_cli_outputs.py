@@ -10,7 +10,6 @@ import pytest
 from plyfold.cli import main
 
 RAMP = Path(__file__).parents[1] / "examples" / "ramp.svg"
-MENDED = pytest.mark.xfail(strict=True)
 
 
 @pytest.fixture
@@ -42,7 +41,6 @@ OTHER_NAMES = {
 }
 
 
-@MENDED
 @pytest.mark.parametrize("force", [[], ["--force"]])
 @pytest.mark.parametrize("other_name", OTHER_NAMES.values(), ids=OTHER_NAMES)
 def test_the_drawing_is_not_replaced(other_name, force, drawing, capsys, monkeypatch):
@@ -55,7 +53,6 @@ def test_the_drawing_is_not_replaced(other_name, force, drawing, capsys, monkeyp
     assert drawing.read_bytes() == RAMP.read_bytes()
 
 
-@MENDED
 @pytest.mark.parametrize("command", ["lift", "split", "draw"])
 def test_no_command_replaces_the_drawing(command, drawing, capsys):
     output = {"lift": "loop.obj", "split": "loop.wkt", "draw": "loop.svg"}[command]
@@ -66,7 +63,6 @@ def test_no_command_replaces_the_drawing(command, drawing, capsys):
     assert Path(output).read_bytes() == RAMP.read_bytes()
 
 
-@MENDED
 def test_materials_do_not_replace_the_drawing(drawing, capsys):
     drawing.rename("loop.mtl")
     command = ["lift", "loop.mtl", "--colours", "sheets", "-o", "loop.obj", "--force", "--triangles", "100"]
@@ -76,7 +72,6 @@ def test_materials_do_not_replace_the_drawing(drawing, capsys):
     assert not Path("loop.obj").exists()
 
 
-@MENDED
 def test_a_drawing_on_standard_input_is_not_replaced(drawing):
     words = [sys.executable, "-m", "plyfold", "split", "-", "-o", "loop.svg", "--force"]
     with drawing.open("rb") as file:
@@ -86,7 +81,6 @@ def test_a_drawing_on_standard_input_is_not_replaced(drawing):
     assert drawing.read_bytes() == RAMP.read_bytes()
 
 
-@MENDED
 @pytest.mark.parametrize("exists", [False, True])
 @pytest.mark.parametrize("second", ["./out.wkt", "other/../out.wkt", "link.wkt", "link.svg"])
 def test_two_outputs_that_are_one_file(second, exists, drawing, capsys):
@@ -99,7 +93,6 @@ def test_two_outputs_that_are_one_file(second, exists, drawing, capsys):
     assert Path("out.wkt").exists() == exists
 
 
-@MENDED
 def test_two_outputs_that_are_hard_links(drawing, capsys):
     Path("out.wkt").write_text("old")
     hard_link("out.wkt", "hard.wkt")

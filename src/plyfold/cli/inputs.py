@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import os
+import sys
 from collections.abc import Callable
+from contextlib import suppress
+from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plyfold.cli.progress import Stopwatch
+from plyfold.errors import InputError
 from plyfold.io.saving import refuse_output, save_bytes
 
 if TYPE_CHECKING:
@@ -86,9 +91,46 @@ def read_arrangement(options: argparse.Namespace, watch: Stopwatch) -> Arrangeme
 def prepare(options: argparse.Namespace, endings: tuple[str, ...], watch: Stopwatch) -> Arrangement:
     """Refuse outputs that cannot be written, then read the input."""
     options.output = list(dict.fromkeys(options.output))
+    _refuse_shared_files(options.file, options.output)
     for path in options.output:
         refuse_output(path, endings, options.force)
     return read_arrangement(options, watch)
+
+
+def _refuse_shared_files(file: str, outputs: list[str]) -> None:
+    """Refuse outputs that are the drawing itself, or one file under two names, whatever links lead there."""
+    drawing = _identity_of_input(file)
+    for written in [path for output in outputs for path in _written(output)]:
+        if _identity(written) == drawing:
+            raise InputError(f"{written} is the drawing that is read", hint="write to another file")
+    for first, second in combinations(outputs, 2):
+        if _identity(first) == _identity(second):
+            raise InputError(f"{first} and {second} are the same file", hint="name each output once")
+
+
+def _written(output: str) -> list[str]:
+    """Return the files that an output may bring with it: an OBJ has its materials beside it."""
+    path = Path(output)
+    return [output, str(path.with_suffix(".mtl"))] if path.suffix.lower() == ".obj" else [output]
+
+
+def _identity_of_input(file: str) -> object:
+    if file == "-":
+        with suppress(OSError, AttributeError):  # it may be closed, or no file
+            return _number(os.fstat(sys.stdin.fileno()))
+    return _identity(file)
+
+
+def _identity(path: str) -> object:
+    """Return what is the same for all names of a file: its number, or, if it does not exist yet, its full path."""
+    try:
+        return _number(Path(path).stat())
+    except OSError:
+        return os.path.realpath(path)
+
+
+def _number(found: os.stat_result) -> tuple[int, int]:
+    return found.st_dev, found.st_ino
 
 
 def write_texts(options: argparse.Namespace, content: dict[str, Callable[[], str]]) -> None:
