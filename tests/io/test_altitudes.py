@@ -9,8 +9,6 @@ import shapely
 import plyfold as pf
 from plyfold.errors import FileFormatError
 
-MENDED = pytest.mark.xfail(strict=True)
-
 FLAT = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0]]
 HIGH = [[0.0, 0.0, 7.0], [4.0, 0.0, 8.0], [4.0, 3.0, 9.0]]
 RING = [*HIGH, HIGH[0]]
@@ -44,7 +42,6 @@ FILES = {
 }
 
 
-@MENDED
 @pytest.mark.parametrize("name", FILES)
 def test_files(name, tmp_path):
     (tmp_path / name).write_text(FILES[name])
@@ -53,14 +50,12 @@ def test_files(name, tmp_path):
     assert curve.points.tolist() == FLAT
 
 
-@MENDED
 @pytest.mark.parametrize("kind", [float, int, object])
 def test_npy(kind, tmp_path):
     np.save(tmp_path / "high.npy", np.array(HIGH, dtype=float if kind is object else kind))
     assert [str(repair) for repair in pf.read(tmp_path / "high.npy").repairs] == SAID
 
 
-@MENDED
 @pytest.mark.parametrize(
     "value",
     [
@@ -84,7 +79,6 @@ def test_arrays_and_geometries(value):
     assert curve.points.tolist() == FLAT
 
 
-@MENDED
 def test_strokes_say_it_once_and_first():
     strokes = [[*FLAT[:1], FLAT[1]], [HIGH[1], [4, 3, 0]], [[4, 2.9, 1], HIGH[0]]]
     repairs = pf.Curve.from_strokes(strokes).repairs
@@ -92,14 +86,12 @@ def test_strokes_say_it_once_and_first():
     assert repairs[0].where == (4.0, 0.0)
 
 
-@MENDED
 def test_several_curves():
     surface = pf.find_embedding([HIGH, [[10.0, 10.0], [20.0, 10.0], [10.0, 20.0]]])
     assert surface
 
 
 @pytest.mark.parametrize("words", ["POLYGON M", "POLYGON ZM"])
-@MENDED
 def test_measures(words, tmp_path):
     rows = [[*row[: len(words) - 7], 5.0] if "Z" in words else [*row[:2], 5.0] for row in RING]
     (tmp_path / "measured.wkt").write_text(wkt(words, rows))
@@ -112,7 +104,6 @@ def test_nothing_is_said_of_what_has_no_third_coordinate():
     assert pf.arrangement(shapely.Polygon(FLAT)).curve.repairs == ()
 
 
-@MENDED
 def test_the_command_line_says_it(tmp_path, capsys):
     from plyfold.cli import main
 
@@ -133,7 +124,6 @@ def test_the_command_line_says_it(tmp_path, capsys):
         ("lat,lon,ele\n0,0,1\n4,0,1\n4,3,1\n", "line 1: its columns are lat, lon, ele"),
     ],
 )
-@MENDED
 def test_tables_that_could_mean_something_else(content, complaint, tmp_path):
     (tmp_path / "table.csv").write_text(content)
     with pytest.raises(FileFormatError) as caught:
@@ -143,7 +133,6 @@ def test_tables_that_could_mean_something_else(content, complaint, tmp_path):
 
 
 @pytest.mark.parametrize("header", ["x,y,z", "X, Y, Z", "lon,lat,ele", "a,b,c"])
-@MENDED
 def test_headers_that_fit(header, tmp_path):
     (tmp_path / "table.csv").write_text(f"{header}\n0,0,1\n4,0,1\n4,3,1\n")
     assert pf.read(tmp_path / "table.csv").points.tolist() == FLAT
