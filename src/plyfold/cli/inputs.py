@@ -69,7 +69,7 @@ def _seconds(text: str) -> float:
 def add_outputs(command: argparse.ArgumentParser, endings: str) -> None:
     """Give a subcommand the options ``-o``, of which there must be one, and ``--force``."""
     command.add_argument("-o", "--output", action="append", required=True, metavar="OUT", help=f"one of {endings}")
-    command.add_argument("--force", action="store_true", help="replace existing files")
+    command.add_argument("--force", action="store_true", help="replace existing files, but never the drawing")
 
 
 def read_arrangement(options: argparse.Namespace, watch: Stopwatch) -> Arrangement:
