@@ -42,3 +42,19 @@ def test_an_obstruction_handed_on_says_why():
         pf.lift(next(unliftable))
     with pytest.raises(InputError, match="no immersion"):
         pf.find_layering("a curve")
+
+
+@pytest.mark.parametrize("kind", [getattr(pf.errors, name) for name in pf.errors.__all__])
+@pytest.mark.parametrize("where", [[], [(1, 2)], [(i, i) for i in range(9)]])
+@pytest.mark.parametrize("hint", ["", "move one of them"])
+@pytest.mark.parametrize("message", ["two strands touch", "Two strands touch.", "They touch. No disk does that."])
+def test_message_place_and_hint_are_joined_as_sentences_are(kind, where, hint, message):
+    obstructed = issubclass(kind, NotImmersibleError | NotEmbeddableError)
+    error = kind(pf.Obstruction("touching", message, tuple(where)), hint) if obstructed else kind(message, where, hint)
+    sentence, _, last = str(error).partition("\n  hint: ")
+    assert last == hint
+    assert sentence.startswith(message.rstrip("."))
+    assert ".," not in sentence
+    assert sentence.count(", at (") == bool(where)
+    assert sentence == message or where
+    assert error.message == message

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.errors import CurveError
-from plyfold.points import Repair, as_points
+from plyfold.errors import CurveError, GaussCodeError
+from plyfold.mistaken import mistaken_code
+from plyfold.points import Repair, as_planar_points, left_out
 from plyfold.predicates import orient
 from plyfold.strokes import join_strokes
 
@@ -28,9 +29,9 @@ class Curve:
 
     Parameters
     ----------
-    points : array-like, shape (n, 2)
+    points : array-like, shape (n, 2) or (n, 3)
         Vertices in order, x to the right and y up, in any unit. If the last point repeats the first, it is left out;
-        other points that repeat the one before them are left out and recorded in ``repairs``.
+        other points that repeat the one before them, and a third column, are left out and recorded in ``repairs``.
     repairs : iterable of Repair, optional
         What was changed before the points came here.
 
@@ -67,7 +68,8 @@ class Curve:
     rows: npt.NDArray[np.int64]
 
     def __init__(self, points: npt.ArrayLike, repairs: Iterable[Repair] = ()) -> None:
-        given = _without_closing_point(as_points(points))
+        planar, flattened = as_planar_points(points)
+        given = _without_closing_point(planar)
         rows = _fresh_rows(given)
         # All of them, mostly; a copy would cost more than the rest.
         kept = given if len(rows) == len(given) else given[rows]
@@ -75,7 +77,7 @@ class Curve:
         kept.setflags(write=False)
         rows.setflags(write=False)
         object.__setattr__(self, "points", kept)
-        object.__setattr__(self, "repairs", (*repairs, *_dropped_points(given, rows)))
+        object.__setattr__(self, "repairs", (*repairs, *flattened, *_dropped_points(given, rows)))
         object.__setattr__(self, "rows", rows)
 
     def __len__(self) -> int:
@@ -172,6 +174,8 @@ class Curve:
         elif isinstance(partner, str):
             code = GaussCode.parse(partner)
         elif ccw is None or outer is None:
+            if mistake := mistaken_code(np.asarray(partner)):
+                raise GaussCodeError(mistake.message, hint=mistake.hint)
             raise TypeError("give a GaussCode, or all of partner, ccw and outer")
         else:
             code = GaussCode(partner, ccw, outer)  # type: ignore[arg-type]
@@ -204,6 +208,7 @@ def as_curve(value: object) -> Curve:
     Parameters
     ----------
     value : Curve, array-like of shape (n, 2), shapely geometry, or a value with a ``curve``
+        A third coordinate, of an array or a geometry, is left out, and ``repairs`` says so.
         Of the geometries: a ``LinearRing`` or a ``Polygon`` without holes; a ``LineString`` or ``MultiLineString``
         is taken as strokes, so its ends must nearly meet; a collection of one counts as that one.
 
@@ -230,7 +235,7 @@ def as_curve(value: object) -> Curve:
     """
     if isinstance(value, Curve):
         return value
-    if hasattr(value, "geom_type"):
+    if isinstance(getattr(value, "geom_type", None), str):  # a GeoSeries has an array of them
         return _curve_of_geometry(cast("BaseGeometry", value))
     if hasattr(value, "curve"):
         return _curve_of_owner(value.curve)
@@ -250,11 +255,10 @@ def _curve_of_geometry(geometry: BaseGeometry) -> Curve:
         case "Polygon":
             return _curve_of_polygon(geometry)
         case "LinearRing":
-            return Curve(_planar(geometry))
-        case "LineString":
-            return Curve.from_strokes([_planar(geometry)])
-        case "MultiLineString":
-            return Curve.from_strokes([_planar(line) for line in geometry.geoms])
+            return Curve(_planar(geometry), _left_out(geometry))
+        case "LineString" | "MultiLineString":
+            points, repairs = join_strokes(map(_planar, getattr(geometry, "geoms", [geometry])))
+            return Curve(points, (*_left_out(geometry), *repairs))
     if len(parts := getattr(geometry, "geoms", [])) == 1:
         return as_curve(parts[0])
     hint = "give a LinearRing, a LineString or a Polygon without holes"
@@ -265,12 +269,22 @@ def _curve_of_polygon(polygon: BaseGeometry) -> Curve:
     if len(polygon.interiors):
         hole = _planar(polygon.interiors[0])
         raise CurveError("the polygon has a hole", where=hole[:1], hint="give its exterior alone")
-    return Curve(_planar(polygon.exterior))
+    return Curve(_planar(polygon.exterior), _left_out(polygon))
 
 
-def _planar(line: BaseGeometry) -> npt.NDArray[np.float64]:
-    places: npt.NDArray[np.float64] = np.asarray(line.coords, dtype=np.float64)
-    return places[:, :2]
+def _planar(geometry: BaseGeometry) -> npt.NDArray[np.float64]:
+    import shapely
+
+    places: npt.NDArray[np.float64] = shapely.get_coordinates(geometry)
+    return places
+
+
+def _left_out(geometry: BaseGeometry) -> tuple[Repair, ...]:
+    """Return the record of the altitudes and measures that a geometry has and a curve has not."""
+    import shapely
+
+    had = {"z": geometry.has_z, "m": shapely.geos_version >= (3, 12, 0) and geometry.has_m}
+    return tuple(repair for name, has in had.items() if has for repair in left_out(name, _planar(geometry)))
 
 
 def _without_closing_point(points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:

@@ -71,7 +71,8 @@ class PlyfoldError(Exception):
         more = f" and {len(self.where) - 5} more" if len(self.where) > 5 else ""
         place = f", at {shown}{more}" if shown else ""
         hint = f"\n  hint: {self.hint}" if self.hint else ""
-        return f"{self.message}{place}{hint}"
+        message = self.message.removesuffix(".") if place else self.message
+        return f"{message}{place}{hint}"
 
 
 class InputError(PlyfoldError, ValueError):

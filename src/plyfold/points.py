@@ -9,8 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.errors import CurveError
+from plyfold.mistaken import Mistake, mistaken_array, mistaken_value
 
-__all__ = ["LARGEST_COORDINATE", "Repair", "as_points", "diagonal"]
+__all__ = ["LARGEST_COORDINATE", "Repair", "as_planar_points", "as_points", "diagonal", "left_out", "refuse_mistake"]
 
 LARGEST_COORDINATE = 1e150
 """Products of two coordinates up to this size stay inside the range of a double."""
@@ -76,7 +77,37 @@ def as_points(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
     array([[0., 0.],
            [2., 1.]])
     """
+    return _finite_points(_raw_array(values))
+
+
+def as_planar_points(values: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], tuple[Repair, ...]]:
+    """Return ``values`` as :func:`as_points` does, without a third column if there is one, and a record of that.
+
+    Examples
+    --------
+    >>> points, repairs = as_planar_points([(0, 0, 5), (2, 1, 5)])
+    >>> points.tolist(), str(*repairs)
+    ([[0.0, 0.0], [2.0, 1.0]], 'z left out at (0, 0)')
+    """
     raw = _raw_array(values)
+    if raw.ndim != 2 or raw.shape[1] != 3:
+        return _finite_points(raw), ()
+    points = _finite_points(raw[:, :2])
+    return points, left_out("z", points)
+
+
+def left_out(coordinate: str, points: npt.NDArray[np.float64]) -> tuple[Repair, ...]:
+    """Return the record that one more coordinate of the points was left out, at the first of them."""
+    x, y = points[0].tolist()
+    return (Repair(f"{coordinate} left out", (x, y), 0.0),)
+
+
+def diagonal(points: npt.NDArray[np.float64]) -> float:
+    """Return the diagonal of the bounding box of ``points``, shape (n, 2)."""
+    return float(np.hypot(*np.ptp(points, axis=0)))
+
+
+def _finite_points(raw: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
     if raw.ndim != 2 or raw.shape[1] != 2:
         raise CurveError(
             f"points need the shape (n, 2), and these have {raw.shape}", hint="give one x and one y per point"
@@ -90,12 +121,9 @@ def as_points(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
     return points
 
 
-def diagonal(points: npt.NDArray[np.float64]) -> float:
-    """Return the diagonal of the bounding box of ``points``, shape (n, 2)."""
-    return float(np.hypot(*np.ptp(points, axis=0)))
-
-
 def _raw_array(values: npt.ArrayLike) -> npt.NDArray[Any]:
+    if not isinstance(values, np.ndarray | list | tuple):
+        refuse_mistake(mistaken_value(values))
     if isinstance(values, np.ma.MaskedArray):
         values = np.ma.filled(values.astype(float), np.nan)
     try:
@@ -104,9 +132,16 @@ def _raw_array(values: npt.ArrayLike) -> npt.NDArray[Any]:
         raise CurveError("the points are not all of the same length", hint="give one x and one y per point") from error
     if raw.size == 0:
         return raw.astype(float).reshape(-1, 2)
+    refuse_mistake(mistaken_array(raw))
     if raw.dtype.kind not in _NUMERIC_KINDS + "O":
         raise CurveError(f"the points are not real numbers but of type {raw.dtype}", hint="give plain numbers")
     return raw
+
+
+def refuse_mistake(mistake: Mistake | None) -> None:
+    """Raise CurveError if something was given in place of points."""
+    if mistake is not None:
+        raise CurveError(mistake.message, hint=mistake.hint)
 
 
 def _doubles(raw: npt.NDArray[Any]) -> npt.NDArray[np.float64]:

@@ -10,13 +10,14 @@ several strokes end in one place, so that joinings are equally short, the one th
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Set
 
 import numpy as np
 import numpy.typing as npt
 
 from plyfold.errors import InputError, StrokeError
-from plyfold.points import Repair, as_points, diagonal
+from plyfold.mistaken import mistaken_value
+from plyfold.points import Repair, as_planar_points, diagonal, refuse_mistake
 
 __all__ = ["MOST_STROKES", "join_strokes"]
 
@@ -39,8 +40,9 @@ def join_strokes(strokes: Iterable[npt.ArrayLike], max_gap: float | None = None)
 
     Parameters
     ----------
-    strokes : iterable of array-likes, each of shape (m, 2)
-        Empty strokes are ignored; a stroke of one point is a place that the loop passes through.
+    strokes : iterable of array-likes, each of shape (m, 2) or (m, 3)
+        Empty strokes are ignored; a stroke of one point is a place that the loop passes through. A third column is
+        left out.
     max_gap : float, optional
         Longest gap that may be bridged, in the units of the points; by default a tenth of the diagonal of the bounding
         box of all points.
@@ -51,7 +53,8 @@ def join_strokes(strokes: Iterable[npt.ArrayLike], max_gap: float | None = None)
         The loop, closed implicitly; it starts with the first stroke in its given direction. Ends that coincide
         become one point.
     repairs : tuple of Repair
-        One ``"gap bridged"`` for each gap, in order along the loop: its midpoint and length.
+        One ``"gap bridged"`` for each gap, in order along the loop: its midpoint and length; before them
+        ``"z left out"``, if some stroke had a third column.
 
     Raises
     ------
@@ -72,8 +75,11 @@ def join_strokes(strokes: Iterable[npt.ArrayLike], max_gap: float | None = None)
     >>> print(*repairs)
     gap bridged at (4, 0.25), size 0.5
     """
-    numbered = [(number, stroke) for number, stroke in enumerate(map(as_points, strokes)) if len(stroke)]
-    numbers, given = [number for number, _ in numbered], [stroke for _, stroke in numbered]
+    if not isinstance(strokes, Iterator | Set):
+        refuse_mistake(mistaken_value(strokes))
+    numbered = [(number, *found) for number, found in enumerate(map(as_planar_points, strokes)) if len(found[0])]
+    numbers, given = [number for number, *_ in numbered], [stroke for _, stroke, _ in numbered]
+    flattened = [repair for *_, repairs in numbered for repair in repairs]
     if not given:
         raise StrokeError("there is no stroke", hint="give at least one stroke with points")
     if len(given) > MOST_STROKES:
@@ -81,7 +87,7 @@ def join_strokes(strokes: Iterable[npt.ArrayLike], max_gap: float | None = None)
     loop = _loop(given)
     ends = _ends(given)
     _refuse_wide_gaps(ends, loop, _largest_gap(given, max_gap), numbers)
-    return _chain(given, loop), _bridges(ends, loop)
+    return _chain(given, loop), (*flattened[:1], *_bridges(ends, loop))
 
 
 def _ends(strokes: list[_Points]) -> _Points:

@@ -23,7 +23,6 @@ def polygon(*rings):
         [[], *STROKES],
         {"strokes": STROKES, "name": "loop"},
         polygon(RING),
-        polygon([[x, y, 100] for x, y in RING]),
         {"type": "LineString", "coordinates": RING},
         {"type": "MultiLineString", "coordinates": STROKES},
         {"type": "MultiPolygon", "coordinates": [[RING]]},

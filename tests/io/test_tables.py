@@ -50,7 +50,7 @@ def test_blocks_between_empty_lines_are_strokes():
         ("0,0\n\n# note\n4,nan\n0,3", "line 4: 'nan' is not a finite number"),
         ("0,0\n4,inf\n0,3", "line 2: 'inf'"),
         ("0,0\n4\n0,3", "line 2: 1 numbers"),
-        ("x,y,z\n0,0,0\n4,0,0", "line 2: 3 numbers"),
+        ("x,y,z\n0,0,0,0\n4,0,0,0", "line 2: 4 numbers"),
         ("0,0;1,5\n", "line 1: 4 numbers"),
         ("0,,0\n", "line 1: '' is not"),
         ("x,y\nx,y\n0,0", "line 2: 'x' is not"),

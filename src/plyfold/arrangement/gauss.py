@@ -24,6 +24,7 @@ from plyfold.arrangement.core import Arrangement, CurveLike, arrangement
 from plyfold.arrangement.planar_map import next_darts, reversed_code, whole_number
 from plyfold.curve import Curve
 from plyfold.errors import GaussCodeError
+from plyfold.mistaken import mistaken_code
 
 __all__ = ["GaussCode"]
 
@@ -143,6 +144,8 @@ class GaussCode:
         visits, slash, tail = text.partition("/")
         match = _OUTER.fullmatch(tail)
         if match is None:
+            if not slash and (mistake := mistaken_code(text)):
+                raise GaussCodeError(mistake.message, hint=mistake.hint)
             _refuse("expected '/ outer' and a dart", text, len(visits + slash))
         partner, ccw = _read_visits(visits)
         return cls(tuple(partner), tuple(ccw), int(match[1]))

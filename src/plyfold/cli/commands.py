@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
-import sys
 
 from plyfold import __version__
 from plyfold.cli.check import add_check_command
@@ -16,11 +14,12 @@ from plyfold.cli.inputs import NO_DISK
 from plyfold.cli.lift import add_lift_command
 from plyfold.cli.progress import clear_progress
 from plyfold.cli.sketch import add_sketch_command
+from plyfold.cli.streams import complain, is_of_a_stream, over_any_streams
 from plyfold.errors import NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
 
 __all__ = ["main"]
 
-BAD_INPUT, UNKNOWN, INTERRUPTED, BROKEN_PIPE = 2, 3, 130, 141
+BAD_INPUT, UNKNOWN, INTERRUPTED = 2, 3, 130
 
 _COMMANDS = (
     add_check_command,
@@ -52,6 +51,7 @@ exit codes: 0 a disk (or written), 1 no disk or not to be lifted, 2 bad input,
 """
 
 
+@over_any_streams
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line.
 
@@ -72,22 +72,20 @@ def main(arguments: list[str] | None = None) -> int:
     """
     options = _parser().parse_args(arguments)
     try:
-        code = int(options.run(options))
-        print(end="", flush=True)
-        return code
+        return int(options.run(options))
     except (NotImmersibleError, NotEmbeddableError) as error:
         return _complain(options, error, NO_DISK)
     except TimeLimitError as error:
         return _complain(options, error, UNKNOWN)
-    except BrokenPipeError:
-        # The reader has gone; give the interpreter somewhere to flush to.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return BROKEN_PIPE
-    except (PlyfoldError, OSError, MemoryError) as error:
+    except OSError as error:
+        if is_of_a_stream(error):
+            raise
+        return _complain(options, error, BAD_INPUT)
+    except (PlyfoldError, MemoryError) as error:
         return _complain(options, error, BAD_INPUT)
     except KeyboardInterrupt:
         clear_progress()
-        print("plyfold: interrupted; nothing was left half-written", file=sys.stderr)
+        complain("plyfold: interrupted; nothing was left half-written")
         return INTERRUPTED
 
 
@@ -99,7 +97,7 @@ def _complain(options: argparse.Namespace, error: Exception, code: int) -> int:
         short = getattr(error, "message", message)
         print(json.dumps({"error": short, "where": where, "hint": getattr(error, "hint", "")}))
     else:
-        print(f"plyfold: {message}", file=sys.stderr)
+        complain(f"plyfold: {message}")
     return code
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from plyfold.cli.inputs import DISK, NO_DISK, add_command, add_outputs, add_time_limit, prepare, write_texts
 from plyfold.cli.progress import Stopwatch
+from plyfold.cli.streams import complain
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ def _draw(options: argparse.Namespace) -> int:
         save(figure, path, options.force)
     watch.stop()
     if obstruction is not None:
-        print(f"plyfold: {obstruction}", file=sys.stderr)
+        complain(f"plyfold: {obstruction}")
     for path in options.output:
         print(f"wrote {path}")
     return DISK if obstruction is None else NO_DISK

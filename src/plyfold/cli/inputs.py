@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import argparse
+import os
+import sys
 from collections.abc import Callable
+from contextlib import suppress
+from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plyfold.cli.progress import Stopwatch
 from plyfold.clock import Clock, Watch
+from plyfold.errors import InputError
 from plyfold.io.saving import refuse_output, save_bytes
 from plyfold.loading import FOR_CROSSINGS, load_libraries
 
@@ -64,7 +69,7 @@ def _seconds(text: str) -> float:
 def add_outputs(command: argparse.ArgumentParser, endings: str) -> None:
     """Give a subcommand the options ``-o``, of which there must be one, and ``--force``."""
     command.add_argument("-o", "--output", action="append", required=True, metavar="OUT", help=f"one of {endings}")
-    command.add_argument("--force", action="store_true", help="replace existing files")
+    command.add_argument("--force", action="store_true", help="replace existing files, but never the drawing")
 
 
 def read_arrangement(options: argparse.Namespace, watch: Stopwatch, clock: Clock | None = None) -> Arrangement:
@@ -88,9 +93,46 @@ def prepare(
 ) -> Arrangement:
     """Refuse outputs that cannot be written, then read the input."""
     options.output = list(dict.fromkeys(options.output))
+    _refuse_shared_files(options.file, options.output)
     for path in options.output:
         refuse_output(path, endings, options.force)
     return read_arrangement(options, watch, clock)
+
+
+def _refuse_shared_files(file: str, outputs: list[str]) -> None:
+    """Refuse outputs that are the drawing itself, or one file under two names, whatever links lead there."""
+    drawing = _identity_of_input(file)
+    for written in [path for output in outputs for path in _written(output)]:
+        if _identity(written) == drawing:
+            raise InputError(f"{written} is the drawing that is read", hint="write to another file")
+    for first, second in combinations(outputs, 2):
+        if _identity(first) == _identity(second):
+            raise InputError(f"{first} and {second} are the same file", hint="name each output once")
+
+
+def _written(output: str) -> list[str]:
+    """Return the files that an output may bring with it: an OBJ has its materials beside it."""
+    path = Path(output)
+    return [output, str(path.with_suffix(".mtl"))] if path.suffix.lower() == ".obj" else [output]
+
+
+def _identity_of_input(file: str) -> object:
+    if file == "-":
+        with suppress(OSError, AttributeError):  # it may be closed, or no file
+            return _number(os.fstat(sys.stdin.fileno()))
+    return _identity(file)
+
+
+def _identity(path: str) -> object:
+    """Return what is the same for all names of a file: its number, or, if it does not exist yet, its full path."""
+    try:
+        return _number(Path(path).stat())
+    except OSError:
+        return os.path.realpath(path)
+
+
+def _number(found: os.stat_result) -> tuple[int, int]:
+    return found.st_dev, found.st_ino
 
 
 def write_texts(options: argparse.Namespace, content: dict[str, Callable[[], str]]) -> None:

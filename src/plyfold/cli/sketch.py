@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 import signal
-import sys
 import threading
 from typing import Any, NoReturn
 
+from plyfold.cli.streams import complain
 from plyfold.errors import InputError
 from plyfold_command import raise_interrupts
 
@@ -70,7 +70,7 @@ def _serve(server: Any) -> None:
     try:
         server.serve_forever()
     except KeyboardInterrupt:
-        print("\nplyfold: the page is closed", file=sys.stderr)
+        complain("\nplyfold: the page is closed")
     finally:
         server.server_close()
 

@@ -5,9 +5,12 @@ from __future__ import annotations
 import json
 from typing import Any
 
+import numpy as np
+
 from plyfold.curve import Curve
 from plyfold.errors import FileFormatError
 from plyfold.io.vector import read_geojson
+from plyfold.mistaken import mistaken_code
 
 __all__ = ["read_json"]
 
@@ -21,7 +24,8 @@ def read_json(text: str) -> Curve:
     ----------
     text : str
         ``[[x, y], ...]`` or ``{"points": [[x, y], ...]}``, whose closing edge is implied;
-        ``[[[x, y], ...], ...]`` or ``{"strokes": [[[x, y], ...], ...]}``, joined as strokes; or GeoJSON.
+        ``[[[x, y], ...], ...]`` or ``{"strokes": [[[x, y], ...], ...]}``, joined as strokes; or GeoJSON. A third
+        coordinate is left out.
 
     Returns
     -------
@@ -70,7 +74,7 @@ def _is_stroke(item: object) -> bool:
 
 def _curve_of_points(points: object) -> Curve:
     if not isinstance(points, list) or not all(isinstance(point, list) for point in points):
-        raise _error("the points are not a list of [x, y]")
+        raise _code_error(points) or _error("the points are not a list of [x, y]")
     return Curve(points)
 
 
@@ -78,6 +82,14 @@ def _curve_of_strokes(strokes: object) -> Curve:
     if not isinstance(strokes, list) or not all(isinstance(stroke, list) for stroke in strokes):
         raise _error("the strokes are not a list of lists of points")
     return Curve.from_strokes(strokes)
+
+
+def _code_error(numbers: object) -> FileFormatError | None:
+    """Return the error for a list of whole numbers that is the code of a curve."""
+    if not isinstance(numbers, list) or not all(type(number) is int for number in numbers):
+        return None
+    mistake = mistaken_code(np.array(numbers))
+    return mistake and FileFormatError(mistake.message, hint=mistake.hint)
 
 
 def _error(reason: str) -> FileFormatError:

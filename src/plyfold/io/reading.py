@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 from collections.abc import Callable
@@ -69,6 +70,8 @@ def read(path: str | Path, *, id: str | None = None, tolerance: float | None = N
     * WKT, GeoJSON: LineString, MultiLineString (strokes), Polygon without holes, also as the one feature of a
       collection.
 
+    A third coordinate, in any of them, is left out, and ``Curve.repairs`` says so.
+
     Linear in the size of the file.
 
     Examples
@@ -80,6 +83,9 @@ def read(path: str | Path, *, id: str | None = None, tolerance: float | None = N
     ...     read(file).points.tolist()
     [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]
     """
+    if not isinstance(path, str | os.PathLike):
+        hint = "points go to pf.Curve; a curve or a geometry can be given as it is wherever a curve can"
+        raise InputError(f"a {type(path).__name__} is not the path of a file", hint=hint)
     name = "standard input" if str(path) == "-" else Path(path).name or repr(str(path))
     try:
         return _decoded(_content(path), _format_of_path(path), id, tolerance)
@@ -101,7 +107,12 @@ def _content(path: str | Path) -> bytes:
         raise
     except (OSError, ValueError) as error:
         reason = (getattr(error, "strerror", None) or str(error)).lower()
-        raise FileFormatError(f"it cannot be read ({reason})", hint="check the path") from error
+        raise FileFormatError(f"it cannot be read ({reason})", hint=_path_hint(str(path))) from error
+
+
+def _path_hint(path: str) -> str:
+    name = path.removeprefix("gallery:")
+    return "check the path" if name == path else f"pf.gallery.named_curve({name!r}) has that curve"
 
 
 def _limited(file: BinaryIO) -> bytes:

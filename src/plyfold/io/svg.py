@@ -25,6 +25,7 @@ _MOST_ELEMENTS = 1_000_000
 _SVG = "{http://www.w3.org/2000/svg}"
 _LINK = "{http://www.w3.org/1999/xlink}href"
 _TEMPLATES = ("symbol", "marker", "mask")
+_GEOGRAPHIC = ("gpx", "kml", "gml")
 _SHAPE_HINT = "draw one closed path, polygon, polyline, rect, circle or ellipse"
 
 _Points = npt.NDArray[np.float64]
@@ -198,11 +199,13 @@ def _safe_document(data: bytes) -> bytes:
         _refuse_entity_bombs(data)
         root = ElementTree.fromstring(data)
         if root.tag.removeprefix(_SVG) != "svg":
-            raise FileFormatError(f"it is XML, but no SVG: its root is <{root.tag[:40]}>", hint=_SHAPE_HINT)
+            raise _other_xml(root.tag.rpartition("}")[2])
         _refuse_use_bombs(root)
         _tidy(root)
         _state_size(root)
         return ElementTree.tostring(root)
+    except FileFormatError:
+        raise
     except (ExpatError, ElementTree.ParseError) as error:
         line = error.lineno if isinstance(error, ExpatError) else error.position[0]
         raise FileFormatError(f"line {line}: broken XML ({ErrorString(error.code)})", hint="export it again") from error
@@ -210,6 +213,13 @@ def _safe_document(data: bytes) -> bytes:
         raise FileFormatError("its elements are nested too deep", hint="ungroup the drawing") from error
     except (ValueError, LookupError) as error:
         raise FileFormatError(f"broken XML ({error})", hint="save the SVG as UTF-8") from error
+
+
+def _other_xml(root: str) -> FileFormatError:
+    if root.lower() in _GEOGRAPHIC:
+        hint = "convert it to GeoJSON, for example with GDAL's ogr2ogr"
+        return FileFormatError(f"it is {root.upper()}, which is not read yet", hint=hint)
+    return FileFormatError(f"it is XML, but no SVG: its root is <{root[:40]}>", hint=_SHAPE_HINT)
 
 
 def _refuse_entity_bombs(data: bytes) -> None:

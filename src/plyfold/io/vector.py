@@ -64,7 +64,7 @@ def read_geojson(value: dict[str, Any]) -> Curve:
     Parameters
     ----------
     value : dict
-        The parsed GeoJSON object; altitudes are passed over.
+        The parsed GeoJSON object; altitudes are left out.
 
     Returns
     -------
@@ -106,7 +106,10 @@ def _curve_of_rings(rings: object) -> Curve:
 
 
 def _positions(line: object) -> list[Any]:
-    return [_list(position)[:2] for position in _list(line)]
+    """Return [x, y] for each position, or [x, y, 0] if some have an altitude, so that the curve says it is left out."""
+    positions = [_list(position) for position in _list(line)]
+    altitude = [0.0] if any(len(position) > 2 for position in positions) else []
+    return [position[:2] + altitude for position in positions]
 
 
 def _only(items: object, what: str) -> object:
