@@ -24,7 +24,7 @@ test: $(READY) lint  ## Style, types, and every test but the slow ones
 test-slow: $(READY)  ## The tests that take minutes: every curve with six crossings
 	$(BIN)/python -m pytest -n 2 -m slow
 
-nightly: $(READY)  ## 100,000 random curves against the slow references: under an hour; OPTIONS="--seconds 60" for a taste
+nightly: $(READY)  ## 100,000 random curves and lists of curves against the slow references: about an hour; OPTIONS="--seconds 60" for a taste
 	PYTHONPATH=tests $(BIN)/python -m nightly $(OPTIONS)
 
 browser:  ## A browser for the tests of the pages, where there is none: Debian's Chromium, if this is root on Debian
