@@ -1,6 +1,7 @@
 """What does not fit into memory is refused before it is made: with its size, a place, and a call that does without."""
 
 import tracemalloc
+from functools import cache
 
 import numpy as np
 import pytest
@@ -13,8 +14,10 @@ from plyfold.flat.cells import triangulate_cells
 from plyfold.immersion import immersion
 from plyfold.immersion.layout import glue_layout
 from plyfold.layering import intersections, orders, sheet_pairs
+from plyfold.layering.clock import NO_LIMIT
 from plyfold.layering.level_clauses import LevelClauses, solve_levels
 from plyfold.layering.levels import level_equations
+from plyfold.sketch import answers
 
 
 def helix(turns):
@@ -26,73 +29,104 @@ def helix(turns):
     return np.stack([along.real, along.imag], axis=1)
 
 
-HELIX = pf.arrangement(helix(30))
-LAYERING = pf.find_layering(pf.find_immersion(HELIX))
-IMMERSION = LAYERING.immersion
-GROUPS = [group.borders for group in IMMERSION.disk_layout()]
-MESH = triangulate_cells(HELIX, triangles=0)
-PROBLEM = orders.independent_orders(IMMERSION)
-LEVELS = level_equations(HELIX)
+@cache
+def drawn():
+    return pf.arrangement(helix(30))
+
+
+@cache
+def layering():
+    return pf.find_layering(pf.find_immersion(drawn()))
+
+
+@cache
+def mesh():
+    return triangulate_cells(drawn(), triangles=0)
+
+
+@cache
+def problem():
+    return orders.independent_orders(layering().immersion)
+
+
+def groups():
+    return [group.borders for group in layering().immersion.disk_layout()]
+
+
 RINGS = [[(0, 0), (9, 0), (0, 9)], [(1, 1), (3, 1), (1, 3)]]
 
+# What is large, made from what is there already; and which call is to be recommended.
 LARGE = {
-    "gluing": (lambda: pf.find_immersion(HELIX), "bounds_disk"),
-    "gluing by layout": (lambda: glue_layout(HELIX, GROUPS), "bounds_disk"),
-    "gluing by casing": (lambda: pf.embed_cased(HELIX, LAYERING.casing), "bounds_disk"),
-    "triangles": (lambda: pf.triangulate(HELIX), "bounds_disk"),
-    "seams": (lambda: sheets.seams_of(IMMERSION), "bounds_disk"),
-    "copies": (lambda: sheets.glue_copies(IMMERSION, MESH), "triangulate"),
-    "pairs": (lambda: pf.find_layering(IMMERSION), "embed_cased"),
-    "pairs to count": (lambda: pf.count_layerings(IMMERSION), "embed_cased"),
-    "triples": (lambda: orders._problem(IMMERSION, PROBLEM.graph, orders.NO_LIMIT), "embed_cased"),
-    "glued pairs": (lambda: intersections._glued_pairs(IMMERSION), "find_layering"),
-    "wishes": (lambda: intersections._wishes(PROBLEM, orders.NO_LIMIT), "find_layering"),
-    "levels": (lambda: solve_levels(LevelClauses(LEVELS), orders.NO_LIMIT), "embed_cased"),
-    "levels of several": (lambda: pf.find_embedding(RINGS), "embed_cased"),
+    "gluing": (pf.find_immersion, (drawn,), "bounds_disk"),
+    "gluing by layout": (glue_layout, (drawn, groups), "bounds_disk"),
+    "gluing by casing": (pf.embed_cased, (drawn, lambda: layering().casing), "bounds_disk"),
+    "triangles": (pf.triangulate, (drawn,), "bounds_disk"),
+    "seams": (sheets.seams_of, (lambda: layering().immersion,), "bounds_disk"),
+    "copies": (sheets.glue_copies, (lambda: layering().immersion, mesh), "triangulate"),
+    "pairs": (pf.find_layering, (lambda: layering().immersion,), "embed_cased"),
+    "pairs to count": (pf.count_layerings, (lambda: layering().immersion,), "embed_cased"),
+    "triples": (
+        orders._problem,
+        (lambda: layering().immersion, lambda: problem().graph, lambda: NO_LIMIT),
+        "embed_cased",
+    ),
+    "glued pairs": (intersections._glued_pairs, (lambda: layering().immersion,), "find_layering"),
+    "wishes": (intersections._wishes, (problem, lambda: NO_LIMIT), "find_layering"),
+    "levels": (solve_levels, (lambda: LevelClauses(level_equations(drawn())), lambda: NO_LIMIT), "embed_cased"),
+    "levels of several": (pf.find_embedding, (lambda: RINGS,), "embed_cased"),
 }
 
 
 @pytest.fixture
-def little_memory(monkeypatch):
-    """Let there be a hundred bytes, and look however little is asked for."""
-    monkeypatch.setattr(memory, "available_memory", lambda: 100)
-    monkeypatch.setattr(memory, "_SURELY_THERE", 0)
+def spend_memory(monkeypatch):
+    """Return a function after which there are a hundred bytes, and which has it looked up however little is needed."""
+
+    def spend():
+        monkeypatch.setattr(memory, "available_memory", lambda: 100)
+        monkeypatch.setattr(memory, "_SURELY_THERE", 0)
+
+    return spend
 
 
 @pytest.mark.parametrize("name", LARGE)
-def test_what_does_not_fit_is_refused(name, little_memory):
-    make, instead = LARGE[name]
+def test_what_does_not_fit_is_refused(name, spend_memory):
+    make, given, instead = LARGE[name]
+    arguments = [argument() for argument in given]
+    spend_memory()
     with pytest.raises(MemoryLimitError, match=r"would take [\d.]+ MiB of memory, and 0.0 MiB can be had") as caught:
-        make()
+        make(*arguments)
     assert instead in caught.value.hint
     assert isinstance(caught.value, MemoryError)
 
 
-def test_the_place_is_where_most_sheets_lie(little_memory):
+def test_the_place_is_where_most_sheets_lie(spend_memory):
+    spend_memory()
     with pytest.raises(MemoryLimitError) as caught:
-        memory.require_memory(101, "it", HELIX, "")
+        memory.require_memory(101, "it", drawn(), "")
     ((x, y),) = caught.value.where
     assert 3.4 < np.hypot(x, y) < 6.6
-    memory.require_memory(100, "it", HELIX, "")
+    memory.require_memory(100, "it", drawn(), "")
 
 
-def test_answers_without_sheets_need_little(little_memory):
-    assert pf.bounds_disk(HELIX)
-    assert pf.count_immersions(HELIX) == 1
-    assert len(pf.coverage(HELIX)) == np.count_nonzero(HELIX.winding)
+def test_answers_without_sheets_need_little(spend_memory):
+    spend_memory()
+    assert pf.bounds_disk(drawn())
+    assert pf.count_immersions(drawn()) == 1
+    assert len(pf.coverage(drawn())) == np.count_nonzero(drawn().winding)
     with pytest.raises(MemoryLimitError):
-        pf.lift(HELIX)
+        pf.lift(drawn())
 
 
 @pytest.mark.parametrize("name", ["gluing", "gluing by casing", "seams", "copies", "pairs", "triples", "glued pairs"])
 def test_sizes_are_those_that_are_taken(name, monkeypatch):
     """The estimate lies above what Python and numpy allocate, and not far above."""
-    sizes = []
+    make, given, _ = LARGE[name]
+    arguments, sizes = [argument() for argument in given], []
     for module in (immersion, intersections, orders, sheet_pairs, sheets):
         monkeypatch.setattr(module, "require_memory", lambda size, *_: sizes.append(size))
     tracemalloc.start()
     before, _ = tracemalloc.get_traced_memory()
-    LARGE[name][0]()
+    make(*arguments)
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert 0.8 * (peak - before) < max(sizes) < 4 * (peak - before)
@@ -118,3 +152,8 @@ def test_limits_of_a_container_count(monkeypatch):
     assert memory.available_memory() == 350
     files["memory.max"] = "max"
     assert memory.available_memory() is None
+
+
+def test_the_page_hears_of_it():
+    error = answers.error_answer(answers._kind(MemoryLimitError("it would not fit")), "it would not fit")
+    assert error.status == 413

@@ -58,6 +58,8 @@ def triangulate(
     ------
     NotImmersibleError
         If the curve bounds no immersed disk; ``error.obstruction`` says why.
+    MemoryLimitError
+        If the gluing of the sheets would not fit into memory.
     InputError
         If ``refine`` is no positive number or makes too many triangles, or the immersion is one of another curve.
     GeneralPositionError

@@ -61,6 +61,8 @@ def find_immersion(curve: CurveLike, method: Literal["exact", "paper"] = "exact"
     ------
     CurveError
         If the input is not a closed curve.
+    MemoryLimitError
+        If the gluing of its sheets would not fit into memory. :func:`bounds_disk` decides without it.
 
     Notes
     -----

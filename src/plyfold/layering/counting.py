@@ -41,6 +41,11 @@ def count_layerings(immersion: Immersion, time_limit: float | None = None) -> in
         another one, so the number is even if the curve crosses itself. Unknown at the time limit, or if a table would
         have more than two million rows.
 
+    Raises
+    ------
+    MemoryLimitError
+        If the pairs or triples of sheets would not fit into memory.
+
     Notes
     -----
     The number may have hundreds of digits. What counts is how tightly the orders of sheets depend on each other, and

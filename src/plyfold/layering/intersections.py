@@ -116,6 +116,11 @@ def least_intersecting_layering(immersion: Immersion, time_limit: float | None =
         Intersections run along borders; the shortest total length of borders is found, or for a Gauss code the
         smallest number of them.
 
+    Raises
+    ------
+    MemoryLimitError
+        If the triples of sheets, or the pairs of sheets glued along borders, would not fit into memory.
+
     Notes
     -----
     MaxSAT by cores [IMM19]_; NP-hard. Lengths are weighed to a millionth of the longest border. Where the time ends,

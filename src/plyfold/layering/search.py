@@ -60,6 +60,8 @@ def find_layering(
     InputError
         If ``fix`` names a sheet that does not lie over the cell, or a sheet twice; if there is no such method, or
         it knows no fixed orders and no time limit.
+    MemoryLimitError
+        If the pairs or triples of sheets would not fit into memory.
 
     Notes
     -----

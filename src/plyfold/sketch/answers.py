@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from plyfold.errors import CurveError, InputError, PlyfoldError, StrokeError, TimeLimitError
+from plyfold.errors import CurveError, InputError, MemoryLimitError, PlyfoldError, StrokeError, TimeLimitError
 from plyfold.sketch.export import export
 from plyfold.sketch.lie import lie
 from plyfold.sketch.lifting import surface
@@ -95,6 +95,8 @@ def error_answer(
 def _kind(error: PlyfoldError) -> str:
     if isinstance(error, TimeLimitError):
         return "time limit"
+    if isinstance(error, MemoryLimitError):
+        return "too large"
     if isinstance(error, StrokeError):
         return "unfinished"
     return "input" if isinstance(error, InputError) and not isinstance(error, CurveError) else "drawing"
