@@ -17,7 +17,7 @@ from plyfold.arrangement.core import CurveLike
 from plyfold.arrays import Floats, Ints
 from plyfold.curve import Curve
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
-from plyfold.flat.cells import DEFAULT_TRIANGLES, triangulate_cells
+from plyfold.flat.cells import DEFAULT_TRIANGLES, refuse_broken, triangulate_cells
 from plyfold.immersion import Immersion, find_immersion, immersions
 from plyfold.io.saving import save_bytes
 from plyfold.layering import Layering, Progress, first_layering
@@ -290,7 +290,8 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     TimeLimitError
         If the time limit was reached: the answer is unknown. Not with ``allow_intersections``.
     PrecisionError
-        If double precision cannot hold the mesh.
+        If double precision cannot hold the mesh; it names the place. What is returned passes :meth:`Surface.check`:
+        its parts that rounding can break have been checked.
     InputError
         If an option is of the wrong kind, ``gap`` or a size is not positive, or the triangles would be more than ten
         million; if pins name no place of the surface, or leave less room than the gap somewhere.
@@ -319,6 +320,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     cells = triangulate_cells(drawn, max_area, triangles)
     if isinstance(layering, IntersectingLayering):
         cells = split_chords(cells, layering.intersections[:, 0])
+        refuse_broken(drawn, cells)
     report("gluing the sheets", 0.0)
     mesh = glue_sheets(layering, cells)
     report("smoothing heights", 0.0)
