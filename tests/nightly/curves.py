@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from nightly.meshes import drawn_anywhere, thin_spike
 from reference.random_curves import (
     SEVERAL_IMMERSIONS,
     Polygon,
@@ -50,6 +51,8 @@ KINDS: dict[str, Draw] = {
     "ribbon": lambda rng: ribbon_outline(rng, int(rng.integers(4, 25))),
     "large disk": lambda rng: glued_disk(rng, int(rng.integers(60, 200))),
     "large ribbon": lambda rng: ribbon_outline(rng, int(rng.integers(40, 200))),
+    "thin spike": thin_spike,
+    "certificate": drawn_anywhere,
 }
 
 SHARES = {
@@ -63,6 +66,8 @@ SHARES = {
     "ribbon": 2,
     "large disk": 1,
     "large ribbon": 1,
+    "thin spike": 1,
+    "certificate": 2,
 }
 MIX = [kind for kind, share in SHARES.items() for _ in range(share)]
 """Seeds go round this list."""

@@ -6,6 +6,7 @@ import numpy as np
 
 import plyfold as pf
 from nightly.curves import DISKS, Drawn
+from nightly.meshes import judge_certificate, judge_spike
 from reference import crossings, gluings, shor_van_wyk
 from reference.planar_maps import GaussCode, gauss_code, windings
 from test_against_reference import (
@@ -25,8 +26,15 @@ MOST_CORNERS = 60
 """Triangles are sought by the reference up to this many corners of the polygon."""
 
 
+MESHES = {"thin spike": judge_spike, "certificate": judge_certificate}
+"""Kinds of which the mesh is judged, and how."""
+
+
 def judge(drawn: Drawn) -> None:
     """Compare a curve with the references where they can, and with itself in other frames."""
+    if drawn.kind in MESHES:
+        MESHES[drawn.kind](drawn.points, np.random.default_rng(drawn.seed))
+        return
     try:
         arranged = pf.arrangement(drawn.points, general_position="raise")
     except pf.errors.PlyfoldError:
