@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from plyfold.layering.clock import NO_LIMIT
 
 import plyfold as pf
 from plyfold import memory
@@ -14,7 +15,6 @@ from plyfold.flat.cells import triangulate_cells
 from plyfold.immersion import immersion
 from plyfold.immersion.layout import glue_layout
 from plyfold.layering import intersections, orders, sheet_pairs
-from plyfold.layering.clock import NO_LIMIT
 from plyfold.layering.level_clauses import LevelClauses, solve_levels
 from plyfold.layering.levels import level_equations
 from plyfold.sketch import answers

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from nightly.lists import nested, through_the_frame
+from nightly.meshes import drawn_anywhere, thin_spike
 from reference.random_curves import (
     SEVERAL_IMMERSIONS,
     Polygon,
@@ -51,6 +52,8 @@ KINDS: dict[str, Draw] = {
     "ribbon": lambda rng: ribbon_outline(rng, int(rng.integers(4, 25))),
     "large disk": lambda rng: glued_disk(rng, int(rng.integers(60, 200))),
     "large ribbon": lambda rng: ribbon_outline(rng, int(rng.integers(40, 200))),
+    "thin spike": thin_spike,
+    "certificate": drawn_anywhere,
 }
 
 LISTS: dict[str, Callable[[np.random.Generator], list[Polygon]]] = {
@@ -71,6 +74,8 @@ SHARES = {
     "large ribbon": 1,
     "list of loops": 1,
     "list of loops through the frame": 1,
+    "thin spike": 1,
+    "certificate": 2,
 }
 MIX = [kind for kind, share in SHARES.items() for _ in range(share)]
 """Seeds go round this list."""

@@ -7,6 +7,7 @@ import numpy as np
 import plyfold as pf
 from nightly.curves import DISKS, LISTS, Drawn
 from nightly.lists import judge_list
+from nightly.meshes import judge_certificate, judge_spike
 from reference import crossings, gluings, shor_van_wyk
 from reference.planar_maps import GaussCode, gauss_code, windings
 from test_against_reference import (
@@ -26,10 +27,17 @@ MOST_CORNERS = 60
 """Triangles are sought by the reference up to this many corners of the polygon."""
 
 
+MESHES = {"thin spike": judge_spike, "certificate": judge_certificate}
+"""Kinds of which the mesh is judged, and how."""
+
+
 def judge(drawn: Drawn) -> None:
     """Compare a curve with the references where they can, and with itself in other frames; or a list of curves."""
     if drawn.kind in LISTS:
         judge_list(drawn.points)
+        return
+    if drawn.kind in MESHES:
+        MESHES[drawn.kind](drawn.points, np.random.default_rng(drawn.seed))
         return
     try:
         arranged = pf.arrangement(drawn.points, general_position="raise")

@@ -14,6 +14,7 @@ from nightly import __main__ as nightly
 from nightly.curves import KINDS, LISTS, MIX, draw
 from nightly.judge import judge
 from nightly.lists import judge_list
+from nightly.meshes import drawn_anywhere, judge_certificate
 
 FIRST_SEED = 10_000_000
 """Far from the seeds of the nightly run."""
@@ -25,6 +26,16 @@ def test_two_seconds_of_random_curves():
         judge(draw(seed))
         if time.monotonic() > end and seed >= FIRST_SEED + len(MIX):
             break
+
+
+def test_spoiled_certificates_at_every_scale():
+    """Right and wrong ones are both among them."""
+    answers = Counter()
+    for seed in range(60):
+        rng = np.random.default_rng(seed)
+        answers[judge_certificate(drawn_anywhere(rng), rng)] += 1
+    assert answers[True] >= 5
+    assert answers[False] >= 5
 
 
 def test_every_kind_comes_up_and_seeds_repeat():

@@ -63,7 +63,7 @@ def check_surface(  # noqa: PLR0913 - the parts of a mesh, and two options
     """
     require_gap(gap)
     positions = finite(vertices, 3)
-    walk = walked(curve_points, positions[:, :2], faces, boundary)
+    sides, walk = walked(curve_points, positions[:, :2], faces, boundary)
     places = common_places(walk)
-    require_immersed(walk, places)
-    require_layered(positions, walk.sides.start.reshape(-1, 3), places, gap, passing)
+    require_immersed(sides, walk, places)
+    require_layered(positions, sides.start.reshape(-1, 3), places, gap, passing)

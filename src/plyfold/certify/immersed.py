@@ -8,10 +8,18 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.certify.disk import Sides, disk_sides
-from plyfold.certify.exact import Bools, CertificateError, Floats, Ints, finite
-from plyfold.certify.places import Places, doubles, on_edges, require_positive
+from plyfold.certify.exact import Bools, CertificateError, Floats, Ints, different, finite
+from plyfold.certify.places import Places, on_edges, require_positive
 
-__all__ = ["Walk", "check_immersed_disk", "common_places", "require_immersed", "walked"]
+__all__ = [
+    "Walk",
+    "check_immersed_disk",
+    "common_places",
+    "require_along_curve",
+    "require_immersed",
+    "walk_along",
+    "walked",
+]
 
 
 def check_immersed_disk(
@@ -57,31 +65,29 @@ def check_immersed_disk(
     Traceback (most recent call last):
     plyfold.certify.exact.CertificateError: the boundary does not start at the curve's first point, at (0, 0)
     """
-    walk = walked(curve_points, vertices_xy, faces, boundary)
-    require_immersed(walk, on_edges(walk.near, walk.edges, walk.curve, walk.is_point))
+    sides, walk = walked(curve_points, vertices_xy, faces, boundary)
+    require_immersed(sides, walk, on_edges(walk.near, walk.edges, walk.curve, walk.is_point))
 
 
 @dataclass(frozen=True, eq=False)
 class Walk:
-    """A disk whose boundary goes through the points of the curve.
+    """A way along the edges of a mesh that goes through the points of the curve.
 
     Parameters
     ----------
     curve : (n, 2) float
     near : (v, 2) float
-        The vertices as they are given; all triangles are positive.
-    sides : Sides
+        The vertices as they are given.
     loop : (b,) int
-        The vertices along the curve.
+        The vertices along the curve; several times where it crosses itself in a vertex.
     edge : (b,) int
-        The edge of the curve that the boundary goes along from each of them.
+        The edge of the curve that the way goes along from each of them.
     is_point : (v,) bool
         Which vertices are at points of the curve.
     """
 
     curve: Floats
     near: Floats
-    sides: Sides
     loop: Ints
     edge: Ints
     is_point: Bools
@@ -98,19 +104,23 @@ class Walk:
 
 def walked(
     curve_points: npt.ArrayLike, vertices_xy: npt.ArrayLike, faces: npt.ArrayLike, boundary: npt.ArrayLike
-) -> Walk:
-    """Return a disk with positive triangles, and how its boundary goes through the points of the curve."""
+) -> tuple[Sides, Walk]:
+    """Return the sides of a disk, and its boundary as a walk along the curve."""
     points, near = finite(curve_points, 2), finite(vertices_xy, 2)
-    if len(same := np.flatnonzero((points == np.roll(points, -1, axis=0)).all(axis=1))):
-        raise CertificateError("the curve has the same point twice in a row", where=points[same[:1]])
     sides = disk_sides(faces, len(near))
     loop = np.asarray(boundary)
-    require_positive(doubles(near), sides.start.reshape(-1, 3))
     _require_boundary_loop(sides, loop, near)
+    return sides, walk_along(points, near, loop)
+
+
+def walk_along(points: Floats, near: Floats, loop: Ints) -> Walk:
+    """Return a row of vertices as a walk along the curve, whose points it must go through."""
+    if len(same := np.flatnonzero((points == np.roll(points, -1, axis=0)).all(axis=1))):
+        raise CertificateError("the curve has the same point twice in a row", where=points[same[:1]])
     at = _positions_of(points, near[loop])
     is_point = np.zeros(len(near), dtype=bool)
     is_point[loop[at]] = True
-    return Walk(points, near, sides, loop, np.repeat(np.arange(len(at)), np.diff(np.append(at, len(loop)))), is_point)
+    return Walk(points, near, loop, np.repeat(np.arange(len(at)), np.diff(np.append(at, len(loop)))), is_point)
 
 
 def common_places(walk: Walk) -> Places:
@@ -118,14 +128,13 @@ def common_places(walk: Walk) -> Places:
 
     Where there are vertices between the points of two edges, the place is where these edges cross.
     """
-    near, place = np.unique(walk.near, axis=0, return_inverse=True)
-    place = place.reshape(-1)
+    near, _, place = different(walk.near)
     points = np.flatnonzero(walk.is_point)
-    between = walk.loop[~walk.is_point[walk.loop]]
+    between = ~walk.is_point[walk.loop]
     given, edges = np.zeros(len(near), dtype=bool), np.full((len(near), 2), -1)
     given[place[points]] = True
     edges[place[points]] = walk.edges[points]
-    at, edge = np.unique(np.stack([place[between], walk.edges[between, 0]], axis=1), axis=0).T
+    at, edge = np.unique(np.stack([place[walk.loop], walk.edge], axis=1)[between], axis=0).T
     rank = np.arange(len(at)) - np.searchsorted(at, at)
     used = (rank < 2) & ~given[at]
     edges[at[used], rank[used]] = edge[used]
@@ -144,12 +153,11 @@ def _require_on(places: Places, at: Ints, edge: Ints) -> None:
             )
 
 
-def require_immersed(walk: Walk, places: Places) -> None:
+def require_immersed(sides: Sides, walk: Walk, places: Places) -> None:
     """Check that with the vertices on the curve's edges the disk is immersed, with the curve as its boundary."""
-    _require_along_curve(walk, places)
-    triangles = walk.sides.start.reshape(-1, 3)
-    require_positive(places, triangles[(places.off[triangles] > 0).any(axis=1)])
-    _require_single_turns(walk.sides, walk.loop, places)
+    require_along_curve(walk, places)
+    require_positive(places, sides.start.reshape(-1, 3))
+    _require_single_turns(sides, walk.loop, places)
 
 
 def _require_boundary_loop(sides: Sides, loop: Ints, places: Floats) -> None:
@@ -164,8 +172,8 @@ def _require_boundary_loop(sides: Sides, loop: Ints, places: Floats) -> None:
         raise CertificateError("the given boundary leaves the boundary of the mesh", where=places[loop[wrong[:1]]])
 
 
-def _require_along_curve(walk: Walk, places: Places) -> None:
-    """Check that the boundary advances along every edge of the curve.
+def require_along_curve(walk: Walk, places: Places) -> None:
+    """Check that a walk advances along every edge of the curve.
 
     Of points on one line, the order along it is that of their coordinates.
     """

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.certify.exact import Bools, CertificateError, Floats, Ints, as_faces, finite, pair_keys
+from plyfold.certify.exact import Bools, CertificateError, Floats, Ints, as_faces, different, finite, pair_keys
 from plyfold.certify.places import Places, doubles, require_positive
 
-__all__ = ["check_layered", "require_gap", "require_layered"]
+__all__ = ["check_layered", "require_gap", "require_layered", "require_no_overlap"]
 
 _PAIRS_AT_A_TIME = 1 << 20
 
@@ -81,8 +81,8 @@ def require_layered(positions: Floats, triangles: Ints, exact: Places, gap: floa
 
     Vertices at one place as they are given have one exact place.
     """
-    places, first, place = np.unique(positions[:, :2], axis=0, return_index=True, return_inverse=True)
-    height, below = positions[:, 2], place.reshape(-1)
+    places, first, below = different(positions[:, :2])
+    height = positions[:, 2]
     flat = _from_lowest_corner(below, triangles)
     edges = _different_edges(below, triangles)
     named = _named_pairs(passing, edges, below)
@@ -90,7 +90,7 @@ def require_layered(positions: Floats, triangles: Ints, exact: Places, gap: floa
     stacks.require_gap(gap)
     stacks.require_one_order("triangles", flat)
     stacks.require_one_order("edges", edges, pair_keys(named, len(edges)))
-    _require_no_overlap(np.unique(below[flat], axis=0), exact.of(first))
+    require_no_overlap(np.unique(below[flat], axis=0), exact.of(first))
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,7 +187,7 @@ def _different_edges(below: Ints, triangles: Ints) -> Ints:
     return np.unique(ends, axis=0)
 
 
-def _require_no_overlap(triangles: Ints, places: Places) -> None:
+def require_no_overlap(triangles: Ints, places: Places) -> None:
     """Check that flat triangles meet at most in common corners and edges, and as well if their corners are doubles."""
     corners, off = places.near[triangles], places.off[triangles].max(axis=1)
     low, high = corners.min(axis=1) - off[:, None], corners.max(axis=1) + off[:, None]

@@ -179,8 +179,12 @@ def _scaled(directions: Floats) -> tuple[Floats, Floats]:
 
 
 def require_positive(places: Places, triangles: Ints) -> None:
-    """Check that all triangles are strictly counter-clockwise."""
-    if len(bad := np.flatnonzero(places.turn(triangles) <= 0)):
+    """Check that all triangles are strictly counter-clockwise, also with the doubles that are near their corners."""
+    a, b, c = triangles.T
+    sign, doubt = places.cross_sign_and_doubt(a, b, a, c)
+    again = np.flatnonzero(doubt & (places.off[triangles] > 0).any(axis=1))
+    sign[again] = np.minimum(sign[again], doubles(places.near).turn(triangles[again]))
+    if len(bad := np.flatnonzero(sign <= 0)):
         raise CertificateError(f"triangle {bad[0]} is flat or turned over", where=places.near[triangles[bad[0]]])
 
 

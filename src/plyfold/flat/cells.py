@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -26,7 +26,6 @@ from plyfold.flat.constrained import (
 )
 from plyfold.flat.mend import Limits, mend_angles, sharp_triangles
 from plyfold.flat.refine import Size, refine, split_points, usual_area
-from plyfold.predicates import orient
 
 if TYPE_CHECKING:
     from plyfold.arrangement import Arrangement
@@ -36,6 +35,7 @@ __all__ = [
     "MOST_TRIANGLES",
     "CellTriangulation",
     "chain_of",
+    "refuse_broken",
     "refuse_max_area",
     "triangulate_cells",
 ]
@@ -46,6 +46,8 @@ DEFAULT_TRIANGLES = 4000
 MOST_TRIANGLES = 10_000_000
 # No edge shorter than so many roundings is split: points on it would not lie well enough on a line.
 _FINEST = (2.0**10, 2.0**24)
+# Where points that were added do not fit, they are taken out so many times at most.
+_MOST_REPAIRS = 20
 # Angles outside thin strips may take so many triangles more, as a share of those that were asked for, or there are.
 _MENDING = 0.28
 # Few triangles may become so many times those of the curve alone.
@@ -126,7 +128,8 @@ def triangulate_cells(
     Raises
     ------
     PrecisionError
-        If the crossings, rounded to doubles, no longer draw the same cells; it names the place. Or if the whole drawing
+        If the crossings, rounded to doubles, no longer draw the same cells; it names the place. Points that were added
+        and do not fit, in strips as thin as rounding errors, are left out. Or if the whole drawing
         is so small that areas of triangles are no doubles.
 
     Notes
@@ -216,7 +219,7 @@ def _with_good_angles(
     for share in _SHARES:
         sparser = size._replace(wanted=share * size.wanted)
         refined, fewest = _refined(arrangement, outline, sparser, finest, watch)
-        found.append(watch.wait_for(partial(_verified, arrangement, refined), len(refined.triangles)))
+        found.append(watch.wait_for(partial(_repaired, arrangement, outline, refined), len(refined.triangles)))
         enough = max((1 + _MENDING) * size.wanted, min(_GROWTH * fewest, DEFAULT_TRIANGLES))
         mend = partial(_mended, arrangement, outline, found[-1], enough, finest)
         mended = watch.wait_for(mend, int(enough))
@@ -238,17 +241,21 @@ def _mended(
     more = max(enough - winding.sum(), _MENDING * winding.sum())
     limits = Limits(int(more / (2 * winding.mean())), finest)
     mended = mend_angles(_edged(outline, mesh), sharp, (outline.chain, np.roll(outline.chain, -1)), limits)
-    return _drawn(outline, mesh, mended) if mended else None
+    if not mended:
+        return None
+    drawn = _drawn(outline, mesh, mended)
+    with suppress(PrecisionError):
+        refuse_broken(arrangement, drawn)
+        return drawn
+    return mesh
 
 
 def _drawn(outline: Outline, mesh: CellTriangulation, mended: Edged) -> CellTriangulation:
-    """Return a mesh with the points that mending has added, if they are as good with the drawing's rounding errors."""
+    """Return a mesh with the points that mending has added."""
     unit_points = np.stack([mended.x, mended.y], axis=1)
     points = outline.centre + unit_points * outline.scale
     points[: len(mesh.points)] = mesh.points
     triangles = mended.start.reshape(-1, 3)
-    if (orient(*points[triangles].swapaxes(0, 1)) <= 0).any():
-        return mesh
     added = np.flatnonzero(mended.on >= 0)
     chain, chain_border = split_chain(outline, unit_points, np.stack([mended.on[added], added], axis=1))
     left = left_of_chain(triangles, chain)
@@ -272,18 +279,69 @@ def _edged(outline: Outline, mesh: CellTriangulation) -> Edged:
 
 
 def _verified(arrangement: Arrangement, mesh: PlanarMesh) -> CellTriangulation:
-    """Keep the triangles over covered cells, and check exactly that they are what they should be."""
+    """Keep the triangles over covered cells; they must be what they should be, exactly."""
     cell, left = _cells(arrangement, mesh)
     keep = arrangement.winding[cell] > 0
     kept = mesh.triangles[keep]
-    a, b, c = mesh.points[kept].swapaxes(0, 1)
-    if len(flat := np.flatnonzero(orient(a, b, c) <= 0)):
-        raise too_close(a[flat])
     moved = np.full(3 * len(keep) + 1, -1)  # one more, so that −1 stays −1
     moved[np.flatnonzero(np.repeat(keep, 3))] = np.arange(3 * len(kept))
     twin = moved[mesh.twin.reshape(-1, 3)[keep].ravel()]
     points = mesh.points[:-ENCLOSING]
-    return CellTriangulation(points, kept, twin, cell[keep], mesh.chain, mesh.chain_border, moved[left])
+    verified = CellTriangulation(points, kept, twin, cell[keep], mesh.chain, mesh.chain_border, moved[left])
+    refuse_broken(arrangement, verified)
+    return verified
+
+
+def _repaired(arrangement: Arrangement, outline: Outline, mesh: PlanarMesh) -> CellTriangulation:
+    """Verify a mesh; where rounding has broken it, in strips as thin as rounding errors, with fewer points there."""
+    for _ in range(_MOST_REPAIRS):
+        try:
+            return _verified(arrangement, mesh)
+        except PrecisionError as error:
+            unfit = _unfit(outline, mesh, np.array(error.where))
+            if not len(unfit):
+                raise
+            mesh = _without(outline, mesh, unfit)
+    return _verified(arrangement, mesh)
+
+
+def _unfit(outline: Outline, mesh: PlanarMesh, places: Floats) -> Ints:
+    """Return the points that were added at some places, and all others on the same pieces of the outline."""
+    known = len(outline.points)
+    there = np.zeros(len(mesh.points), dtype=bool)
+    there[known:] = np.isin(mesh.points[known:].view(complex), places.view(complex)).ravel()
+    piece = np.cumsum(mesh.chain < known) - 1
+    on_same = np.isin(piece, piece[there[mesh.chain]]) & (mesh.chain >= known)
+    there[mesh.chain[on_same]] = True
+    return np.flatnonzero(there)
+
+
+def _without(outline: Outline, mesh: PlanarMesh, unfit: Ints) -> PlanarMesh:
+    """Triangulate again without some of the points."""
+    kept = np.delete(np.arange(len(mesh.points) - ENCLOSING), unfit)
+    number = np.full(len(mesh.points), -1)
+    number[kept] = np.arange(len(kept))
+    along = number[mesh.chain] >= 0
+    points = mesh.points[kept]
+    fewer = replace(
+        outline,
+        points=points,
+        chain=number[mesh.chain[along]],
+        chain_border=mesh.chain_border[along],
+        unit_points=(points - outline.centre) / outline.scale,
+    )
+    return _plain(fewer)
+
+
+def refuse_broken(arrangement: Arrangement, mesh: CellTriangulation) -> None:
+    """Raise PrecisionError where rounding has broken a mesh."""
+    from plyfold.certify.plane import CertificateError, check_rounded
+
+    assert arrangement.curve is not None
+    try:
+        check_rounded(arrangement.curve.points, mesh.points, mesh.triangles, mesh.chain)
+    except CertificateError as error:
+        raise too_close(error.where) from error
 
 
 def _cells(arrangement: Arrangement, mesh: PlanarMesh) -> tuple[Ints, Ints]:

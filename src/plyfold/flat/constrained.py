@@ -117,7 +117,7 @@ def _refuse_equal(points: Floats) -> None:
         )
 
 
-def too_close(places: Floats) -> PrecisionError:
+def too_close(places: Floats | tuple[tuple[float, ...], ...]) -> PrecisionError:
     """Return the error that names places where strands are closer than double precision can tell."""
     return PrecisionError(
         "strands are so close that rounding their crossings to double precision changes the drawing",

@@ -25,7 +25,7 @@ import numpy as np
 
 from plyfold.arrays import Bools, Floats
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.errors import InputError
+from plyfold.errors import InputError, PrecisionError
 from plyfold.surface.contact import Distances, Problem, forced_heights
 from plyfold.surface.energy import cloth_of
 from plyfold.surface.glue import LiftedMesh
@@ -90,6 +90,8 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
     ------
     InputError
         If the pins leave less room than the gap; it names the place.
+    PrecisionError
+        If the gap is less than rounding errors of heights; it names the place.
 
     Notes
     -----
@@ -114,7 +116,20 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
     if pins and np.max(missing := wanted.missing(z), initial=0.0) > _LARGEST_REST:
         place = points[mesh.planar_vertex[wanted.rows[[int(np.argmax(missing))]].indices[:1]]]
         raise InputError("the pins leave less room than the gap", where=place, hint="move the pinned heights apart")
-    return _kept_apart(_settled(gap * z, mesh, given, held, fixed), mesh, gap * shares, held)
+    heights = _kept_apart(_settled(gap * z, mesh, given, held, fixed), mesh, gap * shares, held)
+    _require_order(heights, points, mesh)
+    return heights
+
+
+def _require_order(heights: Floats, points: Floats, mesh: LiftedMesh) -> None:
+    """Raise PrecisionError where a gap is lost in rounding."""
+    lower, upper = mesh.stacked.T
+    if len(equal := np.flatnonzero(~(heights[lower] < heights[upper]))):
+        raise PrecisionError(
+            "the gap of sheets is lost in rounding their heights",
+            where=points[mesh.planar_vertex[lower[equal[:1]]]],
+            hint="make the gap larger, or the pinned heights smaller",
+        )
 
 
 def refuse_stiffness(stiffness: float) -> None:

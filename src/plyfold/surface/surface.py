@@ -18,7 +18,7 @@ from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Clock, Progress, Watch
 from plyfold.curve import Curve
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
-from plyfold.flat.cells import DEFAULT_TRIANGLES, triangulate_cells
+from plyfold.flat.cells import DEFAULT_TRIANGLES, refuse_broken, triangulate_cells
 from plyfold.immersion import Immersion, find_immersion
 from plyfold.immersion.solve import watched_immersions
 from plyfold.io.saving import save_bytes
@@ -294,7 +294,8 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     TimeLimitError
         If the time limit was reached: the answer is unknown. ``error.stage`` is the stage that was going on.
     PrecisionError
-        If double precision cannot hold the mesh.
+        If double precision cannot hold the mesh; it names the place. What is returned passes :meth:`Surface.check`:
+        its parts that rounding can break have been checked.
     InputError
         If an option is of the wrong kind, ``gap`` or a size is not positive, or the triangles would be more than ten
         million; if pins name no place of the surface, or leave less room than the gap somewhere.
@@ -322,6 +323,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     cells = triangulate_cells(drawn, max_area, triangles, watch)
     if isinstance(layering, IntersectingLayering):
         cells = split_chords(cells, layering.intersections[:, 0])
+        refuse_broken(drawn, cells)
     mesh = glue_sheets(layering, cells, watch)
     heights = smooth_heights(cells.points, mesh, distance, stiffness=stiffness, pins=pins, flat=weight, watch=watch)
     vertices = np.column_stack([cells.points[mesh.planar_vertex], heights])
