@@ -27,7 +27,6 @@ if __name__ == "__main__":
 """
 
 
-@pytest.mark.xfail(strict=True)
 @pytest.mark.skipif(sys.platform != "linux", reason="the fork server")
 def test_an_interrupt_while_workers_are_imported(tmp_path):
     (tmp_path / "sitecustomize.py").write_text(PRESS)
