@@ -35,11 +35,12 @@ def end_at_interrupts() -> None:
     """Let Ctrl-C end the process, from now on; unless it was started with the wish that it does not."""
     if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
         return
-    heard, written = os.pipe()
-    os.set_blocking(written, False)
     signal.signal(signal.SIGINT, _leave)
-    signal.set_wakeup_fd(written, warn_on_full_buffer=False)
-    start_new_thread(_listen, (heard,))
+    if os.name == "posix":  # elsewhere, pipes that do not block are not to be had
+        heard, written = os.pipe()
+        os.set_blocking(written, False)
+        signal.set_wakeup_fd(written, warn_on_full_buffer=False)
+        start_new_thread(_listen, (heard,))
 
 
 def raise_interrupts() -> None:

@@ -46,10 +46,10 @@ def _sketch(options: argparse.Namespace) -> int:
     from plyfold.sketch.workers import Workers
 
     beginning = json_answer(start(options.file))
-    raise_interrupts()
-    signal.signal(signal.SIGTERM, _interrupt)
     workers = Workers()
     try:
+        raise_interrupts()
+        signal.signal(signal.SIGTERM, _interrupt)
         server = _listening(options.host, options.port, workers, beginning)
         print(f"Drawing at {server.address}  (Ctrl-C ends it)", flush=True)
         if not options.no_browser:

@@ -330,7 +330,7 @@ def _without(outline: Outline, mesh: PlanarMesh, unfit: Ints) -> PlanarMesh:
         chain_border=mesh.chain_border[along],
         unit_points=(points - outline.centre) / outline.scale,
     )
-    return _plain(fewer)
+    return _plain(fewer, UNWATCHED)
 
 
 def refuse_broken(arrangement: Arrangement, mesh: CellTriangulation) -> None:

@@ -14,9 +14,10 @@ import socket
 import sys
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
-from multiprocessing import connection, get_context, parent_process
+from multiprocessing import connection, get_context, parent_process, resource_tracker
 from multiprocessing.connection import Connection
 from typing import Any
 
@@ -75,6 +76,23 @@ def _warm_context() -> Any:
     return context
 
 
+@contextmanager
+def _interrupts_kept_from_children() -> Iterator[None]:
+    """Start processes that never hear of Ctrl-C, which is for the server; it hears it in its other threads meanwhile.
+
+    A fork server and its forks import for a second before they could ignore it themselves.
+    """
+    if sys.platform == "win32":
+        yield
+        return
+    resource_tracker.ensure_running()  # when it is started, it lets interrupts through again
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 @dataclass
 class Workers:
     """The processes. Threads may ask at the same time; ``close`` ends them all."""
@@ -120,7 +138,8 @@ class Workers:
     def _start(self) -> _Worker:
         ours, theirs = self._context.Pipe()
         process = self._context.Process(target=_work, args=(theirs,), daemon=True)
-        process.start()
+        with _interrupts_kept_from_children():
+            process.start()
         theirs.close()
         return _Worker(process, ours)
 
