@@ -83,6 +83,14 @@ class Curve:
     def __len__(self) -> int:
         return len(self.points)
 
+    def __repr__(self) -> str:
+        return f"<Curve of {len(self)} points>"
+
+    def _repr_svg_(self) -> str:
+        from plyfold.draw.svg import curve_svg
+
+        return curve_svg(self.points)
+
     @classmethod
     def from_strokes(cls, strokes: Iterable[npt.ArrayLike], max_gap: float | None = None) -> Curve:
         """Join strokes, given in any order and direction, into one closed curve.

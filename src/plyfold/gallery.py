@@ -51,6 +51,14 @@ class NamedCurve:
     immersions: int
     embeddable: int
 
+    def __repr__(self) -> str:
+        return f"<NamedCurve {self.name}: {self.crossings} crossings, {self.immersions} immersions>"
+
+    def _repr_svg_(self) -> str:
+        from plyfold.arrangement import arrangement
+
+        return arrangement(self.curve)._repr_svg_()
+
     @cached_property
     def curve(self) -> Curve:
         """The curve itself."""

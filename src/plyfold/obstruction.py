@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from textwrap import shorten
 from typing import Any
 
 __all__ = ["IMMERSION_REASONS", "Obstruction", "Unknown"]
 
 # What keeps a curve from bounding an immersed disk; other reasons keep an immersed disk from being layered.
 IMMERSION_REASONS = ("turning number", "negative winding", "no grouping")
+
+# Longer sentences are cut where an obstruction is shown in a line.
+_SHORT = 110
 
 
 @dataclass(frozen=True)
@@ -31,6 +35,8 @@ class Obstruction:
         Places in the drawing; empty if the curve is purely combinatorial.
     value : object
         The number or the cells that prove it: the turning number, the winding number, the chain of sheets.
+    subject : Arrangement or Immersion, optional
+        What it is about, for its picture in notebooks. Obstructions are equal whatever their subjects.
 
     Examples
     --------
@@ -43,12 +49,21 @@ class Obstruction:
     sentence: str
     where: tuple[tuple[float, float], ...] = ()
     value: Any = None
+    subject: Any = field(default=None, repr=False, compare=False)
 
     def __bool__(self) -> bool:
         return False
 
     def __str__(self) -> str:
         return self.sentence
+
+    def __repr__(self) -> str:
+        return f"<Obstruction, {self.reason}: {shorten(self.sentence, _SHORT, placeholder=' …')}>"
+
+    def _repr_png_(self) -> bytes | None:
+        from plyfold.draw.notebook import obstruction_png
+
+        return obstruction_png(self)
 
 
 @dataclass(frozen=True)

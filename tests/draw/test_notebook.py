@@ -51,13 +51,11 @@ def shown(value):
     return None
 
 
-@pytest.mark.xfail(strict=True, reason="matplotlib shows no figure that pyplot does not know")
 @pytest.mark.parametrize("name", PICTURES)
 def test_a_picture_shows_itself_as_the_last_line_of_a_cell(name):
     assert shown(PICTURES[name]()).startswith(b"\x89PNG")
 
 
-@pytest.mark.xfail(strict=True, reason="they have no picture, or long words")
 @pytest.mark.parametrize("name", VALUES)
 def test_values_are_short_in_words_and_have_a_picture(name):
     value = first(VALUES[name]())
@@ -75,7 +73,6 @@ def test_axes_of_ones_own_are_returned_as_they_are():
     assert draw.plot_arrangement(RAMP, ax) is ax
 
 
-@pytest.mark.xfail(strict=True, reason="matplotlib shows no figure that pyplot does not know")
 def test_figures_are_not_registered_with_pyplot():
     from matplotlib import pyplot
 

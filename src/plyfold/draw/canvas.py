@@ -1,6 +1,6 @@
 """The canvas of all pictures with matplotlib: empty axes, lines, fills, dots, words, and small axes inside large ones.
 
-New figures are not registered with pyplot: nothing pops up, and nothing has to be closed.
+New figures are not registered with pyplot: nothing pops up, and nothing has to be closed. A notebook shows them.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ _SHORTEST_LINE = 24
 def blank(ax: Axes | None, size: tuple[float, float] = (5.0, 5.0)) -> Axes:
     """Return empty axes of equal scale without a frame: the given ones, or those of a new figure of some size."""
     if ax is None:
-        from matplotlib.figure import Figure
+        from plyfold.draw.notebook import new_axes
 
-        ax = Figure(figsize=size, layout="constrained").subplots()
+        ax = new_axes(size)
     ax.set_aspect("equal", adjustable="datalim")
     ax.set_axis_off()
     return ax

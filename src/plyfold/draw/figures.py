@@ -48,6 +48,7 @@ def overview(value: Arrangement | Immersion | Layering | Surface, obstruction: O
     Returns
     -------
     matplotlib Figure
+        Shown by a notebook as the last line of a cell.
 
     Examples
     --------
@@ -55,17 +56,17 @@ def overview(value: Arrangement | Immersion | Layering | Surface, obstruction: O
     >>> len(overview(find_immersion([(0, 0), (1, 0), (0, 1)])).axes)
     2
     """
-    from matplotlib.figure import Figure
+    from plyfold.draw.notebook import ShownFigure
 
     if isinstance(value, Surface):
         flat, lifted = _panels(value.layering, obstruction), _views(value)
-        figure = Figure(figsize=(3 * _PANEL, 2.1 * _PANEL), layout="constrained")
+        figure = ShownFigure(figsize=(3 * _PANEL, 2.1 * _PANEL), layout="constrained")
         rows = figure.subfigures(2, 1, squeeze=False, height_ratios=[1.0, 1.05])[:, 0]
         _fill(rows[0], flat)
         _fill(rows[1], lifted)
     else:
         flat = _panels(value, obstruction)
-        figure = Figure(figsize=(_PANEL * len(flat), _PANEL + 0.3), layout="constrained")
+        figure = ShownFigure(figsize=(_PANEL * len(flat), _PANEL + 0.3), layout="constrained")
         _fill(figure, flat)
     return figure
 

@@ -10,12 +10,12 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.draw.colours import ACCENT, INK, text_colour, winding_colour
-from plyfold.draw.places import arrows, label_circle, line_weight, middle_and_size
+from plyfold.draw.places import arrows, border_middle, label_circle, line_weight, middle_and_size
 
 if TYPE_CHECKING:
     from plyfold.arrangement import Arrangement
 
-__all__ = ["arrangement_svg"]
+__all__ = ["arrangement_svg", "curve_svg"]
 
 _SIZE = 400.0
 _MARGIN = 16.0
@@ -54,6 +54,13 @@ def arrangement_svg(arrangement: Arrangement) -> str:
     return sheet.element(parts)
 
 
+def curve_svg(points: npt.NDArray[np.float64]) -> str:
+    """Return a picture of a closed polyline, shape (n, 2), as SVG: the line and its direction. It may touch itself."""
+    sheet = _Sheet(points)
+    place, (dx, dy) = border_middle(np.concatenate([points, points[:1]]))
+    return sheet.element([_outline(points, sheet, _STROKE), _arrow(sheet.pixels(place), np.array([dx, -dy]))])
+
+
 class _Sheet:
     """The map from the drawing to pixels: y down, a margin, the longer side always the same."""
 
@@ -89,9 +96,12 @@ def _cells(arrangement: Arrangement, sheet: _Sheet) -> Iterator[str]:
 
 def _curve(arrangement: Arrangement, sheet: _Sheet) -> str:
     assert arrangement.curve is not None
-    width = _STROKE * line_weight(arrangement.n_crossings)
+    return _outline(arrangement.curve.points, sheet, _STROKE * line_weight(arrangement.n_crossings))
+
+
+def _outline(points: npt.NDArray[np.float64], sheet: _Sheet, width: float) -> str:
     style = f"fill='none' stroke='{INK}' stroke-width='{width:.3g}' stroke-linejoin='round'"
-    return f"<path d='{_path(sheet.pixels(arrangement.curve.points))}' {style}/>"
+    return f"<path d='{_path(sheet.pixels(points))}' {style}/>"
 
 
 def _arrows(arrangement: Arrangement, sheet: _Sheet) -> Iterator[str]:

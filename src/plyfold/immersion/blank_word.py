@@ -85,6 +85,14 @@ class BlankWord:
     def __len__(self) -> int:
         return len(self.word)
 
+    def __repr__(self) -> str:
+        return f"<BlankWord of {len(self)} letters on {len(self.word.minus)} arcs>"
+
+    def _repr_html_(self) -> str:
+        letters = "".join(f"<td>{letter}</td>" for letter in self.letters)
+        borders = "".join(f"<td>{letter.border}</td>" for letter in self.letters)
+        return f"<table><tr><th>letter</th>{letters}</tr><tr><th>border</th>{borders}</tr></table>"
+
     def __str__(self) -> str:
         names, borders = [str(letter) for letter in self.letters], [str(letter.border) for letter in self.letters]
         widths = [max(len(name), len(border)) for name, border in zip(names, borders, strict=True)]

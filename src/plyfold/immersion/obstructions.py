@@ -28,14 +28,14 @@ def visible_obstruction(arranged: Arrangement) -> Obstruction | None:
     turning = arranged.turning_number
     if turning != 1:
         sentence = f"The curve turns {turning} times, and the outline of a disk turns once."
-        return Obstruction("turning number", sentence, place_of_turning(arranged), turning)
+        return Obstruction("turning number", sentence, place_of_turning(arranged), turning, arranged)
     lowest = int(np.argmin(arranged.winding))
     winding = int(arranged.winding[lowest])
     if winding < 0:
         sentence = (
             f"The curve winds {winding} times around a cell, and cloth cannot cover it a negative number of times."
         )
-        return Obstruction("negative winding", sentence, _places(arranged, [lowest]), winding)
+        return Obstruction("negative winding", sentence, _places(arranged, [lowest]), winding, arranged)
     return None
 
 
@@ -48,7 +48,7 @@ def no_grouping(arranged: Arrangement) -> Obstruction:
     else:
         sentence = f"No grouping: the ways out of {len(cells)} cells cannot be joined to borders without crossing."
     links = tuple(tree.link[cells].tolist())
-    return Obstruction("no grouping", sentence, _places(arranged, cells), links)
+    return Obstruction("no grouping", sentence, _places(arranged, cells), links, arranged)
 
 
 def _places(arranged: Arrangement, cells: list[int]) -> tuple[tuple[float, float], ...]:

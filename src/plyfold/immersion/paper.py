@@ -160,7 +160,8 @@ def _crowded_group(arranged: Arrangement, groups: tuple[tuple[int, ...], ...]) -
 def _failed(arranged: Arrangement, border: int, what: str) -> Obstruction:
     sentence = f"The paper's procedure {what} border {border}; that does not mean that there is no immersion."
     points = arranged.border_points(border).tolist() if arranged.curve is not None else []
-    return Obstruction("paper's procedure", sentence, tuple((x, y) for x, y in points[len(points) // 2 :][:1]), border)
+    middle = tuple((x, y) for x, y in points[len(points) // 2 :][:1])
+    return Obstruction("paper's procedure", sentence, middle, border, arranged)
 
 
 def _joined(n_borders: int, arcs: Iterable[Arc]) -> tuple[tuple[int, ...], ...]:

@@ -179,7 +179,7 @@ def _fault(arranged: Arrangement, level: Ints, visit: int, outside: Bools) -> Ob
     else:
         reason = f"at crossing {crossing}, the strand that is to pass over would not be the higher one"
     sentence = f"The casing lifts to no surface: {reason}."
-    return Obstruction("casing", sentence, _place(arranged, crossing), crossing)
+    return Obstruction("casing", sentence, _place(arranged, crossing), crossing, arranged)
 
 
 def _place(arranged: Arrangement | Loops, crossing: int) -> tuple[tuple[float, float], ...]:

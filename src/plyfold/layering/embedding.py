@@ -202,7 +202,7 @@ def _no_embedding(arranged: Arrangement, clauses: LevelClauses, clock: Clock) ->
     which = "the only immersion does not lift" if number == 1 else f"none of the {_written(number)} immersions lifts"
     sentence = f"No embedding: {which}. No levels of the strands fit together at {len(crossings)} crossings."
     places = () if arranged.curve is None else tuple((x, y) for x, y in arranged.crossings[list(crossings)].tolist())
-    return Obstruction("no embedding", sentence, places, crossings)
+    return Obstruction("no embedding", sentence, places, crossings, arranged)
 
 
 def _unknown(question: str, arranged: Arrangement, clock: Clock) -> Unknown:

@@ -205,4 +205,5 @@ def _reversed_pair(immersion: Immersion, graph: PairGraph, pair: int) -> Obstruc
     chain = chain_to_reverse(graph, pair)
     steps = tuple((int(immersion.sheet_cell[graph.lower[p]]), int(graph.lower[p]), int(graph.upper[p])) for p in chain)
     sentence = f"No layering: two sheets, followed through {len(steps)} cells, return with their order reversed."
-    return Obstruction("reversed pair", sentence, places_of_cells(immersion, [cell for cell, _, _ in steps]), steps)
+    places = places_of_cells(immersion, [cell for cell, _, _ in steps])
+    return Obstruction("reversed pair", sentence, places, steps, immersion)

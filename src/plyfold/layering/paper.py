@@ -103,7 +103,7 @@ def _failed(immersion: Immersion, cells: Sequence[int]) -> Obstruction:
         f"The paper's procedure found no order of the sheets that follows spanning trees of the edge-collapsed graphs "
         f"of {listed} together; that does not mean that there is no layering."
     )
-    return Obstruction("paper's procedure", sentence, places_of_cells(immersion, among), among)
+    return Obstruction("paper's procedure", sentence, places_of_cells(immersion, among), among, immersion)
 
 
 def _demands(problem: OrderProblem) -> dict[int, list[Clause]]:

@@ -219,7 +219,8 @@ def _contradiction(problem: OrderProblem, fix: FixedOrders, fixed: list[int], cl
     value = tuple(orders[i] for i in minimal_core([[[x]] for x in fixed], problem.clauses, clock))
     listed = "; ".join(f"over cell {cell}, {a} {order} {b}" for cell, a, b, order in value)
     sentence = f"No layering has these fixed orders of sheets together: {listed}."
-    return Obstruction("fixed orders", sentence, places_of_cells(problem.immersion, [v[0] for v in value]), value)
+    places = places_of_cells(problem.immersion, [cell for cell, *_ in value])
+    return Obstruction("fixed orders", sentence, places, value, problem.immersion)
 
 
 def _contradictory(problem: OrderProblem, clock: Clock) -> bool:
@@ -237,4 +238,4 @@ def _cyclic_order(problem: OrderProblem, clock: Clock) -> Obstruction:
     triples_of_sheets = f"among {len(core)} triples of sheets, some three" if len(core) > 1 else "three sheets"
     sentence = f"No layering: {triples_of_sheets} always lie above each other in a circle."
     places = places_of_cells(problem.immersion, [cell for cell, _ in value])
-    return Obstruction("cyclic order", sentence, places, value)
+    return Obstruction("cyclic order", sentence, places, value, problem.immersion)

@@ -59,6 +59,11 @@ class Solid:
     def __repr__(self) -> str:
         return f"<Solid: {len(self.faces)} triangles, {self.thickness:g} thick>"
 
+    def _repr_png_(self) -> bytes:
+        from plyfold.draw.notebook import solid_png
+
+        return solid_png(self)
+
     def check(self) -> None:
         """Prove with the independent checker :func:`plyfold.certify.check_solid` that it is a solid.
 

@@ -91,6 +91,11 @@ class UnwoundDisk:
     def __repr__(self) -> str:
         return f"<UnwoundDisk: {len(self.faces)} triangles in {self.immersion.n_sheets} sheets>"
 
+    def _repr_png_(self) -> bytes:
+        from plyfold.draw.notebook import unwound_png
+
+        return unwound_png(self)
+
     @cached_property
     def uv(self) -> Floats:
         """Texture coordinates of the vertices, (n, 2): the disk in the unit square, (disk + 1) / 2."""
