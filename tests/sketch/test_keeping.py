@@ -295,6 +295,16 @@ def test_the_gap_slider_shows_the_gap_that_is_kept(sketch):
     assert (sketch.input_value("#gap"), sketch.inner_text("#gap-value")) == shown
 
 
+def test_points_in_the_making_are_kept_when_another_drawing_is_opened(sketch):
+    sketch.keyboard.press("p")
+    for place in places(sketch, [(-100, -80), (100, -80), (0, 120)]):
+        sketch.mouse.click(*place)
+    sketch.keyboard.press("n")
+    sketch.click("[data-action=back]")
+    wait_until(lambda: verdict(sketch, WORD["unfinished"]), "the points are back")
+    assert len(saved(sketch)["strokes"][0]["points"]) == 3
+
+
 @pytest.mark.parametrize("palm", ["before", "during"])
 def test_a_palm_on_the_screen_leaves_the_pens_stroke_alone(phone, palm):
     box = phone.locator("#drawing").bounding_box()

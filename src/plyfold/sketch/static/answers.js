@@ -9,13 +9,17 @@ const NO_SURFACE = "There is no surface: the loop is the outline of no disk.";
 const RETRY = 2000; // milliseconds
 const AWAY = { kind: "away", where: [], hint: "start plyfold sketch again; the drawing is kept in this browser" };
 
-/** Ask the server. @returns its answer, or one with an error; null if the question was cancelled. */
+/**
+ * Ask the server. An older question that was cancelled may arrive after this one and take its place: then it is asked
+ * again. @returns the answer, or one with an error; null if the question was cancelled.
+ */
 export async function ask(question, body, signal) {
   try {
     const headers = { "Content-Type": "application/json", "X-Plyfold-Page": PAGE };
     const response = await fetch(`/api/v1/${question}`, { method: "POST", headers, body: JSON.stringify({ version: 1, ...body }), signal });
     const answer = await response.json();
-    return answer.error?.kind === "superseded" ? null : answer;
+    if (answer.error?.kind !== "superseded") return answer;
+    return signal && !signal.aborted ? ask(question, body, signal) : null;
   } catch (error) {
     if (error.name === "AbortError") return null;
     return { error: { ...AWAY, sentence: "The server has ended, or is busy starting" } };
@@ -32,13 +36,14 @@ export function followAnswers(store, question = ask) {
   };
   store.follow((state, before) => {
     if (shown(state).strokes !== shown(before).strokes) restart(look);
-    else if (state.lie && state.lie === before.lie && asksOtherwise(state)) restart(isAnswered(state) ? lie : look);
+    else if (state.lie && state.lie === before.lie && asksOtherwise(state) && walked(state, before)) restart(isAnswered(state) ? lie : look);
     else if (state.lie && state.gap !== before.gap) restart(isAnswered(state) ? lift : look);
   });
   setInterval(() => errorShown(store.state)?.kind === "away" && restart(look), RETRY);
   if (shown(store.state).strokes.length) restart(look);
 }
 
+const walked = (state, before) => state.immersion !== before.immersion || state.layering !== before.layering;
 const asksOtherwise = ({ lie: known, immersion, layering }) => known.immersion !== immersion || known.layering !== layering;
 const NOTHING = { answer: null, answered: null, lie: null, mesh: null, unlifted: null, asking: false };
 

@@ -77,6 +77,7 @@ export function walk({ store }, kind, by) {
 /** Show another drawing. The one before stays kept under its own name, and there is a way back. */
 export async function openDrawing(page, document, name = null, place = newPlace()) {
   const { store } = page;
+  finishPath(page, false);
   const hadWork = !isEmpty(store.state.history.present);
   if (hadWork && !(await mayLeave(page))) return;
   page.former = hadWork && !store.state.unkept ? page.place.id : null;
@@ -130,7 +131,7 @@ export async function openFile(page, file) {
   const answer = await response?.json();
   if (!answer || answer.error) return tell(page, answer?.error.sentence ?? "plyfold does not answer");
   const { document, name } = answer;
-  if (document.strokes.length) return openDrawing(page, { ...EMPTY, ...document }, name ?? file.name);
+  if (document.strokes.length || !document.image) return openDrawing(page, { ...EMPTY, ...document }, name ?? file.name);
   return usePicture(page, document.image);
 }
 

@@ -27,21 +27,25 @@ export const settingsOf = ({ view }) => {
 export function save(page) {
   const { store } = page;
   const document = complete(page);
-  if (isEmpty(document)) return store.set({ unkept: null });
+  if (isEmpty(document)) return tellUnkept(page, null);
   const place = keep(localStorage, page.place, document, store.state.name);
-  if (!place) return store.set({ unkept: NO_ROOM });
+  if (!place) return tellUnkept(page, NO_ROOM);
   if (place.id !== page.place.id && page.place.text) store.set({ notice: { text: TWIN, actions: [] } });
   page.place = place;
   sessionStorage.setItem("plyfold.id", place.id);
-  if (!document.image || document.image.href === place.picture) return store.set({ unkept: null });
+  if (!document.image || document.image.href === place.picture) return tellUnkept(page, null);
   return savePicture(page, document.image.href);
+}
+
+function tellUnkept({ store }, unkept) {
+  if (store.state.unkept !== unkept) store.set({ unkept });
 }
 
 function savePicture(page, href) {
   const { id } = page.place;
   const mine = (page.writing = keepNewPicture(page, href).then((isKept) => {
     if (page.writing === mine) page.writing = null;
-    if (page.place.id === id) page.store.set({ unkept: isKept ? null : NO_ROOM_FOR_PICTURE });
+    if (page.place.id === id) tellUnkept(page, isKept ? null : NO_ROOM_FOR_PICTURE);
   }));
 }
 
