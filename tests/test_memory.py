@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from plyfold.layering.clock import NO_LIMIT
+from plyfold.clock import NO_LIMIT
 
 import plyfold as pf
 from plyfold import memory
