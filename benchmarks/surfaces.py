@@ -19,11 +19,11 @@ from families import chain, glued_disk, ribbon_disk
 from tables import machine, markdown, number
 
 import plyfold as pf
-from plyfold.flat.cells import CellTriangulation, triangulate_cells
 from plyfold.gallery import CURVES
+from plyfold.mesh.cells import CellTriangulation, triangulate_cells
 from plyfold.surface.glue import glue_sheets
 from plyfold.surface.heights import smooth_heights
-from plyfold.surface.surface import layering_of
+from plyfold.surface.lift import layering_of
 
 PAGE = Path(__file__).parent.parent / "docs" / "surfaces.md"
 PICTURE = "![Meshes of three drawings, and the smallest angles over the gallery](images/mesh.png)"

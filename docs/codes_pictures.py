@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 
 import plyfold as pf
 from plyfold.arrangement.gauss import GaussCode
+from plyfold.colours import INK
 from plyfold.draw import plot_arrangement
-from plyfold.draw.colours import INK
 from plyfold.draw.figures import save
 from plyfold.errors import GaussCodeError
 from plyfold.gallery import CURVES

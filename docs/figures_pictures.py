@@ -15,14 +15,14 @@ from PIL import Image
 
 import plyfold as pf
 from plyfold import draw
+from plyfold.colours import INK, OBSTRUCTION, PAPER, mix, sheet_colour
+from plyfold.disk.motion import Motion
 from plyfold.draw.canvas import blank, line, polygon, write
-from plyfold.draw.colours import INK, OBSTRUCTION, PAPER, mix, sheet_colour
 from plyfold.draw.places import Frame
 from plyfold.gallery import CURVES
 from plyfold.io.saving import save_bytes
-from plyfold.layering.collapsed import edge_collapsed_graph, linear_spanning_subtrees
-from plyfold.sketch.kinks import find_kink
-from plyfold.surface.animation import Motion
+from plyfold.offers.kinks import find_kink
+from plyfold.paper.collapsed import edge_collapsed_graph, linear_spanning_subtrees
 
 IMAGES = Path(__file__).parent / "images"
 DRAWING = (-90.0, 90.0)

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 
 import plyfold as pf
 from plyfold.draw.figures import save
-from plyfold.flat.cells import CellTriangulation, triangulate_cells
 from plyfold.gallery import CURVES
+from plyfold.mesh.cells import CellTriangulation, triangulate_cells
 
 HERE = Path(__file__).parent
 DRAWN = ("pretzel", "stacked-spiral", "bennequin")

@@ -22,14 +22,15 @@ import plyfold as pf
 from plyfold.draw import plot_arrangement, plot_collapsed_graph, plot_layout, plot_marked_cell, plot_obstruction
 from plyfold.draw.figures import save
 from plyfold.gallery import CURVES
-from plyfold.hard import PALEY, flap_disk, formula_disk
-from plyfold.layering.collapsed import (
+from plyfold.hard.flaps import PALEY, flap_disk
+from plyfold.hard.formulas import formula_disk
+from plyfold.paper.collapsed import (
     edge_collapsed_graph,
     edge_collapsed_graphs,
     has_linear_spanning_subtrees,
     linear_spanning_subtrees,
 )
-from plyfold.layering.paper import paper_layering
+from plyfold.paper.layering import paper_layering
 
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "tests"))

@@ -12,13 +12,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 import plyfold as pf
+from plyfold.colours import ACCENT, INK, mix, sheet_colour
 from plyfold.draw import plot_arrangement
-from plyfold.draw.colours import ACCENT, INK, mix, sheet_colour
 from plyfold.draw.figures import save
 from plyfold.draw.hyperbolic import BorderCircle
 from plyfold.draw.places import border_middle
 from plyfold.gallery import chain
-from plyfold.immersion.paper import PaperRun, Reading, paper_immersion, run_paper
+from plyfold.paper.procedure import PaperRun, Reading, paper_immersion, run_paper
 
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "tests"))

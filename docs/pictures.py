@@ -8,8 +8,8 @@ from textwrap import fill
 from matplotlib.figure import Figure
 
 import plyfold as pf
+from plyfold.colours import OBSTRUCTION
 from plyfold.draw import plot_arrangement, plot_surface
-from plyfold.draw.colours import OBSTRUCTION
 from plyfold.draw.figures import save, summary
 from plyfold.gallery import CURVES
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from plyfold.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrangement
 from plyfold.errors import CurveError, GeneralPositionError
-from plyfold.immersion import bounds_disk, count_immersions, find_immersion, immersions
-from plyfold.layering import find_layering
+from plyfold.immersion.solve import bounds_disk, count_immersions, find_immersion, immersions
+from plyfold.layering.orders.search import find_layering
 from reference import crossings, gluings, layerings, planar_maps, random_curves
 from reference.planar_maps import census, gauss_code, may_bound_disk, oriented, plane_codes, windings
 

@@ -7,8 +7,8 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plyfold.curve import Curve, Repair, as_curve
 from plyfold.errors import CurveError, InputError, StrokeError
+from plyfold.outline.curve import Curve, Repair, as_curve
 
 TRIANGLE = [(0, 0), (4, 0), (0, 3)]
 PLACES = st.tuples(st.integers(-3, 3), st.integers(-3, 3))

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 import plyfold as pf
 from plyfold.errors import InputError, NotEmbeddableError, TimeLimitError
 from plyfold.gallery import CURVES
-from plyfold.layering import count_layerings, first_layering
+from plyfold.layering.orders.counting import count_layerings
+from plyfold.layering.orders.search import first_layering
 from plyfold.layering.sat import minimal_core, solve
 from plyfold.obstruction import Unknown
 from reference.random_curves import glued_disk

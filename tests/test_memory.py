@@ -10,13 +10,14 @@ from plyfold.layering.clock import NO_LIMIT
 import plyfold as pf
 from plyfold import memory
 from plyfold.errors import MemoryLimitError
-from plyfold.flat import sheets
-from plyfold.flat.cells import triangulate_cells
 from plyfold.immersion import immersion
-from plyfold.immersion.layout import glue_layout
-from plyfold.layering import intersections, orders, sheet_pairs
-from plyfold.layering.level_clauses import LevelClauses, solve_levels
-from plyfold.layering.levels import level_equations
+from plyfold.layering.levels.clauses import LevelClauses, solve_levels
+from plyfold.layering.levels.equations import level_equations
+from plyfold.layering.orders import intersections, sheet_pairs
+from plyfold.layering.orders import problem as orders
+from plyfold.mesh import sheets
+from plyfold.mesh.cells import triangulate_cells
+from plyfold.paper.layout import glue_layout
 from plyfold.sketch import answers
 
 

@@ -56,7 +56,7 @@ def test_public_names():
 
 
 def test_arrangement_is_the_function_whatever_was_imported():
-    import plyfold.arrangement.core
+    import plyfold.arrangement.arrangement
     import plyfold.draw.surface_plot  # noqa: F401
 
     assert callable(pf.arrangement)

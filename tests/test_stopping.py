@@ -27,7 +27,7 @@ main()
 
 IN_FOREIGN_CODE = """
 import hashlib, sys
-import plyfold.surface.surface as surface
+import plyfold.surface.lift as surface
 def forever(*_, **__):
     print("working", flush=True)
     hashlib.pbkdf2_hmac("sha1", b"", b"", 2**31 - 1)

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plyfold.curve import Curve
 from plyfold.errors import CurveError, InputError, StrokeError
-from plyfold.strokes import MOST_STROKES, join_strokes
+from plyfold.outline.curve import Curve
+from plyfold.outline.strokes import MOST_STROKES, join_strokes
 
 ANYTHING = 1e9
 """A gap limit that never matters."""

@@ -15,45 +15,43 @@ if _sys.argv[:1] == ["-m"] and _sys.orig_argv[-len(_sys.argv)] in ("plyfold", "-
     _command.end_at_interrupts()
 
 from plyfold import errors, gallery
-from plyfold.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrangement
 from plyfold.arrangement.gauss import GaussCode
 from plyfold.arrangement.loops import loop_turning_numbers
-from plyfold.curve import Curve
-from plyfold.flat import Covered, coverage, decompose, triangulate
-from plyfold.immersion import (
-    BlankWord,
-    Immersion,
+from plyfold.disk.unwrap import UnwoundDisk, map_disk, unwrap
+from plyfold.flat.coverage import Covered, coverage
+from plyfold.flat.decompose import decompose
+from plyfold.flat.triangulate import triangulate
+from plyfold.immersion.blank_word import BlankWord, blank_word
+from plyfold.immersion.compare import changed_borders, flip_distance
+from plyfold.immersion.cutting import irreducible_kernels
+from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.solve import (
     best_immersion,
-    blank_word,
     bounds_disk,
-    changed_borders,
     count_immersions,
     find_immersion,
-    flip_distance,
     immersions,
-    irreducible_kernels,
     sample_immersion,
 )
-from plyfold.io import read
-from plyfold.layering import (
-    IntersectingLayering,
-    Layering,
-    count_layerings,
-    embed_cased,
-    find_layering,
-    layerings,
-    least_intersecting_layering,
-    nicest_layering,
-)
+from plyfold.io.reading import read
 from plyfold.layering.embedding import count_embeddings, embeddings, find_embedding
-from plyfold.layering.layered_surface import (
+from plyfold.layering.layering import Layering
+from plyfold.layering.levels.casing import embed_cased
+from plyfold.layering.levels.layered_surface import (
     LayeredSurface,
     count_layered_surfaces,
     find_layered_surface,
     layered_surfaces,
 )
+from plyfold.layering.orders.counting import count_layerings
+from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
+from plyfold.layering.orders.listing import layerings
+from plyfold.layering.orders.nicest import nicest_layering
+from plyfold.layering.orders.search import find_layering
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.surface import Surface, UnwoundDisk, lift, map_disk, unwrap
+from plyfold.outline.curve import Curve
+from plyfold.surface.lift import Surface, lift
 
 __version__ = "0.3.0"
 

@@ -15,8 +15,8 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.curve import Curve, as_curve
 from plyfold.errors import InputError
+from plyfold.outline.curve import Curve, as_curve
 
 __all__ = ["CURVES", "NamedCurve", "chain", "named_curve", "ribbon", "rounded"]
 
@@ -55,7 +55,7 @@ class NamedCurve:
         return f"<NamedCurve {self.name}: {self.crossings} crossings, {self.immersions} immersions>"
 
     def _repr_svg_(self) -> str:
-        from plyfold.arrangement import arrangement
+        from plyfold.arrangement.arrangement import arrangement
 
         return arrangement(self.curve)._repr_svg_()
 
@@ -258,7 +258,7 @@ def _smallest_unliftable() -> Points:
 
 
 def _seven_flaps() -> Points:
-    from plyfold.hard import PALEY, flap_disk
+    from plyfold.hard.flaps import PALEY, flap_disk
 
     curve = flap_disk(7, PALEY).immersion.arrangement.curve
     return curve.points if curve is not None else np.empty((0, 2))

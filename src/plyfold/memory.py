@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from plyfold.arrangement.core import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.errors import MemoryLimitError
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any
 
-from plyfold.arrangement import Arrangement
-from plyfold.curve import Curve
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.errors import TimeLimitError
-from plyfold.immersion import count_immersions, find_immersion, immersions
-from plyfold.layering import first_layering
+from plyfold.immersion.solve import count_immersions, find_immersion, immersions
+from plyfold.layering.orders.search import first_layering
 from plyfold.obstruction import Obstruction
+from plyfold.outline.curve import Curve
 
 __all__ = ["describe", "verdict"]
 
@@ -35,7 +35,7 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
 
     Examples
     --------
-    >>> from plyfold.arrangement import arrangement
+    >>> from plyfold import arrangement
     >>> found = verdict(arrangement([(0, 0), (2, 2), (2, 0), (0, 2)]))
     >>> found["immersible"], found["reason"], found["cells"]
     (False, 'turning number', {-1: 1, 0: 1, 1: 1})

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from plyfold.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrangement
 from plyfold.arrangement.several import arrange_loops
 from plyfold.errors import CurveError, GeneralPositionError, InputError
 from reference.crossings import DegenerateError

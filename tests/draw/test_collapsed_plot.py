@@ -4,8 +4,8 @@ import shapely
 from matplotlib.colors import to_hex
 
 from plyfold import arrangement, find_layering, immersions
+from plyfold.colours import INK, OBSTRUCTION, sheet_colour
 from plyfold.draw import plot_collapsed_graph, plot_marked_cell
-from plyfold.draw.colours import INK, OBSTRUCTION, sheet_colour
 from plyfold.errors import InputError
 from reference.random_curves import BENNEQUIN_LIKE
 

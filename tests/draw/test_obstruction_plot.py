@@ -8,11 +8,11 @@ from matplotlib.colors import to_hex
 from matplotlib.patches import FancyArrowPatch, Polygon
 
 import plyfold as pf
+from plyfold.colours import OBSTRUCTION, sheet_colour
 from plyfold.draw import plot_obstruction
-from plyfold.draw.colours import OBSTRUCTION, sheet_colour
 from plyfold.errors import InputError
 from plyfold.gallery import CURVES
-from plyfold.layering import embed_cased
+from plyfold.layering.levels.casing import embed_cased
 from plyfold.obstruction import Obstruction
 
 

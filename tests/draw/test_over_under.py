@@ -19,8 +19,8 @@ from plyfold.draw.places import label_circle
 from plyfold.draw.tikz import over_under_tex, over_under_tikz
 from plyfold.errors import InputError, PlyfoldError
 from plyfold.gallery import CURVES
-from plyfold.layering.intersections import least_intersecting_layering
-from plyfold.surface import lift
+from plyfold.layering.orders.intersections import least_intersecting_layering
+from plyfold.surface.lift import lift
 from reference import random_curves
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -7,8 +7,8 @@ import shapely
 from matplotlib.colors import rgb_to_hsv, to_hex, to_rgb
 
 from plyfold import Arrangement, arrangement, find_immersion, find_layering, lift
+from plyfold.colours import INK, OBSTRUCTION, mix, sheet_colour, winding_colour
 from plyfold.draw import plot_arrangement, plot_layers, plot_layout, plot_surface
-from plyfold.draw.colours import INK, OBSTRUCTION, mix, sheet_colour, winding_colour
 from plyfold.errors import InputError, PlyfoldError
 from plyfold.gallery import CURVES
 from plyfold.obstruction import Obstruction

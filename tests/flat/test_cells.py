@@ -6,11 +6,11 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from plyfold.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrangement
 from plyfold.errors import PlyfoldError, PrecisionError
-from plyfold.flat.cells import triangulate_cells
-from plyfold.flat.sheets import following
 from plyfold.gallery import CURVES
+from plyfold.mesh.cells import triangulate_cells
+from plyfold.mesh.sheets import following
 from reference import random_curves
 
 RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], dtype=np.float64)

@@ -8,7 +8,7 @@ import shapely
 
 import plyfold as pf
 from plyfold.errors import PrecisionError
-from plyfold.flat import coverage
+from plyfold.flat.coverage import coverage
 from plyfold.gallery import CURVES
 from reference import random_curves
 

@@ -9,7 +9,7 @@ import shapely
 
 import plyfold as pf
 from plyfold.errors import NotImmersibleError, PrecisionError
-from plyfold.flat import decompose
+from plyfold.flat.decompose import decompose
 from plyfold.gallery import CURVES, ribbon
 from reference import random_curves
 

@@ -12,7 +12,7 @@ from plyfold.flat.delaunay import delaunay_triangles, inner_edges
 from plyfold.flat.flips import flip_edges
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.gallery import CURVES
-from plyfold.immersion import immersions
+from plyfold.immersion.solve import immersions
 from plyfold.predicates import orient
 from reference import random_curves
 

@@ -7,11 +7,11 @@ from hypothesis import strategies as st
 
 import plyfold as pf
 from plyfold import compiled
-from plyfold.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrangement
 from plyfold.errors import PlyfoldError
-from plyfold.flat.cells import triangulate_cells
-from plyfold.flat.sheets import following
 from plyfold.gallery import CURVES
+from plyfold.mesh.cells import triangulate_cells
+from plyfold.mesh.sheets import following
 from plyfold.predicates import orient
 from reference import random_curves
 from reference.sharp_triangles import edges_of, reason, smallest_angles

@@ -6,10 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
-from plyfold.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrangement
 from plyfold.errors import InputError
-from plyfold.flat.cells import triangulate_cells
 from plyfold.gallery import CURVES
+from plyfold.mesh.cells import triangulate_cells
 from reference import random_curves
 
 # The ramp with a strand that dips into another one, or a strip, as fine as wanted.

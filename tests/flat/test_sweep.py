@@ -13,8 +13,8 @@ from plyfold.errors import GeneralPositionError
 from plyfold.flat.skip_list import empty_skip_list, link_above, unlink
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.flat.sweep_order import sweep_order
-from plyfold.flat.turns import as_places, turn
 from plyfold.gallery import CURVES
+from plyfold.turns import as_places, turn
 from reference import random_curves
 
 

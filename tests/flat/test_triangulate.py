@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 import plyfold as pf
 from plyfold.certify import check_immersed_disk
 from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError, PlyfoldError
-from plyfold.flat import coverage, decompose, triangulate
+from plyfold.flat.coverage import coverage
+from plyfold.flat.decompose import decompose
+from plyfold.flat.triangulate import triangulate
 from plyfold.gallery import CURVES
 from reference import random_curves, shor_van_wyk
 

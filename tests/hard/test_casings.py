@@ -3,7 +3,7 @@
 import pytest
 
 import plyfold as pf
-from plyfold.hard import flap_disk
+from plyfold.hard.flaps import flap_disk
 from reference import casings, layerings
 from reference.planar_maps import census, gauss_code, may_bound_disk
 

@@ -7,7 +7,7 @@ import pytest
 
 import plyfold as pf
 from plyfold.errors import InputError
-from plyfold.hard import PALEY, flap_disk
+from plyfold.hard.flaps import PALEY, flap_disk
 from reference import crossings, gluings, layerings
 
 BOTH_WAYS = list(permutations(range(3), 2))

@@ -5,7 +5,7 @@ import pytest
 
 import plyfold as pf
 from plyfold.errors import InputError
-from plyfold.hard import search_symmetric
+from plyfold.hard.symmetric import search_symmetric
 from reference import layerings
 
 

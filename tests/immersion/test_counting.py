@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 import plyfold as pf
 from plyfold.errors import InputError, NotImmersibleError
 from plyfold.gallery import chain
-from plyfold.immersion import changed_borders, flip_distance, irreducible_kernels, nth_immersion
-from plyfold.immersion.compare import _partition_distance
+from plyfold.immersion.compare import _partition_distance, changed_borders, flip_distance
+from plyfold.immersion.cutting import irreducible_kernels
+from plyfold.immersion.solve import nth_immersion
 from reference import random_curves
 from reference.planar_maps import census, may_bound_disk, oriented
 from reference.random_curves import BENNEQUIN_LIKE, MILNOR_LIKE, SEVERAL_IMMERSIONS, TEN_GON

@@ -3,13 +3,8 @@
 import numpy as np
 import pytest
 
-from plyfold.arrangement import Arrangement
-from plyfold.immersion.diagnostics import (
-    border_differences,
-    cells_around_crossings,
-    diagonal_differences,
-    diagonal_sums,
-)
+from plyfold.arrangement.arrangement import Arrangement
+from plyfold.paper.invariants import border_differences, cells_around_crossings, diagonal_differences, diagonal_sums
 from reference import planar_maps
 from reference.planar_maps import census, may_bound_disk
 

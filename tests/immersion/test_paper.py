@@ -5,11 +5,12 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from plyfold.arrangement import Arrangement, arrangement
-from plyfold.immersion import find_immersion, immersions, paper
+from plyfold.arrangement.arrangement import Arrangement, arrangement
 from plyfold.immersion.immersion import Immersion
-from plyfold.immersion.layout import glue_layout
-from plyfold.immersion.paper import paper_immersion, run_paper
+from plyfold.immersion.solve import find_immersion, immersions
+from plyfold.paper import procedure as paper
+from plyfold.paper.layout import glue_layout
+from plyfold.paper.procedure import paper_immersion, run_paper
 from reference import gluings, random_curves
 from reference.planar_maps import (
     census,

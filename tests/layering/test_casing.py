@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 import plyfold as pf
 from plyfold.errors import InputError
 from plyfold.gallery import CURVES, chain
-from plyfold.layering import embed_cased, layerings
+from plyfold.layering.levels.casing import embed_cased
+from plyfold.layering.orders.listing import layerings
 from reference import layerings as reference
 from reference.planar_maps import gauss_code, windings
 from reference.random_curves import MILNOR_LIKE, glued_disk, ribbon_outline

@@ -5,10 +5,10 @@ from itertools import combinations, pairwise, permutations
 import numpy as np
 import pytest
 
-from plyfold.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrangement
 from plyfold.errors import InputError
-from plyfold.immersion import find_immersion, immersions
-from plyfold.layering.collapsed import (
+from plyfold.immersion.solve import find_immersion, immersions
+from plyfold.paper.collapsed import (
     CollapsedGraph,
     edge_collapsed_graph,
     edge_collapsed_graphs,

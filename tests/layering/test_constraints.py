@@ -12,11 +12,11 @@ import plyfold as pf
 from plyfold.clock import Clock
 from plyfold.errors import InputError
 from plyfold.gallery import CURVES, chain
-from plyfold.layering import count_layerings, layerings, nicest_layering
-from plyfold.layering.counting import count_solutions
-from plyfold.layering.listing import solutions
-from plyfold.layering.orders import order_problem
-from plyfold.layering.search import solve_orders
+from plyfold.layering.orders.counting import count_layerings, count_solutions
+from plyfold.layering.orders.listing import layerings, solutions
+from plyfold.layering.orders.nicest import nicest_layering
+from plyfold.layering.orders.problem import order_problem
+from plyfold.layering.orders.search import solve_orders
 from plyfold.obstruction import Unknown
 from reference.random_curves import MILNOR_LIKE, glued_disk
 

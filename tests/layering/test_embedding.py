@@ -9,17 +9,19 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from plyfold.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrangement
 from plyfold.clock import Clock
-from plyfold.curve import Curve
 from plyfold.gallery import chain
-from plyfold.immersion import count_immersions, immersions
-from plyfold.layering import count_layerings, find_layering, layerings
+from plyfold.immersion.solve import count_immersions, immersions
 from plyfold.layering.embedding import count_embeddings, embeddings, find_embedding
-from plyfold.layering.level_clauses import LevelClauses, list_levels, solve_levels
-from plyfold.layering.level_counting import count_level_solutions
-from plyfold.layering.levels import level_equations
+from plyfold.layering.levels.clauses import LevelClauses, list_levels, solve_levels
+from plyfold.layering.levels.counting import count_level_solutions
+from plyfold.layering.levels.equations import level_equations
+from plyfold.layering.orders.counting import count_layerings
+from plyfold.layering.orders.listing import layerings
+from plyfold.layering.orders.search import find_layering
 from plyfold.obstruction import Unknown
+from plyfold.outline.curve import Curve
 from reference import gluings, random_curves
 from reference.layerings import level_solutions, level_solutions_by_immersion, levels_agree
 from reference.level_subsets import ending_outside, joined, levels_fit

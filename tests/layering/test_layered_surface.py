@@ -6,21 +6,21 @@ import numpy as np
 import pytest
 
 import plyfold as pf
-from plyfold.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrangement
 from plyfold.clock import Clock
-from plyfold.curve import Curve
 from plyfold.errors import GeneralPositionError, InputError
 from plyfold.gallery import CURVES
 from plyfold.layering.embedding import count_embeddings, embeddings, find_embedding
-from plyfold.layering.layered_surface import (
+from plyfold.layering.levels.clauses import LevelClauses, solve_levels
+from plyfold.layering.levels.equations import level_equations
+from plyfold.layering.levels.layered_surface import (
     LayeredSurface,
     count_layered_surfaces,
     find_layered_surface,
     layered_surfaces,
 )
-from plyfold.layering.level_clauses import LevelClauses, solve_levels
-from plyfold.layering.levels import level_equations
 from plyfold.obstruction import Unknown
+from plyfold.outline.curve import Curve
 from reference import random_curves
 from reference.crossings import DegenerateError
 from reference.loops import level_solutions, loop_borders

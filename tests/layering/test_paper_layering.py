@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 import plyfold as pf
-from plyfold.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrangement
 from plyfold.errors import InputError
-from plyfold.immersion import find_immersion, immersions
-from plyfold.layering import find_layering
-from plyfold.layering.collapsed import edge_collapsed_graph, has_linear_spanning_subtrees
-from plyfold.layering.paper import paper_layering
+from plyfold.immersion.solve import find_immersion, immersions
+from plyfold.layering.orders.search import find_layering
+from plyfold.paper.collapsed import edge_collapsed_graph, has_linear_spanning_subtrees
+from plyfold.paper.layering import paper_layering
 from reference import layerings, random_curves
 from reference.planar_maps import (
     GaussCode,

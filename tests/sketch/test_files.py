@@ -20,16 +20,7 @@ from plyfold.gallery import CURVES
 from plyfold.sketch.embedding import png_document, png_with, svg_document, svg_with
 from plyfold.sketch.export import FORMATS, export
 from plyfold.sketch.opening import open_file, opened, start
-from plyfold.sketch.schema import (
-    MOST_BYTES,
-    Document,
-    Export,
-    Image,
-    Stroke,
-    Surface,
-    document_data,
-    read_document,
-)
+from plyfold.sketch.schema import MOST_BYTES, Document, Export, Image, Stroke, Surface, document_data, read_document
 
 RAMP = Stroke(tuple(map(tuple, CURVES["exit-ramp"].curve.points.tolist())), closed=True)
 UNFINISHED = Document((Stroke(((0.0, 0.0), (4.0, 0.1), (1e-300, 3.0))), Stroke(((7.0, 7.0),)), Stroke(())))

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from plyfold import sketch
-from plyfold.draw import colours
+from plyfold import colours, sketch
 from sketch.by_hand import LIMIT
 
 TESTS = sorted((Path(__file__).parent / "js").glob("*.test.mjs"))

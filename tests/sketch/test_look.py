@@ -10,7 +10,7 @@ import shapely
 import plyfold as pf
 from plyfold.errors import CurveError, StrokeError
 from plyfold.gallery import CURVES, chain
-from plyfold.sketch.kinks import find_kink
+from plyfold.offers.kinks import find_kink
 from plyfold.sketch.look import in_words, look
 from plyfold.sketch.schema import Look, Stroke
 from reference import crossings, gluings

@@ -6,17 +6,17 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from plyfold.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrangement
 from plyfold.certify import CertificateError, check_layered, check_surface
-from plyfold.curve import Curve
 from plyfold.errors import NotEmbeddableError
-from plyfold.flat.cells import triangulate_cells
 from plyfold.gallery import CURVES
-from plyfold.immersion import immersions
-from plyfold.layering import find_layering
-from plyfold.layering.intersections import IntersectingLayering, least_intersecting_layering
-from plyfold.surface import lift
+from plyfold.immersion.solve import immersions
+from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
+from plyfold.layering.orders.search import find_layering
+from plyfold.mesh.cells import triangulate_cells
+from plyfold.outline.curve import Curve
 from plyfold.surface.chords import split_chords
+from plyfold.surface.lift import lift
 from reference.triangles import in_span, intersection, meeting_pairs
 
 SMALLEST = (
@@ -139,7 +139,7 @@ def test_not_without_permission():
 
 def test_best_of_several_immersions(monkeypatch):
     candidates = failing("bennequin")
-    monkeypatch.setattr("plyfold.surface.surface.watched_immersions", lambda *_: iter(candidates))
+    monkeypatch.setattr("plyfold.surface.lift.watched_immersions", lambda *_: iter(candidates))
     surface = lift(CURVES["bennequin"].curve, allow_intersections=True, triangles=50)
     assert surface.layering.total_length == min(least_intersecting_layering(i).total_length for i in candidates)
 

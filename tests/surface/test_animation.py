@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import plyfold as pf
+from plyfold.disk.motion import Motion, turned_over
 from plyfold.errors import InputError
 from plyfold.gallery import CURVES
-from plyfold.surface.animation import Motion, turned_over
 from reference import random_curves
 
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from plyfold.draw.colours import rgb, sheet_colour
+from plyfold.colours import rgb, sheet_colour
 from plyfold.gallery import CURVES
-from plyfold.surface import lift
+from plyfold.surface.lift import lift
 
 bpy = pytest.importorskip("bpy", exc_type=ImportError)
 

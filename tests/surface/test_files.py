@@ -10,13 +10,13 @@ import pytest
 import trimesh
 
 from plyfold import find_layering, immersions
-from plyfold.draw.colours import rgb, sheet_colour
+from plyfold.colours import rgb, sheet_colour
 from plyfold.errors import InputError, PrecisionError
 from plyfold.gallery import CURVES
-from plyfold.surface import lift
+from plyfold.io.mesh.model import single_precision
+from plyfold.io.mesh.obj import obj
 from plyfold.surface.files import model_of_surface
-from plyfold.surface.files.model import single_precision
-from plyfold.surface.files.obj import obj
+from plyfold.surface.lift import lift
 
 ENDINGS = [".glb", ".obj", ".ply", ".stl", ".3mf"]
 CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"

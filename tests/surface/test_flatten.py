@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial import Delaunay
 
-from plyfold.surface.flatten import angles_of, flattened, thin
-from plyfold.surface.lay_out import Layout
+from plyfold.disk.flatten import angles_of, flattened, thin
+from plyfold.disk.lay_out import Layout
 
 
 def mesh(seed, count=60):

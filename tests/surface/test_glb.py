@@ -8,7 +8,7 @@ import pytest
 import trimesh
 
 from plyfold.gallery import CURVES
-from plyfold.surface import lift
+from plyfold.surface.lift import lift
 
 COMPONENT = {5125: "<u4", 5126: "<f4"}
 COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}

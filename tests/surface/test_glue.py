@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from plyfold import find_layering, immersions
-from plyfold.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrangement
 from plyfold.certify import CertificateError, check_disk_mesh, check_immersed_disk, check_layered
-from plyfold.flat.cells import triangulate_cells
 from plyfold.gallery import CURVES
-from plyfold.layering import Layering
+from plyfold.layering.layering import Layering
+from plyfold.mesh.cells import triangulate_cells
 from plyfold.surface.glue import glue_sheets
 from reference import random_curves
 

@@ -6,12 +6,12 @@ from scipy.optimize import nnls
 
 from plyfold import find_layering, immersions
 from plyfold.clock import Watch
-from plyfold.flat.cells import triangulate_cells
 from plyfold.gallery import CURVES
-from plyfold.surface import lift
+from plyfold.mesh.cells import triangulate_cells
 from plyfold.surface.energy import cloth_of
 from plyfold.surface.glue import glue_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, smooth_heights
+from plyfold.surface.lift import lift
 from reference import random_curves
 
 RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], dtype=np.float64)

@@ -6,8 +6,8 @@ import pytest
 import plyfold.surface.contact
 from plyfold import find_layering, immersions, lift
 from plyfold.errors import InputError
-from plyfold.flat.cells import triangulate_cells
 from plyfold.gallery import CURVES
+from plyfold.mesh.cells import triangulate_cells
 from plyfold.surface.energy import cloth_of
 from plyfold.surface.glue import LiftedMesh, glue_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, smooth_heights

@@ -9,7 +9,7 @@ import trimesh
 from plyfold import immersions, layerings
 from plyfold.errors import InputError, PrecisionError
 from plyfold.gallery import CURVES
-from plyfold.surface import lift
+from plyfold.surface.lift import lift
 from reference import random_curves
 from reference.triangles import meeting_pairs
 

@@ -7,7 +7,7 @@ import pytest
 
 import plyfold as pf
 from nightly.meshes import judge_spike, thin_spike
-from plyfold.flat.cells import triangulate_cells
+from plyfold.mesh.cells import triangulate_cells
 from plyfold.surface.glue import glue_sheets
 from plyfold.surface.heights import _require_order
 

@@ -11,13 +11,13 @@ from plyfold.arrangement.crossings import find_contacts
 from plyfold.arrangement.general_position import in_general_position
 from plyfold.clock import Clock, Watch
 from plyfold.errors import TimeLimitError
-from plyfold.flat.cells import triangulate_cells
-from plyfold.flat.constrained import constrained, outline_of
-from plyfold.flat.refine import refine, usual_area
 from plyfold.gallery import CURVES
 from plyfold.immersion.dual_tree import grow_dual_tree
 from plyfold.immersion.grouping import find_groupings, list_groupings
 from plyfold.immersion.word import write_word
+from plyfold.mesh.cells import triangulate_cells
+from plyfold.mesh.constrained import constrained, outline_of
+from plyfold.mesh.refine import refine, usual_area
 from plyfold.surface.contact import Distances, Problem, least_forces
 from plyfold.surface.energy import cloth_of, held_response, response
 from plyfold.surface.glue import glue_sheets

@@ -7,11 +7,11 @@ import pytest
 
 import plyfold as pf
 from plyfold.certify import CertificateError
+from plyfold.disk import round_map
+from plyfold.disk.locate import locate
+from plyfold.disk.locate import weights as weights_of
 from plyfold.errors import InputError, NotImmersibleError, PlyfoldError, PrecisionError
 from plyfold.gallery import CURVES
-from plyfold.surface import round_map
-from plyfold.surface.locate import locate
-from plyfold.surface.locate import weights as weights_of
 from reference import random_curves
 
 DISKS = {name: named.curve for name, named in CURVES.items() if named.immersions}

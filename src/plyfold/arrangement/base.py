@@ -11,7 +11,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from plyfold.arrangement.core import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Ints
 
 __all__ = ["begun_at", "numbered_from", "visits_from_base"]

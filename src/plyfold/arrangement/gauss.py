@@ -20,11 +20,11 @@ from typing import NoReturn, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.core import Arrangement, CurveLike, arrangement
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrangement
 from plyfold.arrangement.planar_map import next_darts, reversed_code, whole_number
-from plyfold.curve import Curve
 from plyfold.errors import GaussCodeError
 from plyfold.mistaken import mistaken_code
+from plyfold.outline.curve import Curve
 
 __all__ = ["GaussCode"]
 

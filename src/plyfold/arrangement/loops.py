@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from plyfold.arrangement.core import CurveLike, arrangement
+from plyfold.arrangement.arrangement import CurveLike, arrangement
 from plyfold.arrays import Ints
 
 __all__ = ["loop_turning_numbers"]
@@ -39,7 +39,7 @@ def loop_turning_numbers(curve: CurveLike) -> Ints:
 
     Examples
     --------
-    >>> from plyfold.arrangement import Arrangement
+    >>> from plyfold import Arrangement
     >>> limacon = Arrangement.from_gauss([1, 0], [True, False], outer=1)
     >>> loop_turning_numbers(limacon).tolist()
     [[1, 1]]

@@ -1,6 +1,6 @@
 """The planar map of several closed curves, which may cross themselves and each other, lie apart or inside each other.
 
-Everything is as for one curve (:mod:`plyfold.arrangement.core`), but for two things. The borders are not numbered
+Everything is as for one curve (:mod:`plyfold.arrangement.arrangement`), but for two things. The borders are not numbered
 through: each loop closes on itself. And a cell may have several boundaries: where loops do not hang together, exact
 point location says in which cell of the others they lie.
 """
@@ -14,12 +14,12 @@ from fractions import Fraction
 
 import numpy as np
 
-from plyfold.arrangement.core import CurveLike, polygon_turning_number
+from plyfold.arrangement.arrangement import CurveLike, polygon_turning_number
 from plyfold.arrangement.crossings import Contacts, Visits, edge_ends, find_contacts, order_visits
 from plyfold.arrangement.general_position import touching_places
 from plyfold.arrays import Bools, Floats, Ints
-from plyfold.curve import Curve, as_curve
 from plyfold.errors import GeneralPositionError, InputError
+from plyfold.outline.curve import Curve, as_curve
 from plyfold.predicates import cross_sign, exact_parameter
 
 __all__ = ["Loops", "are_several", "arrange_loops", "components"]

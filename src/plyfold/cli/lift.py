@@ -50,7 +50,7 @@ def add_lift_command(commands: Any) -> None:
 
 
 def _lift(options: argparse.Namespace) -> int:
-    from plyfold.surface import lift
+    from plyfold.surface.lift import lift
 
     watch, clock = Stopwatch(), Clock(options.time_limit)
     pages = () if options.thicken is not None else (".html", *_FILMS)

@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
-from plyfold.arrangement import arrangement as arrangement_of
-from plyfold.arrangement.core import CurveLike
+from plyfold.arrangement.arrangement import Arrangement, CurveLike
+from plyfold.arrangement.arrangement import arrangement as arrangement_of
 from plyfold.arrays import Floats
+from plyfold.colours import ACCENT, INK, OBSTRUCTION, mix, text_colour, winding_colour
 from plyfold.draw.canvas import blank, closed, dots, line, note_below, polygon, write, write_below
-from plyfold.draw.colours import ACCENT, INK, OBSTRUCTION, mix, text_colour, winding_colour
 from plyfold.draw.places import Frame, arrows, border_middle, label_circle, line_weight
 
 if TYPE_CHECKING:

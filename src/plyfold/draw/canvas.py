@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrays import Floats
-from plyfold.draw.colours import INK, OBSTRUCTION
+from plyfold.colours import INK, OBSTRUCTION
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,26 +8,26 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plyfold.arrays import Floats
+from plyfold.colours import INK, OBSTRUCTION, PAPER, mix, sheet_colour, text_colour
 from plyfold.draw.arrangement_plot import drawn_points, plot_arrangement
 from plyfold.draw.canvas import blank, dots, grid, line, note_below, polygon, write
-from plyfold.draw.colours import INK, OBSTRUCTION, PAPER, mix, sheet_colour, text_colour
 from plyfold.draw.hyperbolic import BorderCircle
 from plyfold.draw.places import Frame
-from plyfold.layering.collapsed import (
+from plyfold.options import refuse_unless_count
+from plyfold.paper.collapsed import (
     CollapsedGraph,
     Edge,
     edge_collapsed_graph,
     edge_collapsed_graphs,
     linear_spanning_subtrees,
 )
-from plyfold.options import refuse_unless_count
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from plyfold.arrangement import Arrangement
-    from plyfold.immersion import Immersion
-    from plyfold.layering import Layering
+    from plyfold.arrangement.arrangement import Arrangement
+    from plyfold.immersion.immersion import Immersion
+    from plyfold.layering.layering import Layering
 
 __all__ = ["plot_collapsed_graph", "plot_collapsed_graphs", "plot_marked_cell"]
 

@@ -8,18 +8,18 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
+from plyfold.colours import INK
 from plyfold.draw.arrangement_plot import plot_arrangement
-from plyfold.draw.colours import INK
 from plyfold.draw.layers_plot import plot_layers
 from plyfold.draw.layout_plot import plot_layout
 from plyfold.draw.surface_plot import plot_surface
 from plyfold.errors import InputError
-from plyfold.immersion import Immersion
+from plyfold.immersion.immersion import Immersion
 from plyfold.io.saving import refuse_existing, save_bytes
-from plyfold.layering import Layering
-from plyfold.layering.intersections import IntersectingLayering
-from plyfold.surface import Surface
+from plyfold.layering.layering import Layering
+from plyfold.layering.orders.intersections import IntersectingLayering
+from plyfold.surface.lift import Surface
 
 if TYPE_CHECKING:
     from os import PathLike

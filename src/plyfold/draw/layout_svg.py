@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from plyfold.arrays import Floats
-from plyfold.draw.colours import INK, PAPER, mix, sheet_colour, winding_colour
+from plyfold.colours import INK, PAPER, mix, sheet_colour, winding_colour
 from plyfold.draw.hyperbolic import BorderCircle
 from plyfold.draw.places import line_weight
 
 if TYPE_CHECKING:
-    from plyfold.immersion import Group, Immersion
+    from plyfold.immersion.immersion import Group, Immersion
 
 __all__ = ["layout_svg"]
 

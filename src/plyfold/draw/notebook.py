@@ -14,8 +14,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
+from plyfold.colours import INK, PAPER, rgb, sheet_colour
 from plyfold.draw.canvas import blank, closed, line
-from plyfold.draw.colours import INK, PAPER, rgb, sheet_colour
 from plyfold.draw.depth_buffer import View
 from plyfold.draw.obstruction_plot import plot_obstruction
 from plyfold.draw.places import middle_and_size
@@ -23,8 +23,8 @@ from plyfold.draw.render import Mesh, shade
 from plyfold.obstruction import Obstruction
 
 if TYPE_CHECKING:
+    from plyfold.disk.unwrap import UnwoundDisk
     from plyfold.surface.thicken import Solid
-    from plyfold.surface.unwrap import UnwoundDisk
 
 __all__ = ["ShownFigure", "new_axes", "obstruction_png", "solid_png", "unwound_png"]
 

@@ -14,13 +14,13 @@ from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Floats, Ints
+from plyfold.colours import CLOTH_HIGH, PAPER, layer_colour, mix, sheet_colour
 from plyfold.draw.casing_gaps import cut_strands, strand_with_gaps
-from plyfold.draw.colours import CLOTH_HIGH, PAPER, layer_colour, mix, sheet_colour
 from plyfold.draw.places import Frame, line_weight
 from plyfold.errors import InputError
-from plyfold.layering import Layering
+from plyfold.layering.layering import Layering
 
 __all__ = ["ClothColours", "Hidden", "OverUnder", "Piece", "Strand", "over_under"]
 

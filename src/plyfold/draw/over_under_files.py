@@ -10,7 +10,7 @@ from typing import Any
 from plyfold.draw.over_under_svg import over_under_svg
 from plyfold.draw.tikz import over_under_tex, over_under_tikz
 from plyfold.io.saving import refuse_output, save_bytes
-from plyfold.layering import Layering
+from plyfold.layering.layering import Layering
 
 __all__ = ["OVER_UNDER_WRITERS", "save_over_under"]
 

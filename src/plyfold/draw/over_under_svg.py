@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from plyfold.arrays import Floats
-from plyfold.draw.colours import INK
+from plyfold.colours import INK
 from plyfold.draw.over_under import Piece, Strand, over_under
-from plyfold.layering import Layering
+from plyfold.layering.layering import Layering
 
 __all__ = ["over_under_svg"]
 

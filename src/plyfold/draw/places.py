@@ -11,7 +11,7 @@ import numpy.typing as npt
 from plyfold.arrays import Floats
 
 if TYPE_CHECKING:
-    from plyfold.arrangement import Arrangement
+    from plyfold.arrangement.arrangement import Arrangement
 
 __all__ = ["Frame", "arrows", "border_middle", "label_circle", "line_weight", "middle_and_size", "natural_stretch"]
 

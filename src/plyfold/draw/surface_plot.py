@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 
 from plyfold.arrays import Floats
+from plyfold.colours import INK, OBSTRUCTION, layer_colour, rgb, sheet_colour
 from plyfold.draw.canvas import blank, closed, line
-from plyfold.draw.colours import INK, OBSTRUCTION, layer_colour, rgb, sheet_colour
 from plyfold.draw.depth_buffer import View
 from plyfold.draw.over_under import ClothColours
 from plyfold.draw.places import line_weight, middle_and_size, natural_stretch
@@ -20,7 +20,7 @@ from plyfold.options import refuse_unless_count, refuse_unless_number
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from plyfold.surface import Surface
+    from plyfold.surface.lift import Surface
 
 __all__ = ["plot_surface"]
 

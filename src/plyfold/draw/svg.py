@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.draw.colours import ACCENT, INK, text_colour, winding_colour
+from plyfold.colours import ACCENT, INK, text_colour, winding_colour
 from plyfold.draw.places import arrows, border_middle, label_circle, line_weight, middle_and_size
 
 if TYPE_CHECKING:
-    from plyfold.arrangement import Arrangement
+    from plyfold.arrangement.arrangement import Arrangement
 
 __all__ = ["arrangement_svg", "curve_svg"]
 

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from typing import Any
 
 from plyfold.arrays import Floats
-from plyfold.draw.colours import INK
+from plyfold.colours import INK
 from plyfold.draw.over_under import OverUnder, Strand, over_under
 from plyfold.errors import InputError
-from plyfold.layering import Layering
+from plyfold.layering.layering import Layering
 from plyfold.options import refuse_unless_number
 
 __all__ = ["over_under_tex", "over_under_tikz"]

@@ -16,15 +16,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from plyfold import colours
 from plyfold.arrays import Floats
-from plyfold.draw import colours
+from plyfold.disk.motion import Motion
 from plyfold.draw.places import middle_and_size, natural_stretch
 from plyfold.errors import InputError, PrecisionError
 from plyfold.options import refuse_unless_count
-from plyfold.surface.animation import Motion
 
 if TYPE_CHECKING:
-    from plyfold.surface import Surface
+    from plyfold.surface.lift import Surface
 
 __all__ = ["frame", "mesh_data", "page"]
 

@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from plyfold.arrangement import arrangement
-from plyfold.arrangement.core import CurveLike
-from plyfold.flat.outlines import outlined
+from plyfold.arrangement.arrangement import CurveLike, arrangement
+from plyfold.flat.polygons import outlined
 
 if TYPE_CHECKING:
     from shapely import Polygon

@@ -24,7 +24,7 @@ import numpy as np
 from plyfold.arrays import Floats, Ints
 from plyfold.compiled import called_from_loops, run_in_python, run_loop
 from plyfold.flat.flips import wants_flip
-from plyfold.flat.turns import Places, as_places, turn
+from plyfold.turns import Places, as_places, turn
 
 __all__ = ["delaunay_triangles", "inner_edges"]
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.compiled import called_from_loops
-from plyfold.flat.turns import Places, as_places, turn
+from plyfold.turns import Places, as_places, turn
 
 __all__ = ["flip_edges", "wants_flip"]
 

@@ -23,11 +23,11 @@ import numpy as np
 from plyfold.arrays import Floats, Ints
 from plyfold.compiled import called_from_loops, run_in_python, run_loop
 from plyfold.errors import PlyfoldError
-from plyfold.flat.sheets import seams_of
 from plyfold.flat.skip_list import SkipList, empty_skip_list, link_above, unlink
 from plyfold.flat.sweep_order import sweep_order
-from plyfold.flat.turns import Places, as_places, turn
-from plyfold.immersion import Immersion
+from plyfold.immersion.immersion import Immersion
+from plyfold.mesh.sheets import seams_of
+from plyfold.turns import Places, as_places, turn
 
 __all__ = ["sweep_triangles"]
 
@@ -124,7 +124,7 @@ def sweep_triangles(immersion: Immersion) -> Ints:
 
     Examples
     --------
-    >>> from plyfold.immersion import find_immersion
+    >>> from plyfold import find_immersion
     >>> sweep_triangles(find_immersion([(0, 0), (4, 0), (1, 1), (0, 4)])).tolist()
     [[0, 2, 3], [0, 1, 2]]
     """

@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Floats, Ints
 from plyfold.predicates import exact_parameter, parameter_along_edge
 

@@ -6,17 +6,16 @@ from typing import overload
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement, arrangement
-from plyfold.arrangement.core import CurveLike
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrangement
 from plyfold.arrays import Floats, Ints
-from plyfold.curve import Curve, as_curve
 from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError, PlyfoldError
-from plyfold.flat.cells import refuse_max_area
 from plyfold.flat.delaunay import delaunay_triangles
 from plyfold.flat.flips import flip_edges
 from plyfold.flat.sweep import sweep_triangles
-from plyfold.immersion import Immersion, find_immersion
-from plyfold.immersion.immersion import require_immersion
+from plyfold.immersion.immersion import Immersion, require_immersion
+from plyfold.immersion.solve import find_immersion
+from plyfold.mesh.cells import refuse_max_area
+from plyfold.outline.curve import Curve, as_curve
 from plyfold.predicates import orient
 
 __all__ = ["chosen_immersion", "triangulate"]

@@ -22,13 +22,13 @@ from itertools import groupby
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrangement
 from plyfold.arrays import Bools, Floats, Ints
-from plyfold.curve import Curve
 from plyfold.errors import InputError
 from plyfold.hard.pieces import immersion_of_pieces
-from plyfold.immersion import Immersion
-from plyfold.layering import Layering
+from plyfold.immersion.immersion import Immersion
+from plyfold.layering.layering import Layering
+from plyfold.outline.curve import Curve
 
 __all__ = ["PALEY", "FlapDisk", "flap_disk"]
 
@@ -58,7 +58,7 @@ class FlapDisk:
 
     Examples
     --------
-    >>> from plyfold.layering import find_layering
+    >>> from plyfold import find_layering
     >>> disk = flap_disk(3, [(0, 1), (1, 2), (2, 0)])
     >>> disk.immersion.arrangement.n_crossings, bool(find_layering(disk.immersion))
     (20, True)
@@ -93,7 +93,7 @@ class FlapDisk:
 
         Examples
         --------
-        >>> from plyfold.layering import find_layering
+        >>> from plyfold import find_layering
         >>> disk = flap_disk(2, [(0, 1), (1, 0)])
         >>> sum(disk.sides(find_layering(disk.immersion)))
         1
@@ -143,7 +143,7 @@ def flap_disk(flaps: int, arcs: Iterable[tuple[int, int]]) -> FlapDisk:
     --------
     Three flaps that cover one another's handles: with two sides for three flaps there is no layering.
 
-    >>> from plyfold.layering import find_layering
+    >>> from plyfold import find_layering
     >>> both_ways = [(0, 1), (1, 0), (1, 2), (2, 1), (0, 2), (2, 0)]
     >>> print(find_layering(flap_disk(3, both_ways).immersion).reason)
     reversed pair

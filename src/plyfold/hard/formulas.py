@@ -22,7 +22,7 @@ import numpy as np
 
 from plyfold.errors import InputError
 from plyfold.hard.flaps import FlapDisk, flap_disk
-from plyfold.layering import Layering
+from plyfold.layering.layering import Layering
 
 __all__ = ["FormulaDisk", "formula_disk"]
 
@@ -48,7 +48,7 @@ class FormulaDisk:
 
         Examples
         --------
-        >>> from plyfold.layering import find_layering
+        >>> from plyfold import find_layering
         >>> made = formula_disk([(1, 2), (2, 3)])
         >>> values = made.assignment(find_layering(made.disk.immersion))
         >>> values[1] != values[2] != values[3]
@@ -90,7 +90,7 @@ def formula_disk(clauses: Iterable[Sequence[int]]) -> FormulaDisk:
     --------
     Seven points cannot have two colours such that every line of the Fano plane has both.
 
-    >>> from plyfold.layering import find_layering
+    >>> from plyfold import find_layering
     >>> fano = formula_disk([(1, 2, 3), (1, 4, 5), (1, 6, 7), (2, 4, 6), (2, 5, 7), (3, 4, 7), (3, 5, 6)])
     >>> print(find_layering(fano.disk.immersion).reason)
     cyclic order

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Ints
-from plyfold.immersion import Immersion
+from plyfold.immersion.immersion import Immersion
 
 __all__ = ["immersion_of_pieces"]
 

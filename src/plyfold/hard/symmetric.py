@@ -13,13 +13,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from plyfold.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrangement
 from plyfold.arrays import Floats
-from plyfold.curve import Curve
 from plyfold.errors import InputError
-from plyfold.immersion import Immersion, immersions
-from plyfold.layering import find_layering
+from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.solve import immersions
+from plyfold.layering.orders.search import find_layering
 from plyfold.obstruction import Obstruction
+from plyfold.outline.curve import Curve
 
 __all__ = ["Unliftable", "search_symmetric"]
 

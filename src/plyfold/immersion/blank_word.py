@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from string import ascii_lowercase
 
-from plyfold.arrangement import Arrangement, arrangement
-from plyfold.arrangement.core import CurveLike
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrangement
 from plyfold.immersion.dual_tree import grow_dual_tree
 from plyfold.immersion.grouping import Grouping, Groupings, find_groupings, list_groupings
 from plyfold.immersion.obstructions import is_visibly_no_disk

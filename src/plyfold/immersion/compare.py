@@ -35,7 +35,7 @@ def changed_borders(first: Immersion, second: Immersion) -> tuple[int, ...]:
 
     Examples
     --------
-    >>> from plyfold.immersion import immersions
+    >>> from plyfold import immersions
     >>> milnor = [(88, 39), (62, 102), (-17, -15), (-17, -13), (44, -7), (-75, 180),
     ...           (-88, -39), (-62, -102), (17, 15), (17, 13), (-44, 7), (75, -180)]
     >>> changed_borders(*immersions(milnor))

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.compiled import called_from_loops, run_loop
 from plyfold.immersion.dual_tree import DualTree

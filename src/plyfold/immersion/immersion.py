@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.errors import InputError, NotImmersibleError, PlyfoldError
 from plyfold.memory import require_memory
@@ -64,7 +64,7 @@ class Immersion:
 
     Examples
     --------
-    >>> from plyfold.immersion import find_immersion
+    >>> from plyfold import find_immersion
     >>> ramp = find_immersion([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)])
     >>> ramp.arrangement.winding.tolist(), ramp.n_sheets
     ([0, 2, 1, 1, 1, 0], 5)

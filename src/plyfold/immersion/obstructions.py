@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.immersion.dual_tree import DualTree, grow_dual_tree
 from plyfold.immersion.grouping import find_groupings
 from plyfold.immersion.propagation import Conflict

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.loops import loop_turning_numbers
 from plyfold.arrays import Bools, Floats, Ints
 
@@ -73,7 +73,7 @@ def place_of_turning(drawn: Arrangement) -> tuple[tuple[float, float], ...]:
 
     Examples
     --------
-    >>> from plyfold.arrangement import arrangement
+    >>> from plyfold import arrangement
     >>> place_of_turning(arrangement([(0, 0), (2, 2), (2, 0), (0, 2)]))
     ((1.0, 1.0),)
     """

@@ -8,9 +8,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrangement
 from plyfold.arrangement.base import begun_at, numbered_from
-from plyfold.arrangement.core import CurveLike
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import InputError
 from plyfold.immersion.dual_tree import DualTree, grow_dual_tree
@@ -48,7 +47,7 @@ def find_immersion(curve: CurveLike, method: Literal["exact", "paper"] = "exact"
     curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
     method : {"exact", "paper"}
         Decide exactly, or run the paper's own greedy procedure, which may fail on curves that have an immersion and
-        then says so; see :mod:`plyfold.immersion.paper`.
+        then says so; see :mod:`plyfold.paper.procedure`.
 
     Returns
     -------
@@ -89,7 +88,7 @@ def find_immersion(curve: CurveLike, method: Literal["exact", "paper"] = "exact"
     if obstruction is not None:
         return obstruction
     if method == "paper":
-        from plyfold.immersion.paper import paper_immersion
+        from plyfold.paper.procedure import paper_immersion
 
         return paper_immersion(arranged)
     family = _family_of(arranged)

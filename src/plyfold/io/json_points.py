@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from plyfold.curve import Curve
 from plyfold.errors import FileFormatError
 from plyfold.io.vector import read_geojson
 from plyfold.mistaken import mistaken_code
+from plyfold.outline.curve import Curve
 
 __all__ = ["read_json"]
 

@@ -37,7 +37,7 @@ def as_wkt(polygons: Sequence[Polygon], properties: Sequence[dict[str, Any]]) ->
 
 def as_svg(polygons: Sequence[Polygon], properties: Sequence[dict[str, Any]]) -> str:
     """Return a picture in the drawing's own units, y down: translucent polygons, what is told of them as titles."""
-    from plyfold.draw.colours import sheet_colour
+    from plyfold.colours import sheet_colour
 
     left, low, right, high = _bounds(polygons)
     margin = 0.05 * max(right - left, high - low)

@@ -9,12 +9,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import BinaryIO
 
-from plyfold.curve import Curve
 from plyfold.errors import FileFormatError, InputError
 from plyfold.io.json_points import read_json
 from plyfold.io.svg import read_svg
 from plyfold.io.tables import read_npy, read_table
 from plyfold.io.vector import read_wkt
+from plyfold.outline.curve import Curve
 
 __all__ = ["SIZE_LIMIT", "read"]
 

@@ -11,10 +11,10 @@ from xml.etree import ElementTree
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.curve import Curve
 from plyfold.errors import FileFormatError, InputError
-from plyfold.io.outline import Arc, Bezier, Outline, sample_points
-from plyfold.points import LARGEST_COORDINATE, diagonal
+from plyfold.io.beziers import Arc, Bezier, Outline, sample_points
+from plyfold.outline.curve import Curve
+from plyfold.outline.points import LARGEST_COORDINATE, diagonal
 
 __all__ = ["read_svg"]
 

@@ -1,7 +1,7 @@
 """Embeddings of a curve: layered disks over all its immersions at once (§5 of the paper: an open problem there).
 
 Two ways lead to an embedding. Immersion by immersion the order of sheets is a small problem, but there can be 2^100
-immersions. The equations between levels of borders (:mod:`plyfold.layering.levels`) know all immersions at once, but
+immersions. The equations between levels of borders (:mod:`plyfold.layering.levels.equations`) know all immersions at once, but
 for curves that cover themselves many times they are harder than all of a few immersions. So few immersions are gone
 through one by one, and where there are more of them the curve itself is asked.
 """
@@ -11,27 +11,26 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import islice
 
-from plyfold.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrangement
 from plyfold.arrangement.base import begun_at, numbered_from, visits_from_base
-from plyfold.arrangement.core import CurveLike
 from plyfold.arrangement.several import are_several
 from plyfold.arrays import Ints
 from plyfold.clock import Clock
-from plyfold.immersion import bounds_disk, count_immersions, find_immersion, immersions
-from plyfold.layering.casing import layering_of_levels
-from plyfold.layering.counting import count_layerings
-from plyfold.layering.layered_surface import (
+from plyfold.immersion.solve import bounds_disk, count_immersions, find_immersion, immersions
+from plyfold.layering.layering import Layering
+from plyfold.layering.levels.casing import layering_of_levels
+from plyfold.layering.levels.clauses import LevelClauses, contradicting_crossings, list_levels, solve_levels
+from plyfold.layering.levels.counting import count_level_solutions
+from plyfold.layering.levels.equations import LevelEquations, level_equations
+from plyfold.layering.levels.layered_surface import (
     LayeredSurface,
     count_layered_surfaces,
     find_layered_surface,
     layered_surfaces,
 )
-from plyfold.layering.layering import Layering
-from plyfold.layering.level_clauses import LevelClauses, contradicting_crossings, list_levels, solve_levels
-from plyfold.layering.level_counting import count_level_solutions
-from plyfold.layering.levels import LevelEquations, level_equations
-from plyfold.layering.listing import layerings
-from plyfold.layering.search import find_layering
+from plyfold.layering.orders.counting import count_layerings
+from plyfold.layering.orders.listing import layerings
+from plyfold.layering.orders.search import find_layering
 from plyfold.obstruction import Obstruction, Unknown
 
 __all__ = ["count_embeddings", "embeddings", "find_embedding"]
@@ -148,7 +147,7 @@ def count_embeddings(curve: CurveLike, time_limit: float | None = None) -> int |
     Notes
     -----
     For few immersions, the layerings of all of them. Otherwise the solutions of the equations between levels are
-    counted, see :func:`plyfold.layering.level_counting.count_level_solutions`: a curve falls apart where only one sheet
+    counted, see :func:`plyfold.layering.levels.counting.count_level_solutions`: a curve falls apart where only one sheet
     lies, and the numbers of its parts multiply. A single part with many immersions and hundreds of crossings can be out
     of reach.
 

@@ -9,8 +9,7 @@ import numpy as np
 
 from plyfold.arrays import Bools, Ints
 from plyfold.errors import PlyfoldError
-from plyfold.immersion import Immersion
-from plyfold.immersion.immersion import count_each
+from plyfold.immersion.immersion import Immersion, count_each
 
 __all__ = ["Layering", "meeting_sheets"]
 
@@ -27,8 +26,8 @@ class Layering:
 
     Examples
     --------
-    >>> from plyfold.immersion import find_immersion
-    >>> from plyfold.layering import find_layering
+    >>> from plyfold import find_immersion
+    >>> from plyfold import find_layering
     >>> ramp = find_immersion([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)])
     >>> layering = find_layering(ramp)
     >>> sorted(layering.level.tolist())

@@ -7,12 +7,16 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import islice
 
-from plyfold.arrangement import Arrangement, arrangement
-from plyfold.curve import Curve
+from plyfold.arrangement.arrangement import Arrangement, arrangement
 from plyfold.errors import CurveError, NotImmersibleError, StrokeError
-from plyfold.immersion import Immersion, count_immersions, find_immersion, nth_immersion
-from plyfold.layering import Layering, count_layerings, find_layering, layerings
+from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.solve import count_immersions, find_immersion, nth_immersion
+from plyfold.layering.layering import Layering
+from plyfold.layering.orders.counting import count_layerings
+from plyfold.layering.orders.listing import layerings
+from plyfold.layering.orders.search import find_layering
 from plyfold.obstruction import Obstruction, Unknown
+from plyfold.outline.curve import Curve
 from plyfold.sketch.patience import patient
 from plyfold.sketch.schema import Stroke
 

@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Floats
-from plyfold.draw.colours import INK
+from plyfold.colours import INK
 from plyfold.draw.svg import arrangement_svg
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
-from plyfold.layering import Layering
+from plyfold.layering.layering import Layering
 from plyfold.obstruction import Obstruction
 from plyfold.sketch.drawings import arranged, immersed
 from plyfold.sketch.embedding import png_with, svg_with

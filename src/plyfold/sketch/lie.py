@@ -10,8 +10,9 @@ import numpy as np
 from plyfold.arrays import Floats
 from plyfold.draw.hyperbolic import BorderCircle
 from plyfold.errors import NotImmersibleError
-from plyfold.immersion import Immersion, changed_borders
-from plyfold.layering import Layering
+from plyfold.immersion.compare import changed_borders
+from plyfold.immersion.immersion import Immersion
+from plyfold.layering.layering import Layering
 from plyfold.obstruction import Obstruction
 from plyfold.sketch.drawings import Layered, immersed, immersion_count, layered
 from plyfold.sketch.schema import VERSION, Lie

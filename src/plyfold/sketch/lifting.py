@@ -10,13 +10,13 @@ import plyfold.surface as lifted
 from plyfold.clock import Clock, Watch
 from plyfold.draw.viewer import mesh_data
 from plyfold.errors import NotEmbeddableError, NotImmersibleError, TimeLimitError
-from plyfold.layering import Layering
+from plyfold.layering.layering import Layering
 from plyfold.obstruction import Obstruction
 from plyfold.sketch.drawings import immersed, immersion_count, layered
 from plyfold.sketch.lie import obstruction_data
 from plyfold.sketch.patience import patient
 from plyfold.sketch.schema import VERSION, Surface
-from plyfold.surface.surface import layering_of
+from plyfold.surface.lift import layering_of
 
 __all__ = ["lifted_surface", "surface"]
 

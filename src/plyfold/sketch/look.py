@@ -8,13 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.gauss import GaussCode
 from plyfold.draw.places import label_circle
-from plyfold.immersion import blank_word, count_immersions, find_immersion
+from plyfold.immersion.blank_word import blank_word
+from plyfold.immersion.solve import count_immersions, find_immersion
 from plyfold.obstruction import Obstruction
+from plyfold.offers.kinks import Kink, find_kink
 from plyfold.sketch.drawings import arranged
-from plyfold.sketch.kinks import Kink, find_kink
 from plyfold.sketch.schema import VERSION, Look
 
 __all__ = ["in_words", "look"]

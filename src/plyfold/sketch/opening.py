@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
-from plyfold.curve import Curve
 from plyfold.errors import FileFormatError, InputError, StrokeError
 from plyfold.gallery import CURVES
-from plyfold.io import read
+from plyfold.io.reading import read
+from plyfold.outline.curve import Curve
 from plyfold.sketch.embedding import PNG_START, png_document, svg_document
 from plyfold.sketch.schema import (
     MOST_BYTES,

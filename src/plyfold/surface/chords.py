@@ -12,8 +12,8 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import PrecisionError
-from plyfold.flat.cells import CellTriangulation
-from plyfold.flat.sheets import following
+from plyfold.mesh.cells import CellTriangulation
+from plyfold.mesh.sheets import following
 from plyfold.predicates import orient
 
 __all__ = ["split_chords"]
@@ -40,8 +40,8 @@ def split_chords(mesh: CellTriangulation, borders: Ints) -> CellTriangulation:
 
     Examples
     --------
-    >>> from plyfold.arrangement import arrangement
-    >>> from plyfold.flat.cells import triangulate_cells
+    >>> from plyfold import arrangement
+    >>> from plyfold.mesh.cells import triangulate_cells
     >>> square = triangulate_cells(arrangement([(0, 0), (2, 0), (2, 2), (0, 2)]), triangles=0)
     >>> split = split_chords(square, np.array([0]))
     >>> split.points[4:].tolist(), len(split.triangles)

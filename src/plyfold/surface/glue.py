@@ -8,11 +8,11 @@ import numpy as np
 
 from plyfold.arrays import Ints
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.flat.cells import CellTriangulation
-from plyfold.flat.sheets import SheetMesh, glue_copies
-from plyfold.immersion import Immersion
-from plyfold.layering import Layering
-from plyfold.layering.intersections import IntersectingLayering
+from plyfold.immersion.immersion import Immersion
+from plyfold.layering.layering import Layering
+from plyfold.layering.orders.intersections import IntersectingLayering
+from plyfold.mesh.cells import CellTriangulation
+from plyfold.mesh.sheets import SheetMesh, glue_copies
 from plyfold.surface.passages import passing_edges, stacked_but_passing
 
 __all__ = ["LiftedMesh", "glue_sheets"]
@@ -70,9 +70,9 @@ def glue_sheets(
 
     Examples
     --------
-    >>> from plyfold.flat.cells import triangulate_cells
-    >>> from plyfold.immersion import find_immersion
-    >>> from plyfold.layering import find_layering
+    >>> from plyfold.mesh.cells import triangulate_cells
+    >>> from plyfold import find_immersion
+    >>> from plyfold import find_layering
     >>> triangle = find_layering(find_immersion([(0, 0), (1, 0), (0, 1)]))
     >>> lifted = glue_sheets(triangle, triangulate_cells(triangle.immersion.arrangement, max_area=1.0))
     >>> lifted.faces.shape, lifted.boundary.tolist(), lifted.stacked.tolist()

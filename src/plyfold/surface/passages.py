@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
-from plyfold.flat.cells import CellTriangulation
-from plyfold.flat.sheets import SheetMesh, following
-from plyfold.layering.intersections import IntersectingLayering
+from plyfold.layering.orders.intersections import IntersectingLayering
+from plyfold.mesh.cells import CellTriangulation
+from plyfold.mesh.sheets import SheetMesh, following
 
 if TYPE_CHECKING:
     from plyfold.surface.glue import LiftedMesh

@@ -14,7 +14,7 @@ from plyfold.options import refuse_unless_number
 from plyfold.surface.files import Colouring, model_of_solid, save_model
 
 if TYPE_CHECKING:
-    from plyfold.surface.surface import Surface
+    from plyfold.surface.lift import Surface
 
 __all__ = ["Solid", "thicken"]
 

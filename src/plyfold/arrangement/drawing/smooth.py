@@ -8,14 +8,14 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.core import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrangement
 from plyfold.arrangement.drawing.flips import flipped
 from plyfold.arrangement.drawing.relaxation import energy, relaxed
 from plyfold.arrangement.drawing.skeleton import Skeleton, skeleton
 from plyfold.arrangement.drawing.straight_lines import grid_drawing, tutte_drawing
 from plyfold.arrays import Complexes, Ints
-from plyfold.curve import Curve
 from plyfold.errors import GeneralPositionError, PrecisionError
+from plyfold.outline.curve import Curve
 
 __all__ = ["draw_code"]
 

@@ -11,9 +11,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from plyfold.errors import InputError
-from plyfold.io.saving import refuse_existing, save_bytes
-from plyfold.surface.files.glb import glb
-from plyfold.surface.files.model import (
+from plyfold.io.mesh.glb import glb
+from plyfold.io.mesh.model import (
     Colouring,
     Material,
     Model,
@@ -22,10 +21,11 @@ from plyfold.surface.files.model import (
     model_of_surface,
     vertex_normals,
 )
-from plyfold.surface.files.obj import material_library, obj
-from plyfold.surface.files.ply import ply
-from plyfold.surface.files.stl import stl
-from plyfold.surface.files.threemf import threemf
+from plyfold.io.mesh.obj import material_library, obj
+from plyfold.io.mesh.ply import ply
+from plyfold.io.mesh.stl import stl
+from plyfold.io.mesh.threemf import threemf
+from plyfold.io.saving import refuse_existing, save_bytes
 
 __all__ = [
     "WRITERS",
