@@ -193,7 +193,7 @@ def table(names: list[str], measure: Callable[[Points], dict[str, list[float]]])
     print(row(["---", *["--:"] * (2 + len(names))]))
     for sketch, points in sketches().items():
         taken = measure(points)
-        crossings = pf.arrangement(points).n_crossings
+        crossings = pf.arrange(points).n_crossings
         print(row([sketch, str(len(points)), str(crossings), *(shown(taken[name]) for name in names)]), flush=True)
 
 

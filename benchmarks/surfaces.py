@@ -74,7 +74,7 @@ def cases(largest: int) -> Iterator[Case]:
     sketches |= {f"strands {height:g} apart": kiss(height) for height in (1e-2, 1e-3)}
     sketches |= {f"strip of {width:g}": strip(width) for width in (1e-4, 1e-9)}
     for name, points in sketches.items():
-        if pf.arrangement(points).n_crossings <= MOST_CROSSINGS:
+        if pf.arrange(points).n_crossings <= MOST_CROSSINGS:
             yield Case(name, points, 4_000, 5)
     for triangles in (10_000, 100_000, 1_000_000):
         if triangles <= largest:

@@ -47,7 +47,7 @@ def titled(ax: Axes, title: str) -> None:
 
 def arranged(name: str) -> pf.Arrangement:
     """Return a curve of the gallery with its cells."""
-    return pf.arrangement(CURVES[name].curve)
+    return pf.arrange(CURVES[name].curve)
 
 
 def views(panels: Iterator[Axes], name: str, directions: Sequence[tuple[float, float]], **options: str) -> None:

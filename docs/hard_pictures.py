@@ -36,7 +36,7 @@ def flaps() -> None:
 
 def draw_curve(ax: Axes, curve: pf.Curve) -> None:
     """Draw a curve with its winding numbers as shades."""
-    plot_arrangement(pf.arrangement(curve), ax=ax)
+    plot_arrangement(pf.arrange(curve), ax=ax)
 
 
 def symmetric() -> None:

@@ -186,7 +186,7 @@ def of_polygons(seed: int, outline: Callable[[np.random.Generator], Any], number
     """Yield immersions of random curves, up to fifty of each."""
     rng = np.random.default_rng(seed)
     for _ in range(number):
-        yield from islice(pf.immersions(pf.arrangement(outline(rng))), IMMERSIONS_TRIED)
+        yield from islice(pf.immersions(pf.arrange(outline(rng))), IMMERSIONS_TRIED)
 
 
 def symmetric_disk(rng: np.random.Generator, order: int, triangles: int) -> list[tuple[float, float]]:

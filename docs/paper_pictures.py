@@ -52,7 +52,7 @@ class Trial(NamedTuple):
 def failure(name: str, code: tuple[list[int], list[int], int], reading: Reading) -> None:
     """Draw a curve that bounds one disk and that a reading gets wrong: its groups, and those of the immersion."""
     curve = pf.Curve.from_gauss(*code)
-    arranged = pf.arrangement(curve)
+    arranged = pf.arrange(curve)
     figure = Figure(figsize=(16.5, 4.8), layout="constrained")
     drawing, detail, wrong, right = figure.subplots(1, 4)
     plot_arrangement(arranged, ax=drawing, borders=True)
@@ -74,9 +74,9 @@ def accepted() -> None:
     curve = pf.Curve.from_gauss(*LIMACON)
     figure = Figure(figsize=(8.6, 4.4), layout="constrained")
     drawing, groups = figure.subplots(1, 2)
-    plot_arrangement(pf.arrangement(curve), ax=drawing, borders=True)
+    plot_arrangement(pf.arrange(curve), ax=drawing, borders=True)
     drawing.set_title("Pascal's limaçon turns twice")
-    _draw_groups(groups, run_paper(pf.arrangement(curve)).groups)
+    _draw_groups(groups, run_paper(pf.arrange(curve)).groups)
     groups.set_title("one group in each cell: no error")
     save(figure, IMAGES / "paper-limacon.png", force=True)
 
@@ -148,7 +148,7 @@ def _by_size(name: str, reading: Reading) -> Iterator[list[Trial]]:
     outline, sizes = FAMILIES[name]
     for size in sizes:
         rng = np.random.default_rng(size)
-        yield [_trial(pf.arrangement(outline(rng, size)), reading) for _ in range(PER_SIZE)]
+        yield [_trial(pf.arrange(outline(rng, size)), reading) for _ in range(PER_SIZE)]
 
 
 def _trial(arranged: pf.Arrangement, reading: Reading) -> Trial:
@@ -178,7 +178,7 @@ def _scatter(axes: Any, trials: list[Trial], colour: str, reading: Reading) -> N
 
 def _draw_chains(axes: Any) -> None:
     links = range(1, 41)
-    arranged = [pf.arrangement(chain(MILNOR_LIKE, number)) for number in links]
+    arranged = [pf.arrange(chain(MILNOR_LIKE, number)) for number in links]
     crossings = np.array([each.n_crossings for each in arranged])
     axes.plot(crossings, [float(pf.count_immersions(each)) for each in arranged], color=ACCENT, label="immersions")
     axes.plot(crossings, crossings.astype(float) ** 2, color=INK, label="k²")

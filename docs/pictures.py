@@ -32,7 +32,7 @@ def gallery() -> None:
         ax.axis("off")
     for place, named in enumerate(CURVES.values()):
         flat, lifted = axes[2 * place : 2 * place + 2]
-        plot_arrangement(pf.arrangement(named.curve), ax=flat)
+        plot_arrangement(pf.arrange(named.curve), ax=flat)
         flat.set_title(named.name, loc="left", fontsize=12, weight="bold")
         if named.embeddable:
             plot_surface(pf.lift(named.curve), ax=lifted, pixels=450)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from plyfold.arrangement.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.errors import CurveError, GeneralPositionError
 from plyfold.immersion.solve import bounds_disk, count_immersions, find_immersion, immersions
 from plyfold.layering.orders.search import find_layering
@@ -66,7 +66,7 @@ def assert_right_layering(immersion):
 
 def judge(curve):
     """Compare everything about one curve; returns which of its immersions have a layering."""
-    return [assert_right_layering(immersion) for immersion in assert_same_immersions(arrangement(curve))]
+    return [assert_right_layering(immersion) for immersion in assert_same_immersions(arrange(curve))]
 
 
 class TestEveryCurve:
@@ -97,7 +97,7 @@ class TestEveryCurve:
 class TestSeveralImmersions:
     @pytest.mark.parametrize(("polygon", "k", "layering_counts"), random_curves.SEVERAL_IMMERSIONS)
     def test_known_polygons(self, polygon, k, layering_counts):
-        assert arrangement(polygon).n_crossings == k
+        assert arrange(polygon).n_crossings == k
         assert sorted(judge(polygon)) == [count > 0 for count in layering_counts]
 
     @pytest.mark.parametrize("code", SMALLEST_WITHOUT_LAYERING)
@@ -139,7 +139,7 @@ class TestRandomCurves:
     @pytest.mark.parametrize("name", POLYGONS)
     def test_arrangement(self, name):
         for polygon in polygons(name, 40):
-            arranged = arrangement(polygon, general_position="raise")
+            arranged = arrange(polygon, general_position="raise")
             turning = crossings.turning_number(polygon)
             assert arranged.reversed == (turning < 0)
             assert arranged.turning_number == abs(turning)
@@ -170,7 +170,7 @@ class TestRandomCurves:
     @pytest.mark.parametrize(("points", "step"), [(5, 2), (7, 3), (9, 4)])
     def test_stars_bound_no_disk(self, points, step):
         star = random_curves.star_polygon(points, step)
-        assert_same_crossings(arrangement(star), star)
+        assert_same_crossings(arrange(star), star)
         assert find_immersion(star).reason == "turning number"
 
 
@@ -185,18 +185,18 @@ class TestDegeneratePolygons:
 
     def test_general_position_is_decided_exactly(self):
         for polygon in self.grid_polygons():
-            assert accepts(arrangement, polygon) == accepts(crossings.crossings, polygon), polygon
+            assert accepts(arrange, polygon) == accepts(crossings.crossings, polygon), polygon
 
     def test_repaired_polygons_are_in_general_position(self):
         for polygon in self.grid_polygons():
-            arranged = arrangement(polygon)
+            arranged = arrange(polygon)
             assert bool(arranged.curve.repairs) != accepts(crossings.crossings, polygon)
             assert_same_crossings(arranged, arranged.curve.points.tolist())
 
 
 def is_curve(polygon):
     try:
-        arrangement(polygon)
+        arrange(polygon)
     except CurveError:
         return False
     return True
@@ -205,7 +205,7 @@ def is_curve(polygon):
 def accepts(function, polygon):
     """Whether the polygon is in general position for this implementation."""
     try:
-        function(polygon, general_position="raise") if function is arrangement else function(polygon)
+        function(polygon, general_position="raise") if function is arrange else function(polygon)
     except (GeneralPositionError, crossings.DegenerateError):
         return False
     return True

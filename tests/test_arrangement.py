@@ -17,7 +17,7 @@ NAMES = list(CURVES)
 
 @pytest.mark.parametrize("name", NAMES)
 def test_borders_in_order_draw_the_curve(name):
-    drawn = pf.arrangement(CURVES[name].curve)
+    drawn = pf.arrange(CURVES[name].curve)
     borders = [drawn.border_points(border) for border in range(drawn.n_borders)]
     length = sum(np.hypot(*np.diff(points, axis=0).T).sum() for points in borders)
     closing = 0.0 if drawn.n_crossings else np.hypot(*(borders[0][0] - borders[0][-1]))
@@ -28,7 +28,7 @@ def test_borders_in_order_draw_the_curve(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_cells_are_those_of_geos(name):
-    drawn = pf.arrangement(CURVES[name].curve)
+    drawn = pf.arrange(CURVES[name].curve)
     ours = sorted(shapely.Polygon(drawn.cell_outline(cell)).area for cell in range(1, drawn.n_cells))
     noded = shapely.unary_union(shapely.LinearRing(drawn.curve.points))
     theirs = sorted(polygon.area for polygon in shapely.polygonize([noded]).geoms)
@@ -37,7 +37,7 @@ def test_cells_are_those_of_geos(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_areas_weighted_by_winding_are_the_signed_area(name):
-    drawn = pf.arrangement(CURVES[name].curve)
+    drawn = pf.arrange(CURVES[name].curve)
     weighted = sum(
         int(drawn.winding[cell]) * shapely.Polygon(drawn.cell_outline(cell)).area for cell in range(1, drawn.n_cells)
     )
@@ -47,14 +47,14 @@ def test_areas_weighted_by_winding_are_the_signed_area(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_points_of_cells_lie_in_them(name):
-    drawn = pf.arrangement(CURVES[name].curve)
+    drawn = pf.arrange(CURVES[name].curve)
     for cell in range(drawn.n_cells):
         assert winding_number(drawn.curve.points, drawn.cell_point(cell)) == drawn.winding[cell]
 
 
 def test_a_sliver_without_any_double_inside_still_has_a_place():
     thin = np.nextafter(0.0, 1.0)
-    drawn = pf.arrangement([(0, 0), (1, 0), (0.5, thin)])
+    drawn = pf.arrange([(0, 0), (1, 0), (0.5, thin)])
     x, y = drawn.cell_point(1)
     assert 0 <= x <= 1
     assert 0 <= y <= thin
@@ -62,7 +62,7 @@ def test_a_sliver_without_any_double_inside_still_has_a_place():
 
 @pytest.mark.parametrize("name", NAMES)
 def test_codes_come_back(name):
-    drawn = pf.arrangement(CURVES[name].curve)
+    drawn = pf.arrange(CURVES[name].curve)
     again = pf.Arrangement.from_gauss(*drawn.gauss_code())
     again.check()
     assert again.gauss_code() == drawn.gauss_code()
@@ -72,11 +72,11 @@ def test_codes_come_back(name):
 
 
 def test_clockwise_curves_are_turned_round_and_say_so():
-    clockwise = pf.arrangement([(0, 0), (0, 1), (1, 0)])
+    clockwise = pf.arrange([(0, 0), (0, 1), (1, 0)])
     assert clockwise.reversed
     assert clockwise.turning_number == 1
     assert clockwise.curve.points[0].tolist() == [0, 0]
-    assert not pf.arrangement([(0, 0), (1, 0), (0, 1)]).reversed
+    assert not pf.arrange([(0, 0), (1, 0), (0, 1)]).reversed
 
 
 @pytest.mark.parametrize(
@@ -109,7 +109,7 @@ def test_a_code_alone_has_no_points():
 
 
 def test_arrangements_cannot_be_changed():
-    drawn = pf.arrangement([(0, 0), (1, 0), (0, 1)])
+    drawn = pf.arrange([(0, 0), (1, 0), (0, 1)])
     with pytest.raises(ValueError, match="read-only"):
         drawn.winding[0] = 5
 
@@ -118,7 +118,7 @@ def test_arrangements_cannot_be_changed():
 @given(st.integers(0, 2**32))
 def test_random_polygons_check(seed):
     points = np.random.default_rng(seed).normal(size=(30, 2))
-    drawn = pf.arrangement(points)
+    drawn = pf.arrange(points)
     drawn.check()
     for cell in range(0, drawn.n_cells, 7):
         assert winding_number(points if not drawn.reversed else points[::-1], drawn.cell_point(cell)) in {
@@ -129,7 +129,7 @@ def test_random_polygons_check(seed):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_boundaries_as_arrays(name):
-    drawn = pf.arrangement(CURVES[name].curve)
+    drawn = pf.arrange(CURVES[name].curve)
     assert sorted(drawn.cell_darts.tolist()) == list(range(2 * drawn.n_borders))
     assert len(drawn.cell_start) == drawn.n_cells + 1
     lowest = []
@@ -146,9 +146,9 @@ def test_boundaries_as_arrays(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_clockwise_drawings_are_turned_round_alike(name):
-    points = pf.arrangement(CURVES[name].curve).curve.points
+    points = pf.arrange(CURVES[name].curve).curve.points
     forward, backward = (
-        pf.arrangement(way, general_position="raise") for way in (points, np.concatenate([points[:1], points[:0:-1]]))
+        pf.arrange(way, general_position="raise") for way in (points, np.concatenate([points[:1], points[:0:-1]]))
     )
     assert backward.reversed == (forward.turning_number > 0)
     if backward.reversed:
@@ -159,11 +159,11 @@ def test_clockwise_drawings_are_turned_round_alike(name):
 
 
 def test_exact_signs_are_counted_and_shown():
-    plain = pf.arrangement([(0, 0), (4, 0), (4, 3), (1, -1)])
+    plain = pf.arrange([(0, 0), (4, 0), (4, 3), (1, -1)])
     assert plain.exact_signs == 0
     assert "exact" not in repr(plain)
     middle = 0.1 + (0.7 - 0.1) / 3
-    close = pf.arrangement([(0.1, 0.1), (0.7, 0.7), (0.7, -1.0), (middle, middle - 2e-16), (0.2, -1.0)])
+    close = pf.arrange([(0.1, 0.1), (0.7, 0.7), (0.7, -1.0), (middle, middle - 2e-16), (0.2, -1.0)])
     assert close.exact_signs > 0
     assert f"{close.exact_signs} exact signs" in repr(close)
     assert pf.Arrangement.from_gauss(*close.gauss_code()).exact_signs == 0
@@ -174,13 +174,13 @@ def test_stars_have_the_known_crossings(step):
     """The star {n/m} has n (m − 1) crossings, and winds m times round its middle."""
     n = 307
     angle = 2 * np.pi * step * np.arange(n) / n
-    drawn = pf.arrangement(np.stack([np.cos(angle), np.sin(angle)], axis=1))
+    drawn = pf.arrange(np.stack([np.cos(angle), np.sin(angle)], axis=1))
     assert (drawn.n_crossings, drawn.turning_number, drawn.winding.max()) == (n * (step - 1), step, step)
 
 
 def test_a_long_ribbon_has_the_cells_of_geos():
     points = np.array(ribbon_outline(np.random.default_rng(8), 4000), dtype=float)
-    drawn = pf.arrangement(points, general_position="raise")
+    drawn = pf.arrange(points, general_position="raise")
     drawn.check()
     cells = shapely.polygonize([shapely.unary_union(shapely.LinearRing(points))])
     assert drawn.n_crossings > 4000
@@ -197,7 +197,7 @@ def test_a_million(scale):
         "crossings": lambda: rng.normal(size=(1_000_000, 2)).cumsum(axis=0),
         "long edges": lambda: np.stack([np.cos(angle), np.sin(angle)], axis=1),
     }[scale]()
-    drawn = pf.arrangement(points)
+    drawn = pf.arrange(points)
     drawn.check()
     assert max(len(points), drawn.n_crossings) >= 1_000_000
     assert scale != "long edges" or drawn.n_crossings == 2001 * 999

@@ -86,7 +86,7 @@ def test_codes_of_near_misses(seed, vertices, scale):
     points = curve_points(near_miss_polygon(seed, vertices, scale))
     assume(points is not None)
     try:
-        drawn = pf.arrangement(points, general_position="raise")
+        drawn = pf.arrange(points, general_position="raise")
     except GeneralPositionError:
         with pytest.raises(reference.DegenerateError):
             reference.crossings(points.tolist())
@@ -113,7 +113,7 @@ def test_order_of_crossings_closer_than_rounding(seed):
         code, _, edges = reference.crossings(polygon)
     except reference.DegenerateError:
         with pytest.raises(GeneralPositionError):
-            pf.arrangement(polygon, general_position="raise")
+            pf.arrange(polygon, general_position="raise")
         return
     points = np.array(polygon)
     visits = order_visits(points, find_contacts(points))
@@ -140,10 +140,10 @@ def fields(drawn):
 )
 def test_sizes_of_groups_and_portions_change_nothing(monkeypatch, family, name, sizes):
     points = FAMILIES[family](np.random.default_rng(4))
-    expected = fields(pf.arrangement(points, general_position="raise"))
+    expected = fields(pf.arrange(points, general_position="raise"))
     for size in sizes:
         monkeypatch.setattr(edge_pairs, name, size)
-        found = fields(pf.arrangement(points, general_position="raise"))
+        found = fields(pf.arrange(points, general_position="raise"))
         assert all(np.array_equal(found[field], value) for field, value in expected.items())
 
 
@@ -159,10 +159,10 @@ def rotated(drawn, visits):
 @given(st.integers(0, 2**32), st.integers(0, 59))
 def test_another_start_rotates_the_code(seed, start):
     points = np.array(random_polygon(np.random.default_rng(seed), 14), dtype=float)
-    drawn = pf.arrangement(points, general_position="raise")
+    drawn = pf.arrange(points, general_position="raise")
     assume(drawn.n_crossings > 0)
     start %= len(points)
-    again = pf.arrangement(np.roll(drawn.curve.points, -start, axis=0), general_position="raise")
+    again = pf.arrange(np.roll(drawn.curve.points, -start, axis=0), general_position="raise")
     assert again.gauss_code() == rotated(drawn, int((drawn.visit_edge < start).sum()))
 
 
@@ -170,10 +170,10 @@ def test_another_start_rotates_the_code(seed, start):
 @given(st.integers(0, 2**32))
 def test_the_other_direction_gives_the_same_code(seed):
     points = np.array(random_polygon(np.random.default_rng(seed), 14), dtype=float)
-    drawn = pf.arrangement(points, general_position="raise")
+    drawn = pf.arrange(points, general_position="raise")
     assume(drawn.turning_number > 0)
     there = drawn.curve.points
-    back = pf.arrangement(np.concatenate([there[:1], there[:0:-1]]), general_position="raise")
+    back = pf.arrange(np.concatenate([there[:1], there[:0:-1]]), general_position="raise")
     assert back.reversed
     assert back.gauss_code() == drawn.gauss_code()
     assert np.array_equal(back.visit_edge, drawn.visit_edge)

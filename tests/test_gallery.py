@@ -25,7 +25,7 @@ def test_reference_gives_the_known_answers(named):
 
 @pytest.mark.parametrize("named", CURVES.values(), ids=CURVES.keys())
 def test_library_gives_the_known_answers(named):
-    arrangement = pf.arrangement(named.curve)
+    arrangement = pf.arrange(named.curve)
     arrangement.check()
     assert arrangement.n_crossings == named.crossings
     assert arrangement.turning_number == named.turning_number

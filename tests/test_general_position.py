@@ -25,7 +25,7 @@ TOUCHING = {
 @pytest.mark.parametrize("name", TOUCHING)
 def test_strands_come_apart(name):
     points, crossings = TOUCHING[name]
-    drawn = pf.arrangement(points)
+    drawn = pf.arrange(points)
     drawn.check()
     assert drawn.n_crossings == crossings
     code, _, _ = reference.crossings(drawn.curve.points.tolist())
@@ -35,7 +35,7 @@ def test_strands_come_apart(name):
 @pytest.mark.parametrize("name", TOUCHING)
 def test_every_move_is_reported_and_small(name):
     points = np.array(TOUCHING[name][0], dtype=float)
-    drawn = pf.arrangement(points)
+    drawn = pf.arrange(points)
     moves = [repair for repair in drawn.curve.repairs if repair.kind == "vertex moved"]
     kept = {tuple(p) for p in points.tolist()} & {tuple(p) for p in drawn.curve.points.tolist()}
     assert moves
@@ -46,24 +46,24 @@ def test_every_move_is_reported_and_small(name):
 @pytest.mark.parametrize("name", TOUCHING)
 def test_raise_names_the_places(name):
     with pytest.raises(GeneralPositionError) as caught:
-        pf.arrangement(TOUCHING[name][0], general_position="raise")
+        pf.arrange(TOUCHING[name][0], general_position="raise")
     assert caught.value.where
     assert "perturb" in caught.value.hint
 
 
 def test_touching_place_is_the_place():
     with pytest.raises(GeneralPositionError) as caught:
-        pf.arrangement(TOUCHING["vertex touches an edge"][0], general_position="raise")
+        pf.arrange(TOUCHING["vertex touches an edge"][0], general_position="raise")
     assert caught.value.where == ((2.0, 0.0),)
 
 
 def test_unknown_policy_is_refused():
     with pytest.raises(ValueError, match="general_position"):
-        pf.arrangement([(0, 0), (1, 0), (0, 1)], general_position="ignore")
+        pf.arrange([(0, 0), (1, 0), (0, 1)], general_position="ignore")
 
 
 def summary(points):
-    drawn = pf.arrangement(points)
+    drawn = pf.arrange(points)
     drawn.check()
     return drawn.n_crossings, abs(drawn.turning_number), pf.count_immersions(drawn)
 

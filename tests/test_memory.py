@@ -32,7 +32,7 @@ def helix(turns):
 
 @cache
 def drawn():
-    return pf.arrangement(helix(30))
+    return pf.arrange(helix(30))
 
 
 @cache

@@ -105,8 +105,8 @@ def test_the_calls_that_are_named_work():
     assert len(pf.Curve(Outline.unit_circle().to_polygons()[0])) >= 16
     assert len(pf.Curve(list(iter(SQUARE)))) == 4
     assert len(pf.Curve(np.transpose([[0, 1, 1, 0], [0, 0, 1, 1]]))) == 4
-    assert pf.arrangement(pf.gallery.named_curve("milnor")).n_crossings == 6
-    assert pf.arrangement(pf.GaussCode.parse(TREFOIL)).n_crossings == 3
+    assert pf.arrange(pf.gallery.named_curve("milnor")).n_crossings == 6
+    assert pf.arrange(pf.GaussCode.parse(TREFOIL)).n_crossings == 3
     assert len(pf.curve.as_curve(shapely.from_wkt("POLYGON ((0 0, 1 0, 1 1, 0 0))"))) == 3
 
 
@@ -176,13 +176,13 @@ def limits():
         "triangulate": lambda: pf.triangulate(eight),
         "unwrap": lambda: pf.unwrap(limacon),
         "no layering": lambda: pf.lift(pf.gallery.CURVES["seven-flaps"].curve),
-        "touching": lambda: pf.arrangement([(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)], general_position="raise"),
+        "touching": lambda: pf.arrange([(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)], general_position="raise"),
         "not finite": lambda: pf.Curve([(0, 0), (1, np.nan), (1, 1)]),
         "huge": lambda: pf.Curve([(0, 0), (1, 1e200), (1, 1)]),
         "on a line": lambda: pf.Curve([(0, 0), (1, 1), (2, 2)]),
         "gap": lambda: pf.Curve.from_strokes([[(0, 0), (4, 0)], [(0, 3), (0, 2)]]),
         "no stroke": lambda: pf.Curve.from_strokes([]),
-        "hole": lambda: pf.arrangement(shapely.box(0, 0, 9, 9).difference(shapely.box(1, 1, 2, 2))),
+        "hole": lambda: pf.arrange(shapely.box(0, 0, 9, 9).difference(shapely.box(1, 1, 2, 2))),
         "ending": lambda: pf.lift(SQUARE, triangles=50).export("out.xyz"),
         "time": lambda: pf.lift(pf.gallery.CURVES["milnor"].curve, time_limit=0),
         "pins": lambda: pf.lift(SQUARE, triangles=50, pins={(9, 9): 1.0}),

@@ -15,7 +15,7 @@ if _sys.argv[:1] == ["-m"] and _sys.orig_argv[-len(_sys.argv)] in ("plyfold", "-
     _command.end_at_interrupts()
 
 from plyfold import errors, gallery
-from plyfold.arrangement.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrangement.gauss import GaussCode
 from plyfold.arrangement.loops import loop_turning_numbers
 from plyfold.disk.unwrap import UnwoundDisk, map_disk, unwrap
@@ -69,7 +69,7 @@ __all__ = [
     "Surface",
     "Unknown",
     "UnwoundDisk",
-    "arrangement",
+    "arrange",
     "best_immersion",
     "blank_word",
     "bounds_disk",

@@ -55,9 +55,9 @@ class NamedCurve:
         return f"<NamedCurve {self.name}: {self.crossings} crossings, {self.immersions} immersions>"
 
     def _repr_svg_(self) -> str:
-        from plyfold.arrangement.arrangement import arrangement
+        from plyfold.arrangement.arrangement import arrange
 
-        return arrangement(self.curve)._repr_svg_()
+        return arrange(self.curve)._repr_svg_()
 
     @cached_property
     def curve(self) -> Curve:

@@ -35,8 +35,8 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
 
     Examples
     --------
-    >>> from plyfold import arrangement
-    >>> found = verdict(arrangement([(0, 0), (2, 2), (2, 0), (0, 2)]))
+    >>> from plyfold import arrange
+    >>> found = verdict(arrange([(0, 0), (2, 2), (2, 0), (0, 2)]))
     >>> found["immersible"], found["reason"], found["cells"]
     (False, 'turning number', {-1: 1, 0: 1, 1: 1})
     """

@@ -19,7 +19,7 @@ from reference.random_curves import glued_disk, random_polygon, ribbon_outline, 
 
 def read_back(curve):
     """The code of a drawing, in its own direction, by the library's arrangement."""
-    drawn = pf.arrangement(curve, "raise")
+    drawn = pf.arrange(curve, "raise")
     return GaussCode.of(drawn).reversed() if drawn.reversed else GaussCode.of(drawn)
 
 
@@ -55,7 +55,7 @@ def test_reference_reads_the_code_of_small_curves():
 def test_curves_are_drawn_well(k, every):
     for census_code in planar_maps.census(k)[::every]:
         code = GaussCode(*census_code)
-        drawn = pf.arrangement(pf.Curve.from_gauss(code), "raise")
+        drawn = pf.arrange(pf.Curve.from_gauss(code), "raise")
         assert GaussCode.of(drawn) == code
         assert crossing_angles(drawn).min() > 50
         assert smallest_cell(drawn) > 1 / 25
@@ -71,7 +71,7 @@ def test_some_curves_with_five_crossings_in_both_directions():
 @pytest.mark.parametrize("k", [4, 5, 6])
 def test_every_larger_curve_is_drawn_well(k):
     for census_code in planar_maps.census(k):
-        drawn = pf.arrangement(pf.Curve.from_gauss(GaussCode(*census_code)), "raise")
+        drawn = pf.arrange(pf.Curve.from_gauss(GaussCode(*census_code)), "raise")
         assert GaussCode.of(drawn) == GaussCode(*census_code)
         assert crossing_angles(drawn).min() > 40
         assert smallest_cell(drawn) > 1 / 50
@@ -110,7 +110,7 @@ def test_straight_strands_have_the_code_too():
 
 
 def test_arguments_may_be_lists():
-    limacon = pf.arrangement(pf.Curve.from_gauss([1, 0], [True, False], 1))
+    limacon = pf.arrange(pf.Curve.from_gauss([1, 0], [True, False], 1))
     assert (limacon.gauss_code(), limacon.reversed) == (([1, 0], [True, False], 1), False)
     with pytest.raises(GaussCodeError):
         pf.Curve.from_gauss([2, 3, 0, 1], [True, True, False, False], 0)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from plyfold.arrangement.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrange
 from plyfold.arrangement.several import arrange_loops
 from plyfold.errors import CurveError, GeneralPositionError, InputError
 from reference.crossings import DegenerateError
@@ -65,7 +65,7 @@ def euler_cells(loops):
 
 def is_curve(polygon):
     try:
-        arrangement(polygon)
+        arrange(polygon)
     except (CurveError, GeneralPositionError):
         return False
     return True
@@ -75,7 +75,7 @@ def test_one_loop_is_the_arrangement_of_the_curve():
     rng = np.random.default_rng(6)
     for _ in range(20):
         polygon = random_polygon(rng, 9)
-        alone = arrangement(polygon)
+        alone = arrange(polygon)
         if not alone.reversed:
             loops = arrange_loops([polygon])
             assert loops.crossings.tolist() == alone.crossings.tolist()

@@ -112,7 +112,7 @@ def test_notebooks_show_the_layout_in_the_colours_of_the_sheets():
 
 
 def test_layout_needs_no_drawing_and_layers_do():
-    code = pf.arrangement(RAMP).gauss_code()
+    code = pf.arrange(RAMP).gauss_code()
     immersion = pf.find_immersion(pf.Arrangement.from_gauss(*code))
     assert immersion._repr_svg_().startswith("<svg")
     layering = pf.find_layering(immersion)

@@ -101,7 +101,7 @@ def test_triples_and_fixed_orders_are_shown():
 
 
 def test_other_obstructions_have_their_places():
-    kinked = pf.arrangement(CURVES["kinked-circle"].curve)
+    kinked = pf.arrange(CURVES["kinked-circle"].curve)
     ax = plot_obstruction(kinked, pf.find_immersion(kinked))
     (negative,) = [p for p in ax.patches if to_hex(p.get_edgecolor()) == OBSTRUCTION]
     (cell,) = np.flatnonzero(kinked.winding < 0)

@@ -6,7 +6,7 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from plyfold.arrangement.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrange
 from plyfold.errors import PlyfoldError, PrecisionError
 from plyfold.gallery import CURVES
 from plyfold.mesh.cells import triangulate_cells
@@ -38,10 +38,10 @@ def winding_number(points, place):
 
 
 def drawings():
-    yield from (pytest.param(arrangement(named.curve), id=name) for name, named in CURVES.items() if named.embeddable)
+    yield from (pytest.param(arrange(named.curve), id=name) for name, named in CURVES.items() if named.embeddable)
     for seed in range(4):
         rng = np.random.default_rng(seed)
-        yield pytest.param(arrangement(random_curves.glued_disk(rng, 12)), id=f"glued disk {seed}")
+        yield pytest.param(arrange(random_curves.glued_disk(rng, 12)), id=f"glued disk {seed}")
 
 
 @pytest.fixture(params=drawings(), scope="module")
@@ -95,26 +95,26 @@ def test_borders_change_at_crossings(drawn, mesh):
 def test_good_angles():
     """No corner of a circle is sharp, and those of a square are not either."""
     for points in (CURVES["circle"].curve.points, [(0, 0), (4, 0), (4, 4), (0, 4)]):
-        mesh = triangulate_cells(arrangement(points), triangles=1000)
+        mesh = triangulate_cells(arrange(points), triangles=1000)
         assert smallest_angles(mesh.points, mesh.triangles).min() >= 25 - 1e-6
 
 
 @pytest.mark.parametrize("triangles", [300, 1000, 10_000])
 def test_number_of_triangles(triangles):
     """Of the lifted surface, where triangles over deep cells count several times."""
-    drawn = arrangement(CURVES["two-turn-spiral"].curve)
+    drawn = arrange(CURVES["two-turn-spiral"].curve)
     mesh = triangulate_cells(drawn, triangles=triangles)
     assert 0.6 * triangles < drawn.winding[mesh.cell].sum() < 2 * triangles
 
 
 def test_max_area():
-    mesh = triangulate_cells(arrangement(RAMP), max_area=0.05)
+    mesh = triangulate_cells(arrange(RAMP), max_area=0.05)
     assert areas(mesh.points, mesh.triangles).max() <= 0.05 * (1 + 1e-9)
 
 
 @pytest.mark.parametrize("exponent", [-300, -60, 60, 300])
 def test_powers_of_two_change_nothing(exponent):
-    plain, scaled = triangulate_cells(arrangement(RAMP)), triangulate_cells(arrangement(np.ldexp(RAMP, exponent)))
+    plain, scaled = triangulate_cells(arrange(RAMP)), triangulate_cells(arrange(np.ldexp(RAMP, exponent)))
     assert np.ldexp(plain.points, exponent).tobytes() == scaled.points.tobytes()
     assert plain.triangles.tolist() == scaled.triangles.tolist()
 
@@ -124,19 +124,19 @@ def test_crossings_closer_than_doubles():
     strip = RAMP.copy()
     strip[8:, 1] = 1e-17
     with pytest.raises(PrecisionError, match="fall on each other") as caught:
-        triangulate_cells(arrangement(strip))
+        triangulate_cells(arrange(strip))
     assert {(3.0, 0.0), (4.0, 0.0)} <= set(caught.value.where)
 
 
 def test_needs_a_drawing():
-    ramp = arrangement(RAMP)
+    ramp = arrange(RAMP)
     with pytest.raises(PlyfoldError, match="Gauss code"):
         triangulate_cells(type(ramp).from_gauss(ramp.partner, ramp.ccw, ramp.outer))
 
 
 def test_half_edges():
     """Against dictionaries, on a triangulated drawing."""
-    mesh = triangulate_cells(arrangement(RAMP), triangles=100)
+    mesh = triangulate_cells(arrange(RAMP), triangles=100)
     ends = [(t[i], t[(i + 1) % 3]) for t in mesh.triangles.tolist() for i in range(3)]
     number = {pair: i for i, pair in enumerate(ends)}
     assert mesh.twin.tolist() == [number.get((b, a), -1) for a, b in ends]

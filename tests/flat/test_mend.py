@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import plyfold as pf
 from plyfold import compiled
-from plyfold.arrangement.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrange
 from plyfold.errors import PlyfoldError
 from plyfold.gallery import CURVES
 from plyfold.mesh.cells import triangulate_cells
@@ -48,7 +48,7 @@ def reasons(drawn, mesh):
 
 def check_bound(points, exponent=0):
     try:
-        drawn = arrangement(points * 10.0**exponent)
+        drawn = arrange(points * 10.0**exponent)
     except PlyfoldError:
         assume(False)
     assume((drawn.winding > 0).any())
@@ -85,7 +85,7 @@ def test_thin_strips(fineness, angle, exponent):
 
 @pytest.mark.parametrize("name", CURVES)
 def test_gallery(name):
-    drawn = arrangement(CURVES[name].curve)
+    drawn = arrange(CURVES[name].curve)
     found = reasons(drawn, triangulate_cells(drawn))
     assert set(found) <= {"corner"}
     assert len(found) <= 10
@@ -94,7 +94,7 @@ def test_gallery(name):
 @pytest.mark.parametrize("width", [1e-4, 1e-6, 1e-9, 1e-11])
 def test_strips_spoil_nothing_around_them(width):
     """All triangles with sharp angles lie in the strip, all of them, and are no more than shrink towards its ends."""
-    bad = sharp_triangles(triangulate_cells(arrangement(strip(width))))
+    bad = sharp_triangles(triangulate_cells(arrange(strip(width))))
     assert 0 < len(bad) < 5 * np.log2(1 / width)
     assert bad.min(axis=(0, 1)) == pytest.approx([0.5, 5], abs=5 * width)
     assert bad.max(axis=(0, 1)) == pytest.approx([1, 5], abs=5 * width)
@@ -107,7 +107,7 @@ def test_strips_spoil_nothing_around_them(width):
 @pytest.mark.parametrize("points", [kiss(1e-3), kiss(1e-10), strip(1e-7)], ids=["woven", "touching", "strip"])
 def test_mended_meshes_are_whole(points):
     """Positive triangles that fill the cells; half-edges fit; the curve is there, point by point and edge by edge."""
-    drawn = arrangement(points)
+    drawn = arrange(points)
     mesh = triangulate_cells(drawn)
     corner = mesh.points[mesh.triangles]
     assert (orient(*corner.swapaxes(0, 1)) > 0).all()
@@ -135,7 +135,7 @@ def test_plain_python_and_machine_code_give_the_same(monkeypatch):
     made = []
     for machine_code in (False, True):
         monkeypatch.setattr(compiled, "_machine_code_pays", lambda steps, yes=machine_code: yes)
-        mesh = triangulate_cells(arrangement(kiss(1e-4)))
+        mesh = triangulate_cells(arrange(kiss(1e-4)))
         made.append((mesh.points.tobytes(), mesh.triangles.tolist(), mesh.twin.tolist(), mesh.cell.tolist()))
     assert made[0] == made[1]
 
@@ -146,5 +146,5 @@ def test_surfaces_are_proved_right(points):
 
 
 def test_number_of_triangles_with_strands_that_touch():
-    drawn = arrangement(kiss(1e-10))
+    drawn = arrange(kiss(1e-10))
     assert 3200 < drawn.winding[triangulate_cells(drawn).cell].sum() < 5200

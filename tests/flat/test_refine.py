@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
-from plyfold.arrangement.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrange
 from plyfold.errors import InputError
 from plyfold.gallery import CURVES
 from plyfold.mesh.cells import triangulate_cells
@@ -45,7 +45,7 @@ def lifted_triangles(drawn, mesh):
 @pytest.mark.parametrize("name", ROUND)
 def test_good_angles_everywhere(name):
     """These drawings have no corner sharper than 25°, but narrow crossings and cells."""
-    drawn = arrangement(CURVES[name].curve)
+    drawn = arrange(CURVES[name].curve)
     mesh = triangulate_cells(drawn)
     assert smallest_angle(mesh) > 25 - 1e-6
     assert 3200 < lifted_triangles(drawn, mesh) < 4800
@@ -56,7 +56,7 @@ def test_good_angles_everywhere(name):
 def test_fine_features(draw, exponent):
     """Certified, the number asked for, and the whole surface right, down to features as fine as 1e-12."""
     points = draw(9 * 10.0**-exponent)
-    drawn = arrangement(points)
+    drawn = arrange(points)
     for triangles in (400, 4000):
         mesh = triangulate_cells(drawn, triangles=triangles)
         assert 0.7 * triangles < lifted_triangles(drawn, mesh) < 1.4 * triangles
@@ -65,12 +65,12 @@ def test_fine_features(draw, exponent):
 
 @pytest.mark.parametrize("exponent", [3, 4, 6, 9])
 def test_good_angles_around_tiny_cells(exponent):
-    assert smallest_angle(triangulate_cells(arrangement(dipping(9 * 10.0**-exponent)))) > 25 - 1e-6
+    assert smallest_angle(triangulate_cells(arrange(dipping(9 * 10.0**-exponent)))) > 25 - 1e-6
 
 
 def test_good_angles_in_a_right_triangle():
     """Points added for the size leave no short edges on the long side that would spoil angles there."""
-    assert smallest_angle(triangulate_cells(arrangement([(0, 0), (1, 0), (0, 1)]))) > 25 - 1e-6
+    assert smallest_angle(triangulate_cells(arrange([(0, 0), (1, 0), (0, 1)]))) > 25 - 1e-6
 
 
 @pytest.mark.parametrize("size", [0.2, 0.5])
@@ -89,7 +89,7 @@ def test_sizes_that_make_no_sense(options):
 
 def test_dense_drawings_do_not_blow_up():
     """At most three times the triangles that the curve has without points added, with some slack, however few asked."""
-    drawn = arrangement(random_curves.glued_disk(np.random.default_rng(0), 150))
+    drawn = arrange(random_curves.glued_disk(np.random.default_rng(0), 150))
     fewest = lifted_triangles(drawn, triangulate_cells(drawn, triangles=0))
     assert fewest <= lifted_triangles(drawn, triangulate_cells(drawn, triangles=1)) < 4.5 * fewest
 
@@ -99,7 +99,7 @@ def test_dense_drawings_do_not_blow_up():
 def test_added_points_lie_on_the_curve(seed, size):
     """Points of the curve bit for bit; other points of the chain lie on its edges, within a rounding."""
     points = random_curves.glued_disk(np.random.default_rng(seed), size)
-    drawn = arrangement(points)
+    drawn = arrange(points)
     mesh = triangulate_cells(drawn, triangles=300)
     n, given_points = len(drawn.curve), drawn.curve.points
     assert mesh.points[:n].tobytes() == given_points.tobytes()

@@ -41,7 +41,7 @@ def cross(a, b, c):
 @pytest.mark.usefixtures("way")
 @pytest.mark.parametrize("name", [name for name, named in CURVES.items() if named.immersions])
 def test_gallery(name):
-    drawn = pf.arrangement(CURVES[name].curve)
+    drawn = pf.arrange(CURVES[name].curve)
     found = [certify(immersion) for immersion in pf.immersions(drawn)]
     assert len({frozenset(map(frozenset, faces.tolist())) for faces in found}) == CURVES[name].immersions
 
@@ -56,7 +56,7 @@ def test_random_disks(seed):
     turned = points @ [[0, 1], [-1, 0]]
     for places in (points, turned, np.round(points / 50), points / 3 + 0.1):
         try:
-            drawn = pf.arrangement(places, general_position="raise")
+            drawn = pf.arrange(places, general_position="raise")
         except GeneralPositionError:
             continue
         if (immersion := pf.find_immersion(drawn)) and len(immersion.arrangement.curve) > 3:
@@ -97,7 +97,7 @@ def test_order_is_exact():
     """Against fractions; on a grid along the direction of the line many places are reached together."""
     rng = np.random.default_rng(4)
     for scale in [1.0, 1e-9, 3.7] * 5:
-        drawn = pf.arrangement(scale * rng.permutation(24).reshape(12, 2))
+        drawn = pf.arrange(scale * rng.permutation(24).reshape(12, 2))
         places = [tuple(map(Fraction, place)) for place in drawn.curve.points.tolist()]
         reach = {vertex: (x + Fraction(0.3) * y, y) for vertex, (x, y) in enumerate(places)}
         n = len(places)

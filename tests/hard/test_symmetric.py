@@ -16,7 +16,7 @@ def smallest():
 
 def test_finds_the_bennequin_curve():
     curve, immersion, _ = smallest()
-    bennequin = pf.arrangement(pf.gallery.CURVES["bennequin"].curve)
+    bennequin = pf.arrange(pf.gallery.CURVES["bennequin"].curve)
     codes = [pf.GaussCode(*arranged.gauss_code()) for arranged in (immersion.arrangement, bennequin)]
     assert codes[0].canonical() == codes[1].canonical()
     assert pf.count_immersions(curve) == 5

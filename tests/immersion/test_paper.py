@@ -5,7 +5,7 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from plyfold.arrangement.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.immersion.immersion import Immersion
 from plyfold.immersion.solve import find_immersion, immersions
 from plyfold.paper import procedure as paper
@@ -225,7 +225,7 @@ class TestRandomDisks:
     @staticmethod
     def verdicts(outline, sizes, reading):
         rng = np.random.default_rng(2011)
-        return Counter(bool(paper_immersion(arrangement(outline(rng, size)), reading)) for size in sizes)
+        return Counter(bool(paper_immersion(arrange(outline(rng, size)), reading)) for size in sizes)
 
     def test_ribbons(self):
         """Long ribbons cross their own partitions, where the literal reading goes round in circles."""
@@ -240,7 +240,7 @@ class TestRandomDisks:
 
     @pytest.mark.parametrize(("polygon", "k", "layering_counts"), random_curves.SEVERAL_IMMERSIONS)
     def test_curves_with_several_immersions(self, polygon, k, layering_counts):
-        arranged = arrangement(polygon)
+        arranged = arrange(polygon)
         stuck = paper_immersion(arranged)
         assert not stuck
         assert "round in circles" in stuck.sentence
@@ -250,7 +250,7 @@ class TestRandomDisks:
     def test_calls_grow_linearly_with_the_borders(self):
         rng = np.random.default_rng(3)
         for size in (20, 60, 180):
-            arranged = arrangement(random_curves.ribbon_outline(rng, size))
+            arranged = arrange(random_curves.ribbon_outline(rng, size))
             assert run_paper(arranged, "repaired").calls == arranged.n_borders
             literal = run_paper(arranged)
             assert literal.stuck_at is not None or literal.calls <= 3 * arranged.n_borders
@@ -266,7 +266,7 @@ class TestGluingOfALayout:
 
     @pytest.mark.parametrize(("polygon", "k", "layering_counts"), random_curves.SEVERAL_IMMERSIONS)
     def test_curves_with_several_immersions(self, polygon, k, layering_counts):
-        arranged = arrangement(polygon)
+        arranged = arrange(polygon)
         code = code_of(arranged)
         for immersion in gluings.immersions(*code):
             assert key_of(glue_layout(arranged, groups_of(immersion.own_sheet))) == gluings.key_of(*code, *immersion)
@@ -276,7 +276,7 @@ class TestGluingOfALayout:
         """Long ribbons have many sheets without own borders, and several of one cell next to each other."""
         rng = np.random.default_rng(7)
         for size in range(10, 70, 6):
-            immersion = find_immersion(arrangement(outline(rng, size)))
+            immersion = find_immersion(arrange(outline(rng, size)))
             found = glue_layout(immersion.arrangement, groups_of(immersion.own_sheet.tolist()))
             assert key_of(found) == key_of(immersion)
 

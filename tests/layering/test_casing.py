@@ -24,7 +24,7 @@ def small_disk(seed):
     """A disk of random triangles with few layers, so that trying all levels ends."""
     rng = np.random.default_rng(seed)
     while True:
-        arranged = pf.arrangement(glued_disk(rng, int(rng.integers(3, 14))))
+        arranged = pf.arrange(glued_disk(rng, int(rng.integers(3, 14))))
         code = gauss_code(arranged.partner, arranged.ccw, arranged.outer)
         if 0 < arranged.n_crossings <= 12 and max(windings(code)) <= 4:
             return arranged, frozenset(reference.level_solutions(code))

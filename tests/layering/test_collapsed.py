@@ -5,7 +5,7 @@ from itertools import combinations, pairwise, permutations
 import numpy as np
 import pytest
 
-from plyfold.arrangement.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.errors import InputError
 from plyfold.immersion.solve import find_immersion, immersions
 from plyfold.paper.collapsed import (
@@ -86,7 +86,7 @@ def test_every_immersion(k):
 def test_random_disks(outline):
     """Dense disks have cells with many nodes, rings of more than two, and sheets between gaps."""
     rng = np.random.default_rng(4)
-    graphs = [g for n in range(10, 100, 6) for g in assert_right(find_immersion(arrangement(outline(rng, n))))]
+    graphs = [g for n in range(10, 100, 6) for g in assert_right(find_immersion(arrange(outline(rng, n))))]
     assert any(len(graph.nodes) > 2 for graph in graphs)
     if outline is random_curves.glued_disk:
         assert any(len(gap) > 2 for graph in graphs for gap in graph.gaps)
@@ -94,7 +94,7 @@ def test_random_disks(outline):
 
 def test_the_cell_in_the_middle_of_the_bennequin_like_curve():
     """Two of its five immersions have the star of the paper's figure 11, right; they are those that do not lift."""
-    for immersion in immersions(arrangement(random_curves.BENNEQUIN_LIKE)):
+    for immersion in immersions(arrange(random_curves.BENNEQUIN_LIKE)):
         deepest = int(immersion.arrangement.winding.argmax())
         graph = edge_collapsed_graph(immersion, deepest)
         ends = sorted(sum(sheet in edge for edge in graph.edges) for sheet in {s for e in graph.edges for s in e})

@@ -9,7 +9,7 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from plyfold.arrangement.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.clock import Clock
 from plyfold.gallery import chain
 from plyfold.immersion.solve import count_immersions, immersions
@@ -84,7 +84,7 @@ def test_every_curve(k):
 
 @pytest.mark.parametrize(("polygon", "_", "layering_counts"), random_curves.SEVERAL_IMMERSIONS)
 def test_known_answers(polygon, _, layering_counts):
-    arranged = arrangement(polygon)
+    arranged = arrange(polygon)
     by_immersion = {}
     for layering in assert_all_found(arranged):
         immersion = layering.immersion
@@ -111,7 +111,7 @@ def random_disks():
 
 def test_levels_of_random_disks_satisfy_the_rule_at_every_crossing():
     for polygon in random_disks():
-        arranged = arrangement(polygon)
+        arranged = arrange(polygon)
         for level in (
             solve_levels(straight_from(arranged), Clock(None)),
             find_embedding(arranged).border_level,
@@ -122,7 +122,7 @@ def test_levels_of_random_disks_satisfy_the_rule_at_every_crossing():
 
 def test_solutions_of_random_disks_are_as_many_as_layerings():
     for polygon in random_disks():
-        arranged = arrangement(polygon)
+        arranged = arrange(polygon)
         expected = sum(count_layerings(immersion) for immersion in immersions(arranged))
         assert count_embeddings(arranged) == expected
         if arranged.n_crossings < 150:
@@ -132,7 +132,7 @@ def test_solutions_of_random_disks_are_as_many_as_layerings():
 def test_chains_multiply():
     """Too many immersions to try: 2^100, 5^60 of which 3^60 lift, each of them in 2^60 ways."""
     for polygon, links, each in ((random_curves.MILNOR_LIKE, 100, 4), (random_curves.BENNEQUIN_LIKE, 60, 6)):
-        arranged = arrangement(chain(polygon, links))
+        arranged = arrange(chain(polygon, links))
         assert count_embeddings(arranged) == each**links
         assert find_embedding(arranged)
         listed = [levels_of(layering) for layering in islice(embeddings(arranged), 20)]
@@ -140,7 +140,7 @@ def test_chains_multiply():
 
 
 def test_all_embeddings_of_a_chain_are_listed_once():
-    arranged = arrangement(chain(random_curves.MILNOR_LIKE, 4))
+    arranged = arrange(chain(random_curves.MILNOR_LIKE, 4))
     assert count_immersions(arranged) == 16
     listed = [levels_of(layering) for layering in embeddings(arranged)]
     assert len(listed) == len(set(listed)) == 4**4
@@ -164,7 +164,7 @@ def test_crossings_that_allow_no_levels():
 
 
 def test_crossings_that_allow_no_levels_among_many_immersions():
-    milnor = ending_outside(code_of(arrangement(random_curves.MILNOR_LIKE)))
+    milnor = ending_outside(code_of(arrange(random_curves.MILNOR_LIKE)))
     code = ending_outside(WITHOUT_EMBEDDING)
     for _ in range(4):
         code = joined(code, milnor)
@@ -179,7 +179,7 @@ def test_crossings_that_allow_no_levels_among_many_immersions():
 
 
 def test_places_are_those_of_the_crossings():
-    arranged = arrangement(Curve.from_gauss(*WITHOUT_EMBEDDING))
+    arranged = arrange(Curve.from_gauss(*WITHOUT_EMBEDDING))
     obstruction = find_embedding(arranged)
     assert obstruction.where == tuple(map(tuple, arranged.crossings[list(obstruction.value)].tolist()))
 

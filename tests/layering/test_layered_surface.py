@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import plyfold as pf
-from plyfold.arrangement.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrange
 from plyfold.clock import Clock
 from plyfold.errors import GeneralPositionError, InputError
 from plyfold.gallery import CURVES
@@ -169,7 +169,7 @@ def test_a_loop_that_winds_twice_bounds_nothing_alone():
     limacon = CURVES["limacon"].curve
     obstruction = find_layered_surface([limacon])
     assert (obstruction.reason, obstruction.value) == ("no embedding", (0,))
-    assert np.allclose(obstruction.where, arrangement(limacon).crossings)
+    assert np.allclose(obstruction.where, arrange(limacon).crossings)
     assert count_layered_surfaces([limacon]) == 0
 
 
@@ -187,7 +187,7 @@ def test_time_is_limited():
     many = [rectangle(3 * i, 2 * i, 3 * i + 60, 2 * i + 51) for i in range(15)]
     assert isinstance(count_layered_surfaces(many, time_limit=0), Unknown)
     assert find_layered_surface(many, time_limit=60)
-    assert solve_levels(LevelClauses(level_equations(arrangement(OUTER))), Clock(None)).tolist() == [1]
+    assert solve_levels(LevelClauses(level_equations(arrange(OUTER))), Clock(None)).tolist() == [1]
 
 
 @pytest.mark.parametrize("curves", CASED)

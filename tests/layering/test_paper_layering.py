@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import plyfold as pf
-from plyfold.arrangement.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.errors import InputError
 from plyfold.immersion.solve import find_immersion, immersions
 from plyfold.layering.orders.search import find_layering
@@ -196,16 +196,16 @@ class TestSeveralImmersions:
         ],
     )
     def test_known_polygons(self, polygon, expected):
-        assert Counter(assert_right(i) for i in immersions(arrangement(polygon))) == expected
+        assert Counter(assert_right(i) for i in immersions(arrange(polygon))) == expected
 
     def test_the_star_is_where_the_bennequin_like_curve_fails(self):
-        for immersion in immersions(arrangement(random_curves.BENNEQUIN_LIKE)):
+        for immersion in immersions(arrange(random_curves.BENNEQUIN_LIKE)):
             refused = [cell for cell, has in has_linear_spanning_subtrees(immersion).items() if not has]
             assert len(refused) == (0 if find_layering(immersion) else 1)
             assert all(len(edge_collapsed_graph(immersion, cell).nodes) == 4 for cell in refused)
 
     def test_obstruction_has_places_in_the_drawing(self):
-        refused = [i for i in immersions(arrangement(random_curves.BENNEQUIN_LIKE)) if not paper_layering(i)]
+        refused = [i for i in immersions(arrange(random_curves.BENNEQUIN_LIKE)) if not paper_layering(i)]
         assert all(len(paper_layering(i).where) == len(paper_layering(i).value) > 0 for i in refused)
 
 
@@ -215,7 +215,7 @@ def test_random_disks(outline):
     rng = np.random.default_rng(8)
     verdicts = Counter()
     for size in range(8, 80, 4):
-        immersion = find_immersion(arrangement(outline(rng, size)))
+        immersion = find_immersion(arrange(outline(rng, size)))
         found = paper_layering(immersion)
         verdicts[bool(found)] += 1
         if found:

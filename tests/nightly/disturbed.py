@@ -104,12 +104,12 @@ def at_once(work: Work) -> list[Any]:
 def judge_here(rng: np.random.Generator) -> None:
     """Disturb answers in this process."""
     points = outline(rng)
-    expected = answers(pf.arrangement(points))
-    arranged = pf.arrangement(points)
+    expected = answers(pf.arrange(points))
+    arranged = pf.arrange(points)
     for moment in np.exp(rng.uniform(0, np.log(50_000), MOMENTS)).astype(int).tolist():
         is_broken_off(lambda: answers(arranged), moment)
         assert answers(arranged) == expected, f"interrupted after {moment} calls"
-    shared = pf.arrangement(points)
+    shared = pf.arrange(points)
     assert at_once(lambda: answers(shared)) == [expected] * THREADS, "in several threads"
 
 

@@ -90,7 +90,7 @@ def passes(points: Polygon, mesh: tuple[FloatPolygon, list[list[int]], list[int]
 def judge_certificate(points: Polygon, rng: np.random.Generator) -> bool | None:
     """The checker agrees with rational numbers; return what they say, or None for a curve that bounds no disk."""
     try:
-        drawn = pf.arrangement(points, general_position="raise")
+        drawn = pf.arrange(points, general_position="raise")
     except pf.errors.PlyfoldError:
         return None
     if not pf.count_immersions(drawn):

@@ -165,7 +165,7 @@ def loops_without(points):
 @pytest.mark.parametrize("seed", range(60))
 def test_the_kink_is_the_shortest_loop_that_leaves_a_disk(seed):
     points = random_polygon(np.random.default_rng(seed), 7)
-    arranged = pf.arrangement(points)
+    arranged = pf.arrange(points)
     if pf.bounds_disk(arranged):
         return
     expected = next((loop for loop in loops_without(points) if bounds_disk(loop[2])), None)

@@ -6,7 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from plyfold.arrangement.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrange
 from plyfold.certify import CertificateError, check_layered, check_surface
 from plyfold.errors import NotEmbeddableError
 from plyfold.gallery import CURVES
@@ -201,7 +201,7 @@ class TestChecker:
 
 def test_no_chord_is_left():
     """Of every edge inside a cell one end is no point of the borders; area and outline are as they were."""
-    arranged = arrangement(CURVES["bennequin"].curve)
+    arranged = arrange(CURVES["bennequin"].curve)
     borders = np.arange(arranged.n_borders)
     for triangles in (0, 300):
         plain = triangulate_cells(arranged, triangles=triangles)

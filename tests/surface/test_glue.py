@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from plyfold import find_layering, immersions
-from plyfold.arrangement.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrange
 from plyfold.certify import CertificateError, check_disk_mesh, check_immersed_disk, check_layered
 from plyfold.gallery import CURVES
 from plyfold.layering.layering import Layering
@@ -104,7 +104,7 @@ def test_immersion_without_layering():
 
 def test_wrong_levels_are_noticed():
     """Two sheets of one cell exchanged: the checker must see it where the cell borders on others of two sheets."""
-    layering = find_layering(next(immersions(arrangement(CURVES["stacked-spiral"].curve))))
+    layering = find_layering(next(immersions(arrange(CURVES["stacked-spiral"].curve))))
     immersion = layering.immersion
     cell = int(np.argmax(immersion.arrangement.winding))
     a, b = np.flatnonzero(immersion.sheet_cell == cell)[:2]

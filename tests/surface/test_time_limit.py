@@ -101,14 +101,14 @@ class TestNothingGoesOn:
             in_general_position(PRETZEL, "perturb", self.late)
 
     def test_groupings(self):
-        word = write_word(grow_dual_tree(pf.arrangement(CURVES["milnor"].curve)))
+        word = write_word(grow_dual_tree(pf.arrange(CURVES["milnor"].curve)))
         with pytest.raises(TimeLimitError):
             find_groupings(word, self.late)
         with pytest.raises(TimeLimitError):
             list(list_groupings(find_groupings(word), self.late))
 
     def test_meshes(self):
-        outline = outline_of(pf.arrangement(PRETZEL))
+        outline = outline_of(pf.arrange(PRETZEL))
         with pytest.raises(TimeLimitError):
             constrained(outline, self.late)
         library = constrained(outline)

@@ -399,7 +399,7 @@ def test_sizes_that_make_no_mesh(options):
 def test_no_disk():
     with pytest.raises(NotImmersibleError):
         pf.unwrap(CURVES["limacon"].curve)
-    arranged = pf.arrangement(DISKS["circle"])
+    arranged = pf.arrange(DISKS["circle"])
     code = type(arranged).from_gauss(arranged.partner, arranged.ccw, arranged.outer)
     with pytest.raises(PlyfoldError, match="Gauss code"):
         pf.unwrap(code)

@@ -33,7 +33,7 @@ CurveLike: TypeAlias = Any
 __all__ = [
     "Arrangement",
     "CurveLike",
-    "arrangement",
+    "arrange",
     "polygon_turning_number",
     "watched_arrangement",
     "winding_number",
@@ -52,7 +52,7 @@ def _no_edges() -> Ints:
 class Arrangement:
     """The planar map of a closed curve, oriented so that its turning number is not negative.
 
-    Made by :func:`arrangement` from a drawing, or by :meth:`from_gauss` from a signed Gauss code.
+    Made by :func:`arrange` from a drawing, or by :meth:`from_gauss` from a signed Gauss code.
 
     Parameters
     ----------
@@ -89,8 +89,8 @@ class Arrangement:
 
     Examples
     --------
-    >>> from plyfold import arrangement
-    >>> eight = arrangement([(0, 0), (2, 2), (2, 0), (0, 2)])
+    >>> from plyfold import arrange
+    >>> eight = arrange([(0, 0), (2, 2), (2, 0), (0, 2)])
     >>> eight.n_crossings, eight.turning_number, sorted(eight.winding.tolist())
     (1, 0, [-1, 0, 1])
     """
@@ -226,7 +226,7 @@ class Arrangement:
         Examples
         --------
         >>> points = [(0, 0), (4, 0), (4, 3), (1, -1)]
-        >>> [arrangement(points[i:] + points[:i]).base_visit for i in range(4)]
+        >>> [arrange(points[i:] + points[:i]).base_visit for i in range(4)]
         [1, 0, 0, 1]
         """
         if self.curve is None or not self.n_crossings:
@@ -392,7 +392,7 @@ def _inner_points(outline: Floats) -> Iterator[tuple[float, float]]:
         yield float(x), float(y)
 
 
-def arrangement(curve: CurveLike, general_position: Literal["perturb", "raise"] = "perturb") -> Arrangement:
+def arrange(curve: CurveLike, general_position: Literal["perturb", "raise"] = "perturb") -> Arrangement:
     """Find the crossings, borders and cells of a closed curve (§2.1 of [MGR11]_).
 
     Parameters
@@ -425,7 +425,7 @@ def arrangement(curve: CurveLike, general_position: Literal["perturb", "raise"] 
 
     Examples
     --------
-    >>> loop = arrangement([(0, 0), (4, 0), (4, 3), (1, -1)])
+    >>> loop = arrange([(0, 0), (4, 0), (4, 3), (1, -1)])
     >>> loop.n_crossings, loop.crossings.tolist()
     (1, [[1.75, 0.0]])
     """
@@ -433,7 +433,7 @@ def arrangement(curve: CurveLike, general_position: Literal["perturb", "raise"] 
 
 
 def watched_arrangement(curve: CurveLike, general_position: Literal["perturb", "raise"], watch: Watch) -> Arrangement:
-    """Return the same as :func:`arrangement`, or raise TimeLimitError."""
+    """Return the same as :func:`arrange`, or raise TimeLimitError."""
     watch = watch.begin("finding the crossings")
     if isinstance(curve, Arrangement):
         return curve

@@ -20,7 +20,7 @@ from typing import NoReturn, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrangement
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
 from plyfold.arrangement.planar_map import next_darts, reversed_code, whole_number
 from plyfold.errors import GaussCodeError
 from plyfold.mistaken import mistaken_code
@@ -112,7 +112,7 @@ class GaussCode:
         """
         if isinstance(curve, cls):
             return curve
-        partner, ccw, outer = arrangement(curve).gauss_code()
+        partner, ccw, outer = arrange(curve).gauss_code()
         return cls(tuple(partner), tuple(ccw), outer)
 
     @classmethod
@@ -261,7 +261,7 @@ class GaussCode:
 
         if self.n_crossings > _MOST_CROSSINGS_DRAWN:
             return arrangement_svg(Arrangement.from_gauss(self.partner, self.ccw, self.outer))
-        return arrangement_svg(arrangement(Curve.from_gauss(self)))
+        return arrangement_svg(arrange(Curve.from_gauss(self)))
 
     @cached_property
     def _outer_darts(self) -> frozenset[int]:

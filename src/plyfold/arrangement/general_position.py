@@ -48,8 +48,8 @@ def in_general_position(
     Returns
     -------
     Curve
-        The same curve if it is in general position; else one with a :class:`~plyfold.outline.curve.Repair` per moved vertex.
-        Which vertices move, and where to, does not depend on the starting point or the direction of the curve.
+        The same curve if it is in general position; else one with a :class:`~plyfold.outline.curve.Repair` per moved
+        vertex. Which vertices move, and where to, does not depend on the starting point or the direction of the curve.
     Visits
 
     Raises

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import CurveLike, arrangement
+from plyfold.arrangement.arrangement import CurveLike, arrange
 from plyfold.arrays import Ints
 
 __all__ = ["loop_turning_numbers"]
@@ -44,7 +44,7 @@ def loop_turning_numbers(curve: CurveLike) -> Ints:
     >>> loop_turning_numbers(limacon).tolist()
     [[1, 1]]
     """
-    drawn = arrangement(curve)
+    drawn = arrange(curve)
     first = np.flatnonzero(np.arange(len(drawn.partner)) < drawn.partner)
     second = drawn.partner[first]
     along = np.concatenate([[0], np.cumsum(_quarter_turns(drawn.left_cell, drawn.right_cell))])

@@ -1,8 +1,8 @@
 """The planar map of several closed curves, which may cross themselves and each other, lie apart or inside each other.
 
-Everything is as for one curve (:mod:`plyfold.arrangement.arrangement`), but for two things. The borders are not numbered
-through: each loop closes on itself. And a cell may have several boundaries: where loops do not hang together, exact
-point location says in which cell of the others they lie.
+Everything is as for one curve (:mod:`plyfold.arrangement.arrangement`), but for two things. The borders are not
+numbered through: each loop closes on itself. And a cell may have several boundaries: where loops do not hang together,
+exact point location says in which cell of the others they lie.
 """
 
 from __future__ import annotations

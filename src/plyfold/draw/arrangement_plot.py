@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, CurveLike
-from plyfold.arrangement.arrangement import arrangement as arrangement_of
+from plyfold.arrangement.arrangement import arrange as arrangement_of
 from plyfold.arrays import Floats
 from plyfold.colours import ACCENT, INK, OBSTRUCTION, mix, text_colour, winding_colour
 from plyfold.draw.canvas import blank, closed, dots, line, note_below, polygon, write, write_below

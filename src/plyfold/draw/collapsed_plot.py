@@ -151,8 +151,8 @@ def plot_marked_cell(arrangement: Arrangement, cell: int, ax: Axes | None = None
 
     Examples
     --------
-    >>> from plyfold import arrangement
-    >>> ax = plot_marked_cell(arrangement([(0, 0), (2, 2), (2, 0), (0, 2)]), cell=1)
+    >>> from plyfold import arrange
+    >>> ax = plot_marked_cell(arrange([(0, 0), (2, 2), (2, 0), (0, 2)]), cell=1)
     >>> len(ax.patches) > 0
     True
     """

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, CurveLike
-from plyfold.arrangement.arrangement import arrangement as arrangement_of
+from plyfold.arrangement.arrangement import arrange as arrangement_of
 from plyfold.arrays import Floats
 from plyfold.colours import OBSTRUCTION, PAPER, mix, sheet_colour, text_colour, winding_colour
 from plyfold.draw.arrangement_plot import drawn_points, plot_arrangement

@@ -41,8 +41,8 @@ def arrangement_svg(arrangement: Arrangement) -> str:
 
     Examples
     --------
-    >>> from plyfold import arrangement
-    >>> picture = arrangement_svg(arrangement([(0, 0), (2, 2), (2, 0), (0, 2)]))
+    >>> from plyfold import arrange
+    >>> picture = arrangement_svg(arrange([(0, 0), (2, 2), (2, 0), (0, 2)]))
     >>> picture.startswith("<svg"), picture.count("<path"), picture.count("<circle")
     (True, 5, 1)
     """

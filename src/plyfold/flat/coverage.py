@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import CurveLike, arrangement
+from plyfold.arrangement.arrangement import CurveLike, arrange
 from plyfold.flat.polygons import outlined
 
 if TYPE_CHECKING:
@@ -55,10 +55,10 @@ def coverage(curve: CurveLike) -> list[Covered]:
     >>> [(cell.polygon.area, cell.winding) for cell in coverage(eight)]
     [(1.0, -1), (1.0, 1)]
     >>> clockwise = [(0, 0), (0, 1), (1, 1), (1, 0)]
-    >>> coverage(clockwise)[0].winding, arrangement(clockwise).reversed
+    >>> coverage(clockwise)[0].winding, arrange(clockwise).reversed
     (1, True)
     """
-    drawn = arrangement(curve)
+    drawn = arrange(curve)
     wound = np.flatnonzero(drawn.winding).tolist()
     polygons = outlined(drawn, [drawn.cells[cell] for cell in wound])
     return [Covered(*pair) for pair in zip(polygons, drawn.winding[wound].tolist(), strict=True)]

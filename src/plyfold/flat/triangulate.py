@@ -6,7 +6,7 @@ from typing import overload
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrangement
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError, PlyfoldError
 from plyfold.flat.delaunay import delaunay_triangles
@@ -105,7 +105,7 @@ def triangulate(
 def chosen_immersion(curve: CurveLike, immersion: Immersion | None) -> Immersion:
     """Return the immersion asked for, or the curve's first; raise an error if there is none."""
     if immersion is None:
-        drawing = arrangement(curve)
+        drawing = arrange(curve)
         if drawing.curve is None:
             raise PlyfoldError("triangles need a drawing, and this arrangement is a Gauss code alone")
         found = find_immersion(drawing)
@@ -128,7 +128,7 @@ def _faces_as_given(curve: CurveLike, faces: Ints, drawn: Arrangement) -> Ints:
             raise GeneralPositionError(
                 "strands touch, and where they were separated a triangle has no area on the points as given",
                 where=given.points[flat[0]],
-                hint="take the moved points: a = arrangement(curve), then triangulate(a) and a.curve.points",
+                hint="take the moved points: a = arrange(curve), then triangulate(a) and a.curve.points",
             )
     return faces if isinstance(curve, Curve) else given.rows[faces]
 

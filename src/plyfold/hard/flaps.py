@@ -22,7 +22,7 @@ from itertools import groupby
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import InputError
 from plyfold.hard.pieces import immersion_of_pieces
@@ -151,7 +151,7 @@ def flap_disk(flaps: int, arcs: Iterable[tuple[int, int]]) -> FlapDisk:
     covers = _checked_covers(flaps, arcs)
     shapes = _shapes(covers)
     corners, piece_of_edge = _outline(shapes)
-    arranged = arrangement(corners, general_position="raise")
+    arranged = arrange(corners, general_position="raise")
     over = _pieces_over_cells(arranged, [[_base_box(shapes), *_handles(shapes)], *(shape.boxes() for shape in shapes)])
     # A side of a handle turns into a side of the flap on the edge on which the border before the base's side ends.
     immersion = immersion_of_pieces(arranged, over, piece_of_edge[np.roll(arranged.visit_edge, -1)])

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrange
 from plyfold.arrays import Floats
 from plyfold.errors import InputError
 from plyfold.immersion.immersion import Immersion
@@ -89,7 +89,7 @@ def search_symmetric(
 
 
 def _unliftable(curve: Curve) -> Iterator[Unliftable]:
-    for immersion in islice(immersions(arrangement(curve)), IMMERSIONS_TRIED):
+    for immersion in islice(immersions(arrange(curve)), IMMERSIONS_TRIED):
         found = find_layering(immersion)
         if isinstance(found, Obstruction):
             yield Unliftable(curve, immersion, found)

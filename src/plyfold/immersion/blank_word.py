@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from string import ascii_lowercase
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrangement
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
 from plyfold.immersion.dual_tree import grow_dual_tree
 from plyfold.immersion.grouping import Grouping, Groupings, find_groupings, list_groupings
 from plyfold.immersion.obstructions import is_visibly_no_disk
@@ -143,7 +143,7 @@ def blank_word(curve: CurveLike) -> BlankWord:
     >>> print(blank_word([(0, 0), (1, 0), (0, 1)]))
     (empty)
     """
-    arranged = arrangement(curve)
+    arranged = arrange(curve)
     return BlankWord(arranged, write_word(grow_dual_tree(arranged)))
 
 

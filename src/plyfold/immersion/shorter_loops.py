@@ -73,8 +73,8 @@ def place_of_turning(drawn: Arrangement) -> tuple[tuple[float, float], ...]:
 
     Examples
     --------
-    >>> from plyfold import arrangement
-    >>> place_of_turning(arrangement([(0, 0), (2, 2), (2, 0), (0, 2)]))
+    >>> from plyfold import arrange
+    >>> place_of_turning(arrange([(0, 0), (2, 2), (2, 0), (0, 2)]))
     ((1.0, 1.0),)
     """
     if drawn.curve is None or not drawn.n_crossings:

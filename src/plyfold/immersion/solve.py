@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrangement
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
 from plyfold.arrangement.base import begun_at, numbered_from
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import InputError
@@ -83,7 +83,7 @@ def find_immersion(curve: CurveLike, method: Literal["exact", "paper"] = "exact"
     """
     if method not in ("exact", "paper"):
         raise InputError(f'method must be "exact" or "paper", not {method!r}')
-    arranged = arrangement(curve)
+    arranged = arrange(curve)
     obstruction = visible_obstruction(arranged)
     if obstruction is not None:
         return obstruction
@@ -115,7 +115,7 @@ def immersions(curve: CurveLike) -> Iterator[Immersion]:
     >>> [len(immersion.disk_layout()) for immersion in immersions(milnor)]
     [9, 9]
     """
-    yield from watched_immersions(arrangement(curve), UNWATCHED)
+    yield from watched_immersions(arrange(curve), UNWATCHED)
 
 
 def watched_immersions(arranged: Arrangement, watch: Watch) -> Iterator[Immersion]:
@@ -266,7 +266,7 @@ def best_immersion(curve: CurveLike, key: Callable[[Immersion], Any]) -> Immersi
     >>> best_immersion(milnor, key=lambda immersion: len(immersion.disk_layout())).n_sheets
     11
     """
-    arranged = arrangement(curve)
+    arranged = arrange(curve)
     return min(immersions(arranged), key=key, default=None) or find_immersion(arranged)
 
 
@@ -282,7 +282,7 @@ class _Family:
 
 
 def _family(curve: CurveLike) -> _Family | None:
-    arranged = arrangement(curve)
+    arranged = arrange(curve)
     return None if is_visibly_no_disk(arranged) else _family_of(arranged)
 
 

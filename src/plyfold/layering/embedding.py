@@ -1,9 +1,9 @@
 """Embeddings of a curve: layered disks over all its immersions at once (§5 of the paper: an open problem there).
 
 Two ways lead to an embedding. Immersion by immersion the order of sheets is a small problem, but there can be 2^100
-immersions. The equations between levels of borders (:mod:`plyfold.layering.levels.equations`) know all immersions at once, but
-for curves that cover themselves many times they are harder than all of a few immersions. So few immersions are gone
-through one by one, and where there are more of them the curve itself is asked.
+immersions. The equations between levels of borders (:mod:`plyfold.layering.levels.equations`) know all immersions at
+once, but for curves that cover themselves many times they are harder than all of a few immersions. So few immersions
+are gone through one by one, and where there are more of them the curve itself is asked.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import islice
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrangement
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
 from plyfold.arrangement.base import begun_at, numbered_from, visits_from_base
 from plyfold.arrangement.several import are_several
 from plyfold.arrays import Ints
@@ -79,7 +79,7 @@ def find_embedding(
     """
     if are_several(curve):
         return find_layered_surface(curve, time_limit)
-    clock, arranged = Clock(time_limit), arrangement(curve)
+    clock, arranged = Clock(time_limit), arrange(curve)
     first = find_immersion(arranged)
     if isinstance(first, Obstruction):
         return first
@@ -119,7 +119,7 @@ def embeddings(curve: CurveLike) -> Iterator[Layering | LayeredSurface]:
     if are_several(curve):
         yield from layered_surfaces(curve)
         return
-    arranged = arrangement(curve)
+    arranged = arrange(curve)
     total = count_immersions(arranged)
     if 0 < total <= _FEW:
         for immersion in immersions(arranged):
@@ -147,9 +147,9 @@ def count_embeddings(curve: CurveLike, time_limit: float | None = None) -> int |
     Notes
     -----
     For few immersions, the layerings of all of them. Otherwise the solutions of the equations between levels are
-    counted, see :func:`plyfold.layering.levels.counting.count_level_solutions`: a curve falls apart where only one sheet
-    lies, and the numbers of its parts multiply. A single part with many immersions and hundreds of crossings can be out
-    of reach.
+    counted, see :func:`plyfold.layering.levels.counting.count_level_solutions`: a curve falls apart where only one
+    sheet lies, and the numbers of its parts multiply. A single part with many immersions and hundreds of crossings can
+    be out of reach.
 
     Examples
     --------
@@ -161,7 +161,7 @@ def count_embeddings(curve: CurveLike, time_limit: float | None = None) -> int |
     """
     if are_several(curve):
         return count_layered_surfaces(curve, time_limit)
-    clock, arranged = Clock(time_limit), arrangement(curve)
+    clock, arranged = Clock(time_limit), arrange(curve)
     if not bounds_disk(arranged):
         return 0
     try:

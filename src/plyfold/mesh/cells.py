@@ -141,8 +141,8 @@ def triangulate_cells(
 
     Examples
     --------
-    >>> from plyfold import arrangement
-    >>> mesh = triangulate_cells(arrangement([(0, 0), (4, 0), (4, 4), (0, 4)]), max_area=100.0)
+    >>> from plyfold import arrange
+    >>> mesh = triangulate_cells(arrange([(0, 0), (4, 0), (4, 4), (0, 4)]), max_area=100.0)
     >>> mesh.points[:4].tolist(), mesh.chain[0]
     ([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]], np.int64(0))
     """

@@ -60,8 +60,8 @@ def find_kink(drawn: Arrangement) -> Kink | None:
 
     Examples
     --------
-    >>> from plyfold import arrangement
-    >>> curl = arrangement([(0, 0), (6, 0), (6, 3), (5, 3), (5, -1), (7, -1), (7, 6), (0, 6)])
+    >>> from plyfold import arrange
+    >>> curl = arrange([(0, 0), (6, 0), (6, 3), (5, 3), (5, -1), (7, -1), (7, 6), (0, 6)])
     >>> curl.turning_number, find_kink(curl).places
     (2, ((5.0, 0.0),))
     """

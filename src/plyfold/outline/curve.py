@@ -168,9 +168,9 @@ class Curve:
 
         Examples
         --------
-        >>> from plyfold import arrangement
+        >>> from plyfold import arrange
         >>> limacon = Curve.from_gauss([1, 0], [True, False], outer=1)
-        >>> arrangement(limacon).turning_number
+        >>> arrange(limacon).turning_number
         2
         """
         from plyfold.arrangement.arrangement import Arrangement

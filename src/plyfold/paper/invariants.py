@@ -126,8 +126,8 @@ def diagonal_sums(arrangement: Arrangement, *, unsigned: bool = False) -> Ints:
 
     Examples
     --------
-    >>> from plyfold import arrangement
-    >>> eight = arrangement([(0, 0), (2, 2), (2, 0), (0, 2)])
+    >>> from plyfold import arrange
+    >>> eight = arrange([(0, 0), (2, 2), (2, 0), (0, 2)])
     >>> diagonal_sums(eight).tolist(), diagonal_sums(eight, unsigned=True).tolist()
     ([[0, 0]], [[2, 0]])
     """

@@ -60,8 +60,8 @@ def glue_layout(arrangement: Arrangement, groups: Sequence[Sequence[int]]) -> Im
 
     Examples
     --------
-    >>> from plyfold import arrangement
-    >>> ramp = arrangement([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)])
+    >>> from plyfold import arrange
+    >>> ramp = arrange([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)])
     >>> glue_layout(ramp, [(0, 6), (1, 5), (2, 4), (3,), (7,)])
     <Immersion: 5 sheets over 5 cells>
     >>> print(glue_layout(ramp, [(0,), (1, 5), (2, 4), (3,), (6,), (7,)]))

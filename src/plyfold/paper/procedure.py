@@ -111,9 +111,9 @@ def paper_immersion(arranged: Arrangement, reading: Reading = "literal") -> Imme
 
     Examples
     --------
-    >>> from plyfold import arrangement
+    >>> from plyfold import arrange
     >>> ramp = [(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)]
-    >>> [group.borders for group in paper_immersion(arrangement(ramp)).disk_layout()]
+    >>> [group.borders for group in paper_immersion(arrange(ramp)).disk_layout()]
     [(0, 6), (1, 5), (2, 4), (3,), (7,)]
     """
     run = run_paper(arranged, reading)

@@ -6,7 +6,6 @@ from functools import lru_cache
 from time import perf_counter
 from typing import Any
 
-import plyfold.surface as lifted
 from plyfold.clock import Clock, Watch
 from plyfold.draw.viewer import mesh_data
 from plyfold.errors import NotEmbeddableError, NotImmersibleError, TimeLimitError
@@ -16,6 +15,7 @@ from plyfold.sketch.drawings import immersed, immersion_count, layered
 from plyfold.sketch.lie import obstruction_data
 from plyfold.sketch.patience import patient
 from plyfold.sketch.schema import VERSION, Surface
+from plyfold.surface import lift as lifted
 from plyfold.surface.lift import layering_of
 
 __all__ = ["lifted_surface", "surface"]

@@ -40,9 +40,9 @@ def split_chords(mesh: CellTriangulation, borders: Ints) -> CellTriangulation:
 
     Examples
     --------
-    >>> from plyfold import arrangement
+    >>> from plyfold import arrange
     >>> from plyfold.mesh.cells import triangulate_cells
-    >>> square = triangulate_cells(arrangement([(0, 0), (2, 0), (2, 2), (0, 2)]), triangles=0)
+    >>> square = triangulate_cells(arrange([(0, 0), (2, 0), (2, 2), (0, 2)]), triangles=0)
     >>> split = split_chords(square, np.array([0]))
     >>> split.points[4:].tolist(), len(split.triangles)
     ([[1.0, 1.0]], 4)

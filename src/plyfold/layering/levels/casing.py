@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrangement
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
 from plyfold.arrangement.several import Loops, are_several
 from plyfold.arrays import Bools, Ints
 from plyfold.errors import InputError
@@ -36,7 +36,7 @@ def embed_cased(curve: CurveLike, over: npt.ArrayLike) -> Layering | LayeredSurf
     curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
         Several curves bound one surface, with holes or handles: see :func:`~plyfold.find_layered_surface`.
     over : array_like of bool, shape (2k,) or (k,)
-        For each visit of ``arrangement(curve)``, whether the strand passes over the other one; or for each crossing,
+        For each visit of ``arrange(curve)``, whether the strand passes over the other one; or for each crossing,
         whether it does so at the first of its two visits.
 
     Returns
@@ -74,7 +74,7 @@ def embed_cased(curve: CurveLike, over: npt.ArrayLike) -> Layering | LayeredSurf
         from plyfold.layering.levels.layered_surface import find_layered_surface
 
         return find_layered_surface(curve, over=over)
-    arranged = arrangement(curve)
+    arranged = arrange(curve)
     casing = casing_of_visits(arranged, over)
     obstruction = visible_obstruction(arranged)
     if obstruction is not None:

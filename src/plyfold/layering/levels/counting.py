@@ -52,9 +52,9 @@ def count_level_solutions(equations: LevelEquations, clock: Clock | None = None)
 
     Examples
     --------
-    >>> from plyfold import arrangement
+    >>> from plyfold import arrange
     >>> from plyfold.layering.levels.equations import level_equations
-    >>> ramp = arrangement([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)])
+    >>> ramp = arrange([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)])
     >>> count_level_solutions(level_equations(ramp))
     2
     """

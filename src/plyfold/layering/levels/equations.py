@@ -73,8 +73,8 @@ def level_equations(arranged: Arrangement) -> LevelEquations:
 
     Examples
     --------
-    >>> from plyfold import arrangement
-    >>> ramp = arrangement([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)])
+    >>> from plyfold import arrange
+    >>> ramp = arrange([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)])
     >>> level_equations(ramp).highest.tolist()
     [2, 1, 2, 1, 2, 1, 2, 1]
     """

@@ -1,9 +1,9 @@
 """Layered surfaces whose boundary is several closed curves: with holes, handles, and perhaps in several pieces.
 
-The equations between levels (:mod:`plyfold.layering.levels.equations`) hold as for one curve. Each solution glues sheets to a
-surface without self-intersections that has the given curves as its boundary and lies to the left of them. Its Euler
-characteristic is the sum of their turning numbers, for it lies flat without branch points; the same holds for each of
-its pieces, which gives their genus. All this is exact. Nothing demands that the surface be in one piece.
+The equations between levels (:mod:`plyfold.layering.levels.equations`) hold as for one curve. Each solution glues
+sheets to a surface without self-intersections that has the given curves as its boundary and lies to the left of them.
+Its Euler characteristic is the sum of their turning numbers, for it lies flat without branch points; the same holds for
+each of its pieces, which gives their genus. All this is exact. Nothing demands that the surface be in one piece.
 """
 
 from __future__ import annotations
