@@ -56,7 +56,7 @@ def sheet() -> None:
     for ax in axes:
         ax.axis("off")
     for ax, (title, code) in zip(axes, panels, strict=False):
-        plot_arrangement(pf.arrange(pf.Curve.from_gauss(code)), ax=ax)
+        plot_arrangement(pf.arrange(code.to_curve()), ax=ax)
         ax.set_title(title, fontsize=8, color=INK)
     save(figure, HERE / "images" / "codes.png", force=True)
 

@@ -135,7 +135,7 @@ def graphs_of_every_cell(*immersions: pf.Immersion) -> None:
 
 def another_way() -> None:
     """Draw the disk that lifts, but not along linear spanning subtrees: the cell that cannot follow any of its own."""
-    (immersion,) = pf.immersions(pf.Curve.from_gauss(*LIFTS_ANOTHER_WAY))
+    (immersion,) = pf.immersions(pf.GaussCode(*LIFTS_ANOTHER_WAY).to_curve())
     (cell,) = paper_layering(immersion).value
     figure = Figure(figsize=(16, 4.6), layout="constrained")
     drawing, layout, graph = figure.subplots(1, 3)

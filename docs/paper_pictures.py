@@ -51,7 +51,7 @@ class Trial(NamedTuple):
 
 def failure(name: str, code: tuple[list[int], list[int], int], reading: Reading) -> None:
     """Draw a curve that bounds one disk and that a reading gets wrong: its groups, and those of the immersion."""
-    curve = pf.Curve.from_gauss(*code)
+    curve = pf.GaussCode(*code).to_curve()
     arranged = pf.arrange(curve)
     figure = Figure(figsize=(16.5, 4.8), layout="constrained")
     drawing, detail, wrong, right = figure.subplots(1, 4)
@@ -71,7 +71,7 @@ def failure(name: str, code: tuple[list[int], list[int], int], reading: Reading)
 
 def accepted() -> None:
     """Draw the limaçon, which the pseudo-code accepts without a test of the turning number, and its groups."""
-    curve = pf.Curve.from_gauss(*LIMACON)
+    curve = pf.GaussCode(*LIMACON).to_curve()
     figure = Figure(figsize=(8.6, 4.4), layout="constrained")
     drawing, groups = figure.subplots(1, 2)
     plot_arrangement(pf.arrange(curve), ax=drawing, borders=True)

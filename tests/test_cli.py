@@ -12,7 +12,7 @@ import shapely
 import trimesh
 
 import plyfold as pf
-from plyfold.cli import main
+from plyfold.cli.commands import main
 from plyfold.cli.progress import Stopwatch
 from plyfold.gallery import CURVES
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from plyfold.cli import main
+from plyfold.cli.commands import main
 from plyfold.gallery import CURVES
 
 RAMP = "gallery:exit-ramp"

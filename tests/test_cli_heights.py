@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from plyfold.cli import main
+from plyfold.cli.commands import main
 
 
 def lifted(tmp_path, *words):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from plyfold.cli import main
+from plyfold.cli.commands import main
 
 RAMP = Path(__file__).parents[1] / "examples" / "ramp.svg"
 

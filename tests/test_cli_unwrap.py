@@ -5,7 +5,7 @@ import pytest
 import trimesh
 
 from plyfold import Curve, unwrap
-from plyfold.cli import main
+from plyfold.cli.commands import main
 from plyfold.errors import InputError
 from plyfold.gallery import CURVES
 

@@ -8,7 +8,7 @@ import pytest
 
 PROBE = """
 import json, sys
-from plyfold.cli import main, progress
+from plyfold.cli.commands import main, progress
 
 imported, known, stop = {}, set(sys.modules), progress.Stopwatch.stop
 

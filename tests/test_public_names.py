@@ -1,5 +1,12 @@
 """The names that users may rely on."""
 
+import subprocess
+import sys
+from types import ModuleType
+
+import numpy as np
+from mypy import api
+
 import plyfold as pf
 
 
@@ -18,10 +25,11 @@ def test_public_names():
         "Surface",
         "Unknown",
         "UnwoundDisk",
-        "arrangement",
+        "arrange",
         "best_immersion",
         "blank_word",
         "bounds_disk",
+        "certify",
         "changed_borders",
         "count_embeddings",
         "count_immersions",
@@ -29,6 +37,7 @@ def test_public_names():
         "count_layerings",
         "coverage",
         "decompose",
+        "draw",
         "embed_cased",
         "embeddings",
         "errors",
@@ -38,7 +47,9 @@ def test_public_names():
         "find_layering",
         "flip_distance",
         "gallery",
+        "hard",
         "immersions",
+        "io",
         "irreducible_kernels",
         "layered_surfaces",
         "layerings",
@@ -47,6 +58,7 @@ def test_public_names():
         "loop_turning_numbers",
         "map_disk",
         "nicest_layering",
+        "paper",
         "read",
         "sample_immersion",
         "triangulate",
@@ -55,8 +67,48 @@ def test_public_names():
     assert all(hasattr(pf, name) for name in pf.__all__)
 
 
-def test_arrangement_is_the_function_whatever_was_imported():
-    import plyfold.arrangement.arrangement
-    import plyfold.draw.surface_plot  # noqa: F401
+def test_no_function_hides_a_package():
+    import plyfold.arrangement as room
+    import plyfold.draw.surface_plot
 
-    assert callable(pf.arrangement)
+    assert isinstance(room, ModuleType)
+    assert pf.arrangement is room
+    assert pf.draw.surface_plot is plyfold.draw.surface_plot
+
+
+def test_every_name_is_there_for_people_and_for_type_checkers():
+    for module in (pf, pf.draw, pf.hard, pf.certify):
+        for name in module.__all__:
+            assert getattr(module, name).__doc__
+        assert set(module.__all__) <= set(dir(module))
+
+
+PROGRAM = """
+import plyfold as pf
+
+pf.lift(42)
+pf.lift([(0, 0), (1, 0), (0, 1)]).vertices.shape
+pf.arrange(pf.Curve([(0, 0), (1, 0), (0, 1)])).no_such_thing
+"""
+
+
+def test_a_type_checker_sees_mistakes(tmp_path):
+    (tmp_path / "program.py").write_text(PROGRAM)
+    found, _, _ = api.run([str(tmp_path / "program.py"), "--strict", "--cache-dir", str(tmp_path / "cache")])
+    assert [line.split(": error: ")[0].split(":")[-1] for line in found.splitlines()[:-1]] == ["4", "6"]
+
+
+def test_importing_loads_nothing_heavy():
+    program = (
+        "import sys, plyfold; print(*sorted({'numpy', 'scipy', 'shapely', 'pysat', 'matplotlib'} & sys.modules.keys()))"
+    )
+    assert subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True).stdout == "\n"
+
+
+def test_values_leave_the_arrays_they_were_given_as_they_were():
+    points = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
+    level = np.array([1])
+    layering = pf.Layering(pf.find_immersion(points), level)
+    assert points.flags.writeable
+    assert level.flags.writeable
+    assert not layering.level.flags.writeable

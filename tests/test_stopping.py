@@ -20,7 +20,7 @@ def count(frame, event, what):
     if calls == {moment}:
         signal.raise_signal(signal.SIGINT)
 sys.argv = ["plyfold", {words}]
-from plyfold_command import main
+from plyfold.cli.program import main
 sys.setprofile(count)
 main()
 """
@@ -33,7 +33,7 @@ def forever(*_, **__):
     hashlib.pbkdf2_hmac("sha1", b"", b"", 2**31 - 1)
 surface.smooth_heights = forever
 sys.argv = ["plyfold", {words}]
-from plyfold_command import main
+from plyfold.cli.program import main
 main()
 """
 
@@ -75,7 +75,7 @@ from plyfold.io import saving
 write = Path.replace
 Path.replace = lambda self, target: signal.raise_signal(signal.SIGINT)
 sys.argv = ["plyfold", "gallery", "circle", "-o", {str(tmp_path / "circle.csv")!r}]
-from plyfold_command import main
+from plyfold.cli.program import main
 main()
 """
     with started(program) as process:

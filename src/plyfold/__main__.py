@@ -1,6 +1,6 @@
 """``python -m plyfold`` is the same as ``plyfold``."""
 
-from plyfold_command import main
+from plyfold.cli.program import main
 
 if __name__ == "__main__":
     main()

@@ -6,12 +6,15 @@ import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.errors import MemoryLimitError
+
+if TYPE_CHECKING:
+    from plyfold.arrangement.arrangement import Arrangement
 
 __all__ = ["available_memory", "number_of_tuples", "require_memory"]
 

@@ -100,7 +100,7 @@ def _mistaken_object(value: object) -> Mistake | None:
         return Mistake("a Path is not a list of points", hint)
     name, kind = type(value).__name__, getattr(value, "geom_type", "")
     if hasattr(value, "points") or (isinstance(kind, str) and kind):
-        hint = "it can be given as it is wherever a curve can, as in pf.arrangement"
+        hint = "it can be given as it is wherever a curve can, as in pf.arrange"
         return Mistake(f"a {name} is not a list of points", hint)
     if hasattr(value, "geom_type"):
         return Mistake(f"a {name} holds several geometries", "give one of them, like series.geometry.iloc[0]")

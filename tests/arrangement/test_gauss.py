@@ -203,7 +203,7 @@ def test_a_code_stands_for_a_curve_where_no_drawing_is_needed():
 
 
 def test_text_is_drawn_and_what_is_no_text_is_refused():
-    assert GaussCode.of(pf.Curve.from_gauss(TREFOIL)) == GaussCode.parse(TREFOIL)
+    assert GaussCode.of(GaussCode.parse(TREFOIL).to_curve()) == GaussCode.parse(TREFOIL)
     with pytest.raises(GaussCodeError, match="no text"):
         GaussCode.parse(None)
 

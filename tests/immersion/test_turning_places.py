@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import plyfold as pf
-from plyfold.cli import main
+from plyfold.cli.commands import main
 from plyfold.gallery import CURVES
 from plyfold.sketch.look import look
 from plyfold.sketch.schema import Look, Stroke

@@ -105,7 +105,7 @@ def test_nothing_is_said_of_what_has_no_third_coordinate():
 
 
 def test_the_command_line_says_it(tmp_path, capsys):
-    from plyfold.cli import main
+    from plyfold.cli.commands import main
 
     (tmp_path / "high.csv").write_text(FILES["commas.csv"])
     assert main(["check", str(tmp_path / "high.csv")]) == 0

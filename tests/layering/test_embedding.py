@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from plyfold.arrangement.arrangement import Arrangement, arrange
+from plyfold.arrangement.gauss import GaussCode
 from plyfold.clock import Clock
 from plyfold.gallery import chain
 from plyfold.immersion.solve import count_immersions, immersions
@@ -21,7 +22,6 @@ from plyfold.layering.orders.counting import count_layerings
 from plyfold.layering.orders.listing import layerings
 from plyfold.layering.orders.search import find_layering
 from plyfold.obstruction import Unknown
-from plyfold.outline.curve import Curve
 from reference import gluings, random_curves
 from reference.layerings import level_solutions, level_solutions_by_immersion, levels_agree
 from reference.level_subsets import ending_outside, joined, levels_fit
@@ -179,7 +179,7 @@ def test_crossings_that_allow_no_levels_among_many_immersions():
 
 
 def test_places_are_those_of_the_crossings():
-    arranged = arrange(Curve.from_gauss(*WITHOUT_EMBEDDING))
+    arranged = arrange(GaussCode(*WITHOUT_EMBEDDING).to_curve())
     obstruction = find_embedding(arranged)
     assert obstruction.where == tuple(map(tuple, arranged.crossings[list(obstruction.value)].tolist()))
 

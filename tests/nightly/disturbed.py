@@ -39,7 +39,7 @@ def count(frame, event, what):
     if calls == {moment}:
         signal.raise_signal(signal.SIGINT)
 sys.argv = ["plyfold", "lift", "gallery:exit-ramp", "--triangles", "500", "-o", {path!r}]
-from plyfold_command import main
+from plyfold.cli.program import main
 sys.setprofile(count)
 main()
 """

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from plyfold.arrangement.arrangement import arrange
+from plyfold.arrangement.gauss import GaussCode
 from plyfold.certify import CertificateError, check_layered, check_surface
 from plyfold.errors import NotEmbeddableError
 from plyfold.gallery import CURVES
@@ -14,7 +15,6 @@ from plyfold.immersion.solve import immersions
 from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
 from plyfold.layering.orders.search import find_layering
 from plyfold.mesh.cells import triangulate_cells
-from plyfold.outline.curve import Curve
 from plyfold.surface.chords import split_chords
 from plyfold.surface.lift import lift
 from reference.triangles import in_span, intersection, meeting_pairs
@@ -28,7 +28,7 @@ SMALLEST = (
 
 def failing(name):
     """The immersions that do not lift: of the Bennequin-like curve, or of one of the smallest curves that have some."""
-    curve = CURVES[name].curve if name in CURVES else Curve.from_gauss(*SMALLEST)
+    curve = CURVES[name].curve if name in CURVES else GaussCode(*SMALLEST).to_curve()
     return [immersion for immersion in immersions(curve) if not find_layering(immersion)]
 
 

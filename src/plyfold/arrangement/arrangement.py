@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -24,11 +24,8 @@ from plyfold.arrangement.planar_map import (
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GaussCodeError, PlyfoldError
-from plyfold.outline.curve import Curve, as_curve
+from plyfold.outline.curve import Coded, Curve, CurveLike, as_curve
 from plyfold.predicates import cross_sign, orient
-
-# Anything that stands for a closed curve: Curve, array-like (n, 2), shapely geometry, Arrangement or GaussCode.
-CurveLike: TypeAlias = Any
 
 __all__ = [
     "Arrangement",
@@ -438,7 +435,8 @@ def watched_arrangement(curve: CurveLike, general_position: Literal["perturb", "
     if isinstance(curve, Arrangement):
         return curve
     if hasattr(curve, "partner"):  # a GaussCode, which a module further on defines
-        return Arrangement.from_gauss(curve.partner, curve.ccw, curve.outer)
+        given = cast("Coded", curve)
+        return Arrangement.from_gauss(given.partner, given.ccw, given.outer)
     separated, visits = in_general_position(as_curve(curve), general_position, watch)
     watch.step()
     edge, point = visits.edge, visits.point

@@ -89,6 +89,7 @@ def _triangulate(options: argparse.Namespace) -> int:
 
 def _unwrap(options: argparse.Namespace) -> int:
     from plyfold.disk.unwrap import DISK_ENDINGS, unwrap
+    from plyfold.immersion.immersion import Immersion
     from plyfold.immersion.solve import find_immersion, nth_immersion
 
     watch = Stopwatch()
@@ -99,7 +100,7 @@ def _unwrap(options: argparse.Namespace) -> int:
         found = nth_immersion(arranged, options.immersion)
     load_libraries(FOR_MESHES, watch)
     watch("unwinding")
-    unwound = unwrap(found or arranged, triangles=options.triangles)
+    unwound = unwrap(found if isinstance(found, Immersion) else arranged, triangles=options.triangles)
     watch("writing")
     for path in options.output:
         unwound.export(path, options.force)

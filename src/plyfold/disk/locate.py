@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Floats, Ints, freeze
 from plyfold.predicates import orient
 
 __all__ = ["Places", "locate", "neighbours", "twins", "weights"]
@@ -27,7 +27,7 @@ class Places:
     weights: Floats
 
     def __post_init__(self) -> None:
-        self.face.flags.writeable = self.weights.flags.writeable = False
+        freeze(self)
 
     def of(self, values: Floats, faces: Ints) -> Floats:
         """Return what vertices have, an array of shape (n, ...), at these places."""

@@ -17,14 +17,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.disk.flatten import angles_of, flattened, thin
 from plyfold.disk.lay_out import Layout
-from plyfold.disk.unwrap import UnwoundDisk
 from plyfold.errors import InputError
+
+if TYPE_CHECKING:
+    from plyfold.disk.unwrap import UnwoundDisk
 
 __all__ = ["Motion", "turned_over"]
 

@@ -16,27 +16,27 @@ import os
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrangement.arrangement import CurveLike
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Floats, Ints, freeze, read_only
+from plyfold.certify import CertificateError, check_immersed_disk
+from plyfold.disk.arcs import Arc, arcs_of
+from plyfold.disk.files import model_of_disk
 from plyfold.disk.locate import Places, locate, neighbours
+from plyfold.disk.lookup import Missing, places_in_sheet
 from plyfold.disk.round_map import round_map
 from plyfold.errors import InputError, PlyfoldError
 from plyfold.flat.triangulate import chosen_immersion
 from plyfold.immersion.immersion import Immersion
+from plyfold.io.mesh.saving import save_model
 from plyfold.mesh.cells import DEFAULT_TRIANGLES, triangulate_cells
 from plyfold.mesh.sheets import glue_copies
 from plyfold.mesh.sizes import refuse_sizes
 from plyfold.outline.points import as_points
-
-if TYPE_CHECKING:
-    from plyfold.disk.arcs import Arc
-    from plyfold.disk.lookup import Missing
-    from plyfold.surface.lift import Surface
 
 __all__ = ["DISK_ENDINGS", "UnwoundDisk", "map_disk", "unwrap"]
 
@@ -86,7 +86,7 @@ class UnwoundDisk:
     boundary: Ints
 
     def __post_init__(self) -> None:
-        self.disk.flags.writeable = False
+        freeze(self)
 
     def __repr__(self) -> str:
         return f"<UnwoundDisk: {len(self.faces)} triangles in {self.immersion.n_sheets} sheets>"
@@ -99,9 +99,7 @@ class UnwoundDisk:
     @cached_property
     def uv(self) -> Floats:
         """Texture coordinates of the vertices, (n, 2): the disk in the unit square, (disk + 1) / 2."""
-        uv = (self.disk + 1) / 2
-        uv.flags.writeable = False
-        return uv
+        return read_only((self.disk + 1) / 2)
 
     @cached_property
     def border_start(self) -> Ints:
@@ -145,8 +143,6 @@ class UnwoundDisk:
     @cached_property
     def arcs(self) -> tuple[Arc, ...]:
         """The arcs of the disk layout (§2.2 of [MGR11]_), each inside its sheet; they meet at ends only."""
-        from plyfold.disk.arcs import arcs_of
-
         return arcs_of(self)
 
     @cached_property
@@ -208,8 +204,6 @@ class UnwoundDisk:
         InputError
             If points are not below the sheet, with the places of all of them; or there is no such sheet.
         """
-        from plyfold.disk.lookup import places_in_sheet
-
         wanted = as_points(points)
         places, found = places_in_sheet(self, wanted, sheet, missing)
         there = np.full(wanted.shape, np.nan)
@@ -235,8 +229,6 @@ class UnwoundDisk:
         FileExistsError
             If a file exists and ``force`` is not set.
         """
-        from plyfold.surface.files import model_of_disk, save_model
-
         if Path(path).suffix.lower() not in DISK_ENDINGS:
             raise InputError(
                 f"{Path(path).name}: a disk with texture coordinates cannot be written so",
@@ -255,8 +247,6 @@ class UnwoundDisk:
         CertificateError
             Naming the condition and the place.
         """
-        from plyfold.certify import CertificateError, check_immersed_disk
-
         drawn = self.immersion.arrangement.curve
         assert drawn is not None
         check_immersed_disk(drawn.points, self.plane, self.faces, self.boundary)
@@ -266,6 +256,14 @@ class UnwoundDisk:
             raise CertificateError("the boundary of the disk does not run once along the unit circle")
 
 
+@runtime_checkable
+class Lifted(Protocol):
+    """A surface that can be spread out, such as :class:`~plyfold.Surface`."""
+
+    def unwrap(self) -> UnwoundDisk:
+        """Spread the cloth out as a round disk."""
+
+
 def _runs_once_round(circle: Floats) -> bool:
     on_circle = np.abs(np.hypot(*circle.T) - 1) <= _ROUNDING
     angle = np.arctan2(circle[:, 1], circle[:, 0]) % (2 * np.pi)
@@ -273,7 +271,7 @@ def _runs_once_round(circle: Floats) -> bool:
 
 
 def unwrap(
-    surface: Surface | Immersion | CurveLike, *, triangles: int = DEFAULT_TRIANGLES, max_area: float | None = None
+    surface: Lifted | Immersion | CurveLike, *, triangles: int = DEFAULT_TRIANGLES, max_area: float | None = None
 ) -> UnwoundDisk:
     """Spread an immersed disk out as a round one: the sheets side by side, as the cloth was before it was folded.
 
@@ -313,20 +311,16 @@ def unwrap(
     >>> unwound.boundary.tolist(), unwound.sheet.tolist()
     ([0, 1, 2], [0])
     """
-    from plyfold.surface.lift import Surface
-
-    if isinstance(surface, Surface):
+    if isinstance(surface, Lifted):
         return surface.unwrap()
     immersion = surface if isinstance(surface, Immersion) else chosen_immersion(surface, None)
     return _unwound_immersion(immersion, triangles, max_area)
 
 
-def unwound_surface(surface: Surface) -> UnwoundDisk:
-    """Spread out the triangles of a lifted surface."""
-    plane = surface.vertices[:, :2]
-    disk = round_map(plane, surface.faces, surface.boundary)
-    immersion = surface.layering.immersion
-    return UnwoundDisk(immersion, disk, plane, surface.vertices, surface.faces, surface.sheet, surface.boundary)
+def unwound_mesh(immersion: Immersion, space: Floats, faces: Ints, sheet: Ints, boundary: Ints) -> UnwoundDisk:
+    """Spread out the triangles of a surface in space over an immersion."""
+    plane = space[:, :2]
+    return UnwoundDisk(immersion, round_map(plane, faces, boundary), plane, space, faces, sheet, boundary)
 
 
 def map_disk(

@@ -56,7 +56,7 @@ def overview(value: Arrangement | Immersion | Layering | Surface, obstruction: O
     >>> len(overview(find_immersion([(0, 0), (1, 0), (0, 1)])).axes)
     2
     """
-    from plyfold.draw.notebook import ShownFigure
+    from plyfold.draw.canvas import ShownFigure
 
     if isinstance(value, Surface):
         flat, lifted = _panels(value.layering, obstruction), _views(value)

@@ -23,7 +23,7 @@ from itertools import groupby
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, arrange
-from plyfold.arrays import Bools, Floats, Ints
+from plyfold.arrays import Bools, Floats, Ints, freeze
 from plyfold.errors import InputError
 from plyfold.hard.pieces import immersion_of_pieces
 from plyfold.immersion.immersion import Immersion
@@ -69,7 +69,7 @@ class FlapDisk:
     piece_of_sheet: Ints
 
     def __post_init__(self) -> None:
-        self.piece_of_sheet.flags.writeable = False
+        freeze(self)
 
     @property
     def curve(self) -> Curve:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
 
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.errors import CurveError, GaussCodeError
-from plyfold.mistaken import mistaken_code
+from plyfold.errors import CurveError
 from plyfold.outline.points import Repair, as_planar_points, left_out
 from plyfold.outline.strokes import join_strokes
 from plyfold.predicates import orient
@@ -18,9 +17,46 @@ from plyfold.predicates import orient
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-    from plyfold.arrangement.gauss import GaussCode
 
-__all__ = ["Curve", "Repair", "as_curve"]
+__all__ = ["Coded", "Curve", "CurveLike", "Drawn", "Geometry", "Repair", "as_curve"]
+
+
+class Drawn(Protocol):
+    """A value that was made from a curve, such as an arrangement."""
+
+    @property
+    def curve(self) -> Curve | None:
+        """The curve, if it has coordinates."""
+
+
+class Coded(Protocol):
+    """A signed Gauss code."""
+
+    @property
+    def partner(self) -> Any:
+        """The other visit to the same crossing, for each visit."""
+
+    @property
+    def ccw(self) -> Any:
+        """Whether the other strand crosses from right to left, for each visit."""
+
+    @property
+    def outer(self) -> int:
+        """A dart of the unbounded cell."""
+
+
+class Geometry(Protocol):
+    """A geometry of shapely."""
+
+    @property
+    def geom_type(self) -> str:
+        """Its kind, such as ``"Polygon"``."""
+
+
+CurveLike: TypeAlias = (
+    "Curve | Drawn | Coded | Geometry | npt.NDArray[Any] | Sequence[Sequence[float]] | Sequence[npt.NDArray[Any]]"
+)
+"""Whatever stands for a closed curve: a curve, points of shape (n, 2), a shapely geometry, an arrangement or a code."""
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -131,65 +167,6 @@ class Curve:
         """
         points, repairs = join_strokes(strokes, max_gap)
         return cls(points, repairs)
-
-    @classmethod
-    def from_gauss(
-        cls, partner: npt.ArrayLike | GaussCode, ccw: npt.ArrayLike | None = None, outer: int | None = None
-    ) -> Curve:
-        """Draw a round, evenly spaced curve with a given signed Gauss code and unbounded cell.
-
-        Parameters
-        ----------
-        partner : array_like of int, shape (2k,), or GaussCode, or str
-            The other visit to the same crossing. A whole code, or its text, needs no further argument.
-        ccw : array_like of bool, shape (2k,)
-            True where the other strand crosses from right to left.
-        outer : int
-            A dart whose left cell is to be the unbounded one.
-
-        Returns
-        -------
-        Curve
-            In the direction of the code, starting on the border before its visit 0, around the origin; the longer side
-            of its bounding box is 2. Its code was read back and is the same. An arrangement of it is turned round if
-            the turning number is negative, and then has the code's ``reversed()``.
-
-        Raises
-        ------
-        GaussCodeError
-            If no closed plane curve has this code.
-        PrecisionError
-            If no drawing was found that double precision can hold.
-
-        Notes
-        -----
-        See :func:`plyfold.arrangement.drawing.draw_code` for the method. Ten crossings take about a tenth of a second,
-        some hundreds take seconds.
-
-        Examples
-        --------
-        >>> from plyfold import arrange
-        >>> limacon = Curve.from_gauss([1, 0], [True, False], outer=1)
-        >>> arrange(limacon).turning_number
-        2
-        """
-        from plyfold.arrangement.arrangement import Arrangement
-        from plyfold.arrangement.drawing.smooth import draw_code
-        from plyfold.arrangement.gauss import GaussCode
-
-        if isinstance(partner, GaussCode):
-            code = partner
-        elif isinstance(partner, str):
-            code = GaussCode.parse(partner)
-        elif ccw is None or outer is None:
-            if mistake := mistaken_code(np.asarray(partner)):
-                raise GaussCodeError(mistake.message, hint=mistake.hint)
-            raise TypeError("give a GaussCode, or all of partner, ccw and outer")
-        else:
-            code = GaussCode(partner, ccw, outer)  # type: ignore[arg-type]
-        wanted = Arrangement.from_gauss(code.partner, code.ccw, code.outer)
-        drawn = draw_code(wanted)
-        return drawn.reversed() if wanted.reversed else drawn
 
     def reversed(self) -> Curve:
         """Return the same curve run the other way from the same first point.

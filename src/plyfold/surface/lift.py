@@ -13,12 +13,14 @@ from typing import cast
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, CurveLike, watched_arrangement
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Floats, Ints, freeze
+from plyfold.certify import check_surface
 from plyfold.clock import UNWATCHED, Clock, Progress, Watch
-from plyfold.disk.unwrap import UnwoundDisk, unwound_surface
+from plyfold.disk.unwrap import UnwoundDisk, unwound_mesh
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
 from plyfold.immersion.immersion import Immersion
 from plyfold.immersion.solve import find_immersion, watched_immersions
+from plyfold.io.mesh.saving import refuse_ending, save_model
 from plyfold.io.saving import save_bytes
 from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
@@ -29,7 +31,7 @@ from plyfold.obstruction import IMMERSION_REASONS, Obstruction
 from plyfold.options import refuse_unless_flag, refuse_unless_number
 from plyfold.outline.curve import Curve
 from plyfold.surface.chords import split_chords
-from plyfold.surface.files import Colouring, model_of_surface, refuse_ending, save_model
+from plyfold.surface.files import Colouring, model_of_surface
 from plyfold.surface.glue import glue_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, flat_weight, refuse_stiffness, smooth_heights
 from plyfold.surface.passages import intersection_curves
@@ -87,8 +89,7 @@ class Surface:
     intersections: tuple[Floats, ...] = ()
 
     def __post_init__(self) -> None:
-        for array in (self.vertices, self.faces, self.sheet, self.boundary, self.passing, *self.intersections):
-            array.flags.writeable = False
+        freeze(self)
 
     def __repr__(self) -> str:
         return f"<Surface: {len(self.faces)} triangles in {self.layering.immersion.n_sheets} sheets>"
@@ -116,8 +117,6 @@ class Surface:
         -----
         About a second for 100,000 triangles.
         """
-        from plyfold.certify import check_surface
-
         gap = 0.0 if len(self.passing) else self.gap
         check_surface(self.curve.points, self.vertices, self.faces, self.boundary, gap, passing=self.passing)
 
@@ -139,7 +138,8 @@ class Surface:
 
     @cached_property
     def _unwound(self) -> UnwoundDisk:
-        return unwound_surface(self)
+        immersion = self.layering.immersion
+        return unwound_mesh(immersion, self.vertices, self.faces, self.sheet, self.boundary)
 
     def thicken(self, thickness: float) -> Solid:
         """Return a solid with this surface in its middle, as thick as given in vertical direction: to be printed.

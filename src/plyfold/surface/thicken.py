@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Floats, Ints, freeze
+from plyfold.certify import check_solid
 from plyfold.errors import InputError, PrecisionError
+from plyfold.io.mesh.saving import save_model
 from plyfold.options import refuse_unless_number
-from plyfold.surface.files import Colouring, model_of_solid, save_model
+from plyfold.surface.files import Colouring, model_of_solid
 
 if TYPE_CHECKING:
     from plyfold.surface.lift import Surface
@@ -53,8 +55,7 @@ class Solid:
     sheet: Ints
 
     def __post_init__(self) -> None:
-        for array in (self.vertices, self.faces, self.sheet):
-            array.flags.writeable = False
+        freeze(self)
 
     def __repr__(self) -> str:
         return f"<Solid: {len(self.faces)} triangles, {self.thickness:g} thick>"
@@ -75,8 +76,6 @@ class Solid:
         CertificateError
             Naming the condition and the place.
         """
-        from plyfold.certify import check_solid
-
         check_solid(self.vertices, self.faces, self.thickness)
 
     def export(

@@ -1,4 +1,4 @@
-"""The program ``plyfold``: wherever it is, Ctrl-C ends it at once, with no half-written file, and exit code 130.
+"""Ctrl-C ends the program at once, wherever it is, with no half-written file, and exit code 130.
 
 This comes before the library, whose import takes some tenths of a second, and imports little itself. An interrupt is
 no exception here: one raised within an import, or in a call from foreign code, can be lost, or turn into another one.
@@ -14,21 +14,13 @@ from _thread import RLock, start_new_thread
 from contextlib import suppress
 from typing import NoReturn
 
-__all__ = ["end_at_interrupts", "main", "raise_interrupts"]
+__all__ = ["end_at_interrupts", "raise_interrupts"]
 
 INTERRUPTED = 130
 _MESSAGE = "plyfold: interrupted; nothing was left half-written\n"
 _CLEAR_LINE = "\r\x1b[K"
 
 _leaving = RLock()
-
-
-def main() -> NoReturn:
-    """Run the command line."""
-    end_at_interrupts()
-    from plyfold.cli import main
-
-    sys.exit(main())
 
 
 def end_at_interrupts() -> None:

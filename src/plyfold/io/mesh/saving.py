@@ -12,33 +12,14 @@ from pathlib import Path
 
 from plyfold.errors import InputError
 from plyfold.io.mesh.glb import glb
-from plyfold.io.mesh.model import (
-    Colouring,
-    Material,
-    Model,
-    model_of_disk,
-    model_of_solid,
-    model_of_surface,
-    vertex_normals,
-)
+from plyfold.io.mesh.model import Model
 from plyfold.io.mesh.obj import material_library, obj
 from plyfold.io.mesh.ply import ply
 from plyfold.io.mesh.stl import stl
 from plyfold.io.mesh.threemf import threemf
 from plyfold.io.saving import refuse_existing, save_bytes
 
-__all__ = [
-    "WRITERS",
-    "Colouring",
-    "Material",
-    "Model",
-    "model_of_disk",
-    "model_of_solid",
-    "model_of_surface",
-    "refuse_ending",
-    "save_model",
-    "vertex_normals",
-]
+__all__ = ["WRITERS", "refuse_ending", "save_model"]
 
 WRITERS: Mapping[str, Callable[[Model], bytes]] = {".glb": glb, ".obj": obj, ".ply": ply, ".stl": stl, ".3mf": threemf}
 

@@ -1,0 +1,7 @@
+from .collapsed import CollapsedGraph as CollapsedGraph
+from .collapsed import edge_collapsed_graph as edge_collapsed_graph
+from .collapsed import edge_collapsed_graphs as edge_collapsed_graphs
+from .collapsed import has_linear_spanning_subtrees as has_linear_spanning_subtrees
+from .procedure import PaperRun as PaperRun
+from .procedure import Reading as Reading
+from .procedure import run_paper as run_paper
