@@ -19,7 +19,9 @@ Complexes: TypeAlias = npt.NDArray[np.complex128]
 
 
 def read_only(array: npt.NDArray[Scalar]) -> npt.NDArray[Scalar]:
-    """Return a view of an array that cannot be written to; the array itself stays as it is."""
+    """Return an array that cannot be written to as it is, and a view of another one, which stays as it was."""
+    if not array.flags.writeable:
+        return array
     view = array.view()
     view.flags.writeable = False
     return view
