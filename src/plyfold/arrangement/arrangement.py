@@ -21,7 +21,7 @@ from plyfold.arrangement.planar_map import (
     reversed_code,
     whitney_turning_number,
 )
-from plyfold.arrays import Bools, Floats, Ints
+from plyfold.arrays import Bools, Floats, Ints, freeze
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GaussCodeError, PlyfoldError
 from plyfold.outline.curve import Coded, Curve, CurveLike, as_curve
@@ -109,9 +109,7 @@ class Arrangement:
     exact_signs: int = 0
 
     def __post_init__(self) -> None:
-        for value in vars(self).values():
-            if isinstance(value, np.ndarray):
-                value.flags.writeable = False
+        freeze(self)
 
     @classmethod
     def from_gauss(cls, partner: npt.ArrayLike, ccw: npt.ArrayLike, outer: int) -> Arrangement:

@@ -17,7 +17,7 @@ import numpy as np
 from plyfold.arrangement.arrangement import CurveLike, polygon_turning_number
 from plyfold.arrangement.crossings import Contacts, Visits, edge_ends, find_contacts, order_visits
 from plyfold.arrangement.general_position import touching_places
-from plyfold.arrays import Bools, Floats, Ints
+from plyfold.arrays import Bools, Floats, Ints, freeze
 from plyfold.errors import GeneralPositionError, InputError
 from plyfold.outline.curve import Curve, as_curve
 from plyfold.predicates import cross_sign, exact_parameter
@@ -77,9 +77,7 @@ class Loops:
         return partner
 
     def __post_init__(self) -> None:
-        for value in vars(self).values():
-            if isinstance(value, np.ndarray):
-                value.flags.writeable = False
+        freeze(self)
 
     def __repr__(self) -> str:
         return f"<Loops: {len(self.curves)} curves, {len(self.crossings)} crossings>"

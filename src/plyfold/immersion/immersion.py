@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrays import Ints
+from plyfold.arrays import Ints, freeze
 from plyfold.errors import InputError, NotImmersibleError, PlyfoldError
 from plyfold.memory import require_memory
 from plyfold.obstruction import Obstruction
@@ -79,8 +79,7 @@ class Immersion:
     gluing: Ints
 
     def __post_init__(self) -> None:
-        for array in (self.sheet_cell, self.first_sheet, self.own_sheet, self.gluing):
-            array.flags.writeable = False
+        freeze(self)
 
     def __repr__(self) -> str:
         return f"<Immersion: {self.n_sheets} sheets over {self.arrangement.n_cells - 1} cells>"

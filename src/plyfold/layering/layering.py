@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plyfold.arrays import Bools, Ints
+from plyfold.arrays import Bools, Ints, freeze
 from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import Immersion, count_each
 
@@ -40,7 +40,7 @@ class Layering:
     level: Ints
 
     def __post_init__(self) -> None:
-        self.level.flags.writeable = False
+        freeze(self)
 
     def __repr__(self) -> str:
         return f"<Layering: {self.immersion.n_sheets} sheets on up to {self.level.max(initial=0)} levels>"

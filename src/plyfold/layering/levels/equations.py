@@ -16,7 +16,7 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.several import Loops, components
-from plyfold.arrays import Ints
+from plyfold.arrays import Ints, freeze
 
 __all__ = ["LevelEquations", "level_equations", "level_equations_of_loops"]
 
@@ -38,8 +38,7 @@ class LevelEquations:
     bottom: Ints
 
     def __post_init__(self) -> None:
-        for array in (self.highest, self.top, self.bottom):
-            array.flags.writeable = False
+        freeze(self)
 
     @property
     def n_crossings(self) -> int:

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from plyfold.arrangement.arrangement import CurveLike
 from plyfold.arrangement.several import Loops, arrange_loops, components
-from plyfold.arrays import Bools, Ints
+from plyfold.arrays import Bools, Ints, freeze
 from plyfold.clock import Clock
 from plyfold.errors import InputError
 from plyfold.immersion.immersion import count_each
@@ -77,7 +77,7 @@ class LayeredSurface:
     level: Ints
 
     def __post_init__(self) -> None:
-        self.level.flags.writeable = False
+        freeze(self)
 
     @property
     def euler_characteristic(self) -> int:

@@ -22,7 +22,7 @@ from itertools import chain
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Floats, Ints, freeze
 from plyfold.clock import Clock
 from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import Immersion, count_each
@@ -58,7 +58,7 @@ class IntersectingLayering:
     optimal: bool
 
     def __post_init__(self) -> None:
-        self.level.flags.writeable = False
+        freeze(self)
 
     def __repr__(self) -> str:
         found = f"{len(self.intersections)} intersections along borders"

@@ -15,7 +15,7 @@ from itertools import combinations
 import numpy as np
 
 from plyfold.arrangement.base import visits_from_base
-from plyfold.arrays import Ints
+from plyfold.arrays import Ints, freeze
 from plyfold.clock import NO_LIMIT, Clock
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering, meeting_sheets
@@ -55,8 +55,7 @@ class OrderProblem:
     sheets: Ints
 
     def __post_init__(self) -> None:
-        for array in (self.literal, self.triples, self.sheets):
-            array.flags.writeable = False
+        freeze(self)
 
     @cached_property
     def n_variables(self) -> int:
