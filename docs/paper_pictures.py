@@ -14,9 +14,9 @@ from matplotlib.patches import Rectangle
 import plyfold as pf
 from plyfold.colours import ACCENT, INK, mix, sheet_colour
 from plyfold.draw import plot_arrangement
+from plyfold.draw.canvas import border_middle
 from plyfold.draw.figures import save
-from plyfold.draw.hyperbolic import BorderCircle
-from plyfold.draw.places import border_middle
+from plyfold.draw.layout_plot import BorderCircle
 from plyfold.gallery import chain
 from plyfold.paper.procedure import PaperRun, Reading, paper_immersion, run_paper
 

@@ -12,10 +12,10 @@ import shapely
 from PIL import Image
 
 from plyfold import find_immersion, find_layering, immersions, layerings
+from plyfold.draw.canvas import label_circle
 from plyfold.draw.over_under import over_under
 from plyfold.draw.over_under_files import save_over_under
 from plyfold.draw.over_under_svg import over_under_svg
-from plyfold.draw.places import label_circle
 from plyfold.draw.tikz import over_under_tex, over_under_tikz
 from plyfold.errors import InputError, PlyfoldError
 from plyfold.gallery import CURVES

@@ -8,8 +8,7 @@ import pytest
 
 from plyfold import compiled
 from plyfold.compiled import run_in_python
-from plyfold.flat.delaunay import delaunay_triangles, inner_edges
-from plyfold.flat.flips import flip_edges
+from plyfold.flat.delaunay import delaunay_triangles, flip_edges, inner_edges
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.gallery import CURVES
 from plyfold.immersion.solve import immersions

@@ -10,9 +10,8 @@ import plyfold as pf
 from plyfold import compiled
 from plyfold.certify import check_immersed_disk
 from plyfold.errors import GeneralPositionError
-from plyfold.flat.skip_list import empty_skip_list, link_above, unlink
 from plyfold.flat.sweep import sweep_triangles
-from plyfold.flat.sweep_order import sweep_order
+from plyfold.flat.sweep_line import empty_skip_list, link_above, sweep_order, unlink
 from plyfold.gallery import CURVES
 from plyfold.turns import as_places, turn
 from reference import random_curves

@@ -14,7 +14,7 @@ from plyfold.colours import rgb, sheet_colour
 from plyfold.errors import InputError, PrecisionError
 from plyfold.gallery import CURVES
 from plyfold.io.mesh.model import single_precision
-from plyfold.io.mesh.obj import obj
+from plyfold.io.mesh.plain import obj
 from plyfold.surface.files import model_of_surface
 from plyfold.surface.lift import lift
 

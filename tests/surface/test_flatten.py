@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import Delaunay
 
-from plyfold.disk.flatten import angles_of, flattened, thin
-from plyfold.disk.lay_out import Layout
+from plyfold.disk.flatten import Layout, angles_of, flattened, thin
 
 
 def mesh(seed, count=60):

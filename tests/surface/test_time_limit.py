@@ -16,13 +16,11 @@ from plyfold.immersion.dual_tree import grow_dual_tree
 from plyfold.immersion.grouping import find_groupings, list_groupings
 from plyfold.immersion.word import write_word
 from plyfold.mesh.cells import triangulate_cells
-from plyfold.mesh.constrained import constrained, outline_of
-from plyfold.mesh.refine import refine, usual_area
-from plyfold.surface.contact import Distances, Problem, least_forces
+from plyfold.mesh.refine import constrained, outline_of, refine, usual_area
+from plyfold.surface.contact import Distances, Problem, least_forces, sprung_heights
 from plyfold.surface.energy import cloth_of, held_response, response
 from plyfold.surface.glue import glue_sheets
 from plyfold.surface.heights import smooth_heights
-from plyfold.surface.springs import sprung_heights
 
 STAGES = [
     "finding the crossings",

@@ -8,8 +8,8 @@ import pytest
 import plyfold as pf
 from plyfold.certify import CertificateError
 from plyfold.disk import round_map
-from plyfold.disk.locate import locate
-from plyfold.disk.locate import weights as weights_of
+from plyfold.disk.places import locate
+from plyfold.disk.places import weights as weights_of
 from plyfold.errors import InputError, NotImmersibleError, PlyfoldError, PrecisionError
 from plyfold.gallery import CURVES
 from reference import random_curves

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
-from plyfold.disk.locate import locate, neighbours, twins
+from plyfold.disk.places import locate, neighbours, twins
 from plyfold.disk.round_map import round_map
 from plyfold.immersion.immersion import Group
 

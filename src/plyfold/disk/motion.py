@@ -22,8 +22,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
-from plyfold.disk.flatten import angles_of, flattened, thin
-from plyfold.disk.lay_out import Layout
+from plyfold.disk.flatten import Layout, angles_of, flattened, thin
 from plyfold.errors import InputError
 
 if TYPE_CHECKING:

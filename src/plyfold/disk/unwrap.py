@@ -26,16 +26,14 @@ from plyfold.arrays import Floats, Ints, freeze, read_only
 from plyfold.certify import CertificateError, check_immersed_disk
 from plyfold.disk.arcs import Arc, arcs_of
 from plyfold.disk.files import model_of_disk
-from plyfold.disk.locate import Places, locate, neighbours
-from plyfold.disk.lookup import Missing, places_in_sheet
+from plyfold.disk.places import Missing, Places, locate, neighbours, places_in_sheet
 from plyfold.disk.round_map import round_map
 from plyfold.errors import InputError, PlyfoldError
 from plyfold.flat.triangulate import chosen_immersion
 from plyfold.immersion.immersion import Immersion
 from plyfold.io.mesh.saving import save_model
-from plyfold.mesh.cells import DEFAULT_TRIANGLES, triangulate_cells
+from plyfold.mesh.cells import DEFAULT_TRIANGLES, refuse_sizes, triangulate_cells
 from plyfold.mesh.sheets import glue_copies
-from plyfold.mesh.sizes import refuse_sizes
 from plyfold.outline.points import as_points
 
 __all__ = ["DISK_ENDINGS", "UnwoundDisk", "map_disk", "unwrap"]

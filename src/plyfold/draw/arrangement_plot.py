@@ -11,8 +11,21 @@ from plyfold.arrangement.arrangement import Arrangement, CurveLike
 from plyfold.arrangement.arrangement import arrange as arrangement_of
 from plyfold.arrays import Floats
 from plyfold.colours import ACCENT, INK, OBSTRUCTION, mix, text_colour, winding_colour
-from plyfold.draw.canvas import blank, closed, dots, line, note_below, polygon, write, write_below
-from plyfold.draw.places import Frame, arrows, border_middle, label_circle, line_weight
+from plyfold.draw.canvas import (
+    Frame,
+    arrows,
+    blank,
+    border_middle,
+    closed,
+    dots,
+    label_circle,
+    line,
+    line_weight,
+    note_below,
+    polygon,
+    write,
+    write_below,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

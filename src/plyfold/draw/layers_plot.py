@@ -9,10 +9,9 @@ import numpy as np
 from plyfold.arrays import Floats
 from plyfold.colours import INK, PAPER, mix, sheet_colour
 from plyfold.draw.arrangement_plot import drawn_points
-from plyfold.draw.canvas import blank, closed, line, polygon, write
+from plyfold.draw.canvas import Frame, blank, closed, line, line_weight, polygon, write
 from plyfold.draw.casing_gaps import cased_strands
 from plyfold.draw.over_under import OverUnder, over_under
-from plyfold.draw.places import Frame, line_weight
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from plyfold.arrays import Floats
 from plyfold.colours import INK, PAPER, mix, sheet_colour, winding_colour
-from plyfold.draw.hyperbolic import BorderCircle
-from plyfold.draw.places import line_weight
+from plyfold.draw.canvas import line_weight
+from plyfold.draw.layout_plot import BorderCircle
 
 if TYPE_CHECKING:
     from plyfold.immersion.immersion import Group, Immersion

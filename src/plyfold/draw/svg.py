@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.colours import ACCENT, INK, text_colour, winding_colour
-from plyfold.draw.places import arrows, border_middle, label_circle, line_weight, middle_and_size
+from plyfold.draw.canvas import arrows, border_middle, label_circle, line_weight, middle_and_size
 
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement

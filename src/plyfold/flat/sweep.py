@@ -23,8 +23,7 @@ import numpy as np
 from plyfold.arrays import Floats, Ints
 from plyfold.compiled import called_from_loops, run_in_python, run_loop
 from plyfold.errors import PlyfoldError
-from plyfold.flat.skip_list import SkipList, empty_skip_list, link_above, unlink
-from plyfold.flat.sweep_order import sweep_order
+from plyfold.flat.sweep_line import SkipList, empty_skip_list, link_above, sweep_order, unlink
 from plyfold.immersion.immersion import Immersion
 from plyfold.mesh.sheets import seams_of
 from plyfold.turns import Places, as_places, turn

@@ -9,8 +9,7 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError, PlyfoldError
-from plyfold.flat.delaunay import delaunay_triangles
-from plyfold.flat.flips import flip_edges
+from plyfold.flat.delaunay import delaunay_triangles, flip_edges
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.immersion.immersion import Immersion, require_immersion
 from plyfold.immersion.solve import find_immersion

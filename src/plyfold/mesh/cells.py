@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
+from math import sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,19 +14,24 @@ from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import InputError, PrecisionError
 from plyfold.mesh.cavity import FREE, GIVEN, Edged
-from plyfold.mesh.chains import left_of_chain, split_chain
-from plyfold.mesh.constrained import (
+from plyfold.mesh.mend import Limits, mend_angles, sharp_triangles
+from plyfold.mesh.refine import (
     ENCLOSING,
     Outline,
     PlanarMesh,
+    Size,
     chain_of,
     constrained,
+    left_of_chain,
     outline_of,
     planar_mesh,
+    refine,
+    split_chain,
+    split_points,
     too_close,
+    usual_area,
 )
-from plyfold.mesh.mend import Limits, mend_angles, sharp_triangles
-from plyfold.mesh.refine import Size, refine, split_points, usual_area
+from plyfold.options import refuse_unless_number
 
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
@@ -34,11 +40,14 @@ __all__ = [
     "DEFAULT_TRIANGLES",
     "MOST_TRIANGLES",
     "CellTriangulation",
+    "area_of_edge",
     "chain_of",
     "refuse_broken",
     "refuse_max_area",
+    "refuse_sizes",
     "triangulate_cells",
 ]
+
 
 # Squares of this size are doubles still.
 _SMALLEST_SIZE = 1e-152
@@ -381,3 +390,31 @@ def _components(mesh: PlanarMesh, left: Ints, right: Ints) -> Ints:
     graph = csr_array((np.ones(row[-1]), twin[linked] // 3, row), shape=(t, t))
     # Links go both ways, so the strong components are the components, and they need no second copy of the graph.
     return np.asarray(connected_components(graph, connection="strong")[1], dtype=np.int64)
+
+
+# ---- sizes of triangles that make a mesh -----------------------------------------------------------------------------
+
+# Of triangles with equal sides to the area allowed: on average, refined ones have 0.6 of that.
+_ALLOWED = sqrt(3) / 4 / 0.6
+
+
+def refuse_sizes(points: Floats, triangles: int, max_area: float | None) -> None:
+    """Raise InputError for sizes that make no mesh, or one that no machine can hold."""
+    refuse_unless_number("triangles", triangles)
+    if not 1 <= triangles <= MOST_TRIANGLES:
+        raise InputError(f"the number of triangles must be from 1 to {MOST_TRIANGLES:,}, not {triangles!r}")
+    if max_area is not None:
+        refuse_unless_number("max_area", max_area)
+        refuse_max_area(points, max_area)
+
+
+def area_of_edge(size: float | None, max_area: float | None) -> float | None:
+    """Return the largest area of triangles whose usual edge has the length ``size``, or ``max_area``."""
+    if size is None:
+        return max_area
+    if max_area is not None:
+        raise InputError("give the size of triangles by their edges or by their area, not by both")
+    refuse_unless_number("size", size)
+    if not size > 0:
+        raise InputError(f"the usual length of edges must be positive, not {size!r}")
+    return _ALLOWED * size * size

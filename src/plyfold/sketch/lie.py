@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from plyfold.arrays import Floats
-from plyfold.draw.hyperbolic import BorderCircle
+from plyfold.draw.layout_plot import BorderCircle
 from plyfold.errors import NotImmersibleError
 from plyfold.immersion.compare import changed_borders
 from plyfold.immersion.immersion import Immersion

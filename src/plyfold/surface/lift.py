@@ -25,17 +25,14 @@ from plyfold.io.saving import save_bytes
 from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
 from plyfold.layering.orders.search import first_layering
-from plyfold.mesh.cells import DEFAULT_TRIANGLES, refuse_broken, triangulate_cells
-from plyfold.mesh.sizes import area_of_edge, refuse_sizes
+from plyfold.mesh.cells import DEFAULT_TRIANGLES, area_of_edge, refuse_broken, refuse_sizes, triangulate_cells
 from plyfold.obstruction import IMMERSION_REASONS, Obstruction
 from plyfold.options import refuse_unless_flag, refuse_unless_number
 from plyfold.outline.curve import Curve
 from plyfold.surface.chords import split_chords
 from plyfold.surface.files import Colouring, model_of_surface
-from plyfold.surface.glue import glue_sheets
-from plyfold.surface.heights import DEFAULT_STIFFNESS, flat_weight, refuse_stiffness, smooth_heights
-from plyfold.surface.passages import intersection_curves
-from plyfold.surface.pins import PinKey
+from plyfold.surface.glue import glue_sheets, intersection_curves
+from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, flat_weight, refuse_stiffness, smooth_heights
 from plyfold.surface.thicken import Solid, thicken
 
 __all__ = ["Surface", "layering_of", "lift"]

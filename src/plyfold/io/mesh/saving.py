@@ -13,9 +13,7 @@ from pathlib import Path
 from plyfold.errors import InputError
 from plyfold.io.mesh.glb import glb
 from plyfold.io.mesh.model import Model
-from plyfold.io.mesh.obj import material_library, obj
-from plyfold.io.mesh.ply import ply
-from plyfold.io.mesh.stl import stl
+from plyfold.io.mesh.plain import material_library, obj, ply, stl
 from plyfold.io.mesh.threemf import threemf
 from plyfold.io.saving import refuse_existing, save_bytes
 

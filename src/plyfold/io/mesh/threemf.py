@@ -9,7 +9,7 @@ import numpy as np
 
 from plyfold.errors import PrecisionError
 from plyfold.io.mesh.model import Model
-from plyfold.io.mesh.text import rows_as_text
+from plyfold.io.mesh.plain import rows_as_text
 
 __all__ = ["threemf"]
 
