@@ -24,13 +24,13 @@ from plyfold.draw.figures import save
 from plyfold.gallery import CURVES
 from plyfold.hard.flaps import PALEY, flap_disk
 from plyfold.hard.formulas import formula_disk
+from plyfold.paper import layering as paper
 from plyfold.paper.collapsed import (
     edge_collapsed_graph,
     edge_collapsed_graphs,
     has_linear_spanning_subtrees,
     linear_spanning_subtrees,
 )
-from plyfold.paper.layering import paper_layering
 
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "tests"))
@@ -91,7 +91,7 @@ def followed() -> None:
     figure = Figure(figsize=(15, 7.2), layout="constrained")
     for column, name in zip(figure.subplots(2, 4).T, ("exit-ramp", "stacked-spiral", "milnor", "ten-gon"), strict=True):
         immersion = named_immersions(name)[-1]
-        layering = paper_layering(immersion)
+        layering = paper.find_layering(immersion)
         cell = max(range(immersion.arrangement.n_cells), key=lambda c: len(edge_collapsed_graph(immersion, c).nodes))
         plot_marked_cell(immersion.arrangement, cell, column[0])
         draw_graph(column[1], immersion, cell, layering)
@@ -136,7 +136,7 @@ def graphs_of_every_cell(*immersions: pf.Immersion) -> None:
 def another_way() -> None:
     """Draw the disk that lifts, but not along linear spanning subtrees: the cell that cannot follow any of its own."""
     (immersion,) = pf.immersions(pf.GaussCode(*LIFTS_ANOTHER_WAY).to_curve())
-    (cell,) = paper_layering(immersion).value
+    (cell,) = paper.find_layering(immersion).value
     figure = Figure(figsize=(16, 4.6), layout="constrained")
     drawing, layout, graph = figure.subplots(1, 3)
     plot_arrangement(immersion.arrangement, drawing, borders=True)
@@ -174,7 +174,7 @@ def table(families: Iterable[tuple[str, Iterable[pf.Immersion]]]) -> None:
 def verdicts(immersion: pf.Immersion) -> tuple[bool, bool, bool]:
     """Return whether all cells have linear spanning subtrees, whether it lifts, and whether the paper's way sees it."""
     linear = all(has_linear_spanning_subtrees(immersion).values())
-    return linear, bool(pf.find_layering(immersion)), bool(paper_layering(immersion))
+    return linear, bool(pf.find_layering(immersion)), bool(paper.find_layering(immersion))
 
 
 def of_codes(codes: Iterable[Any]) -> Iterator[pf.Immersion]:

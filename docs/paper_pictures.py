@@ -18,7 +18,8 @@ from plyfold.draw.canvas import border_middle
 from plyfold.draw.figures import save
 from plyfold.draw.layout_plot import BorderCircle
 from plyfold.gallery import chain
-from plyfold.paper.procedure import PaperRun, Reading, paper_immersion, run_paper
+from plyfold.paper import procedure
+from plyfold.paper.procedure import PaperRun, Reading, run_paper
 
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "tests"))
@@ -153,7 +154,7 @@ def _by_size(name: str, reading: Reading) -> Iterator[list[Trial]]:
 
 def _trial(arranged: pf.Arrangement, reading: Reading) -> Trial:
     run: PaperRun = run_paper(arranged, reading)
-    found = run.stuck_at is None and bool(paper_immersion(arranged, reading))
+    found = run.stuck_at is None and bool(procedure.find_immersion(arranged, reading))
     return Trial(arranged.n_crossings, run.calls, found)
 
 

@@ -28,6 +28,14 @@ def key_of(immersion):
     return gluings.key_of(*code_of(immersion.arrangement), immersion.own_sheet, immersion.gluing)
 
 
+def directed(code):
+    """The curve turned round if that makes winding numbers positive; if none does, to a positive turning number."""
+    low, high = min(windings(code)), max(windings(code))
+    if low < 0 < high:
+        return oriented(code)
+    return planar_maps.reversed_code(code) if low < 0 else code
+
+
 def assert_same_map(arranged, code):
     """Same Gauss code and outer cell, cells, winding numbers and turning number; cells may be numbered otherwise."""
     assert planar_maps.with_smallest_outer_dart(code_of(arranged)) == planar_maps.with_smallest_outer_dart(code)
@@ -41,7 +49,7 @@ def assert_same_map(arranged, code):
 
 def assert_same_immersions(arranged):
     """Decision, count and set of immersions are those of the reference, which works on the same Gauss code."""
-    expected = gluings.keys(*code_of(arranged))
+    expected = gluings.keys(*code_of(arranged)) if arranged.turning_number == 1 else set()
     found = list(immersions(arranged))
     assert {key_of(immersion) for immersion in found} == expected
     assert count_immersions(arranged) == len(found) == len(expected)
@@ -73,7 +81,7 @@ class TestEveryCurve:
     @pytest.mark.parametrize("k", [0, 1, 2, 3, 4, 5, pytest.param(6, marks=pytest.mark.slow)])
     def test_arrangement(self, k):
         for code in census(k):
-            assert_same_map(Arrangement.from_gauss(*code), code)
+            assert_same_map(Arrangement.from_gauss(*code), directed(code))
 
     @pytest.mark.parametrize("k", [0, 1, 2, 3, 4, 5, pytest.param(6, marks=pytest.mark.slow)])
     def test_immersions_and_layerings(self, k):
@@ -89,8 +97,9 @@ class TestEveryCurve:
     def test_every_start_direction_and_mirror_image(self, k):
         for code in plane_codes(k):
             arranged = Arrangement.from_gauss(*code)
-            assert arranged.reversed == (planar_maps.turning_number(code) < 0)
-            assert_same_map(arranged, oriented(code))
+            used = directed(code)
+            assert arranged.reversed == (used != code)
+            assert_same_map(arranged, used)
             judge(arranged)
 
 

@@ -13,7 +13,7 @@ from plyfold.errors import CurveError, GeneralPositionError
 from reference import crossings as reference
 from reference.random_curves import random_polygon, ribbon_outline, star_polygon
 
-edge_pairs = importlib.import_module("plyfold.arrangement.edge_pairs")
+crossings = importlib.import_module("plyfold.arrangement.crossings")
 SCALES = [1.0, 1e8, 1e-8, 1e149, 1e-149]
 
 
@@ -62,8 +62,8 @@ def test_contacts_on_lattices(seed, size, vertices):
 
 @pytest.mark.parametrize("size", [1, 2, 3, 16])
 def test_contacts_with_other_groups(monkeypatch, size):
-    monkeypatch.setattr(edge_pairs, "_GROUP", size)
-    monkeypatch.setattr(edge_pairs, "_LOOKUPS", size)
+    monkeypatch.setattr(crossings, "_GROUP", size)
+    monkeypatch.setattr(crossings, "_LOOKUPS", size)
     for seed in range(12):
         assert_contacts_are_right(lattice_polygon(seed, 4, 26))
 
@@ -142,7 +142,7 @@ def test_sizes_of_groups_and_portions_change_nothing(monkeypatch, family, name, 
     points = FAMILIES[family](np.random.default_rng(4))
     expected = fields(pf.arrange(points, general_position="raise"))
     for size in sizes:
-        monkeypatch.setattr(edge_pairs, name, size)
+        monkeypatch.setattr(crossings, name, size)
         found = fields(pf.arrange(points, general_position="raise"))
         assert all(np.array_equal(found[field], value) for field, value in expected.items())
 

@@ -5,14 +5,13 @@ from functools import cache
 
 import numpy as np
 import pytest
-from plyfold.layering.clock import NO_LIMIT
+from plyfold.clock import NO_LIMIT
 
 import plyfold as pf
 from plyfold import memory
 from plyfold.errors import MemoryLimitError
 from plyfold.immersion import immersion
-from plyfold.layering.levels.clauses import LevelClauses, solve_levels
-from plyfold.layering.levels.equations import level_equations
+from plyfold.layering.levels.equations import LevelClauses, level_equations, solve_levels
 from plyfold.layering.orders import intersections, sheet_pairs
 from plyfold.layering.orders import problem as orders
 from plyfold.mesh import sheets

@@ -35,10 +35,6 @@ from .layering.embedding import embeddings as embeddings
 from .layering.embedding import find_embedding as find_embedding
 from .layering.layering import Layering as Layering
 from .layering.levels.casing import embed_cased as embed_cased
-from .layering.levels.layered_surface import LayeredSurface as LayeredSurface
-from .layering.levels.layered_surface import count_layered_surfaces as count_layered_surfaces
-from .layering.levels.layered_surface import find_layered_surface as find_layered_surface
-from .layering.levels.layered_surface import layered_surfaces as layered_surfaces
 from .layering.orders.counting import count_layerings as count_layerings
 from .layering.orders.intersections import IntersectingLayering as IntersectingLayering
 from .layering.orders.intersections import least_intersecting_layering as least_intersecting_layering

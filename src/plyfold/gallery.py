@@ -54,7 +54,7 @@ class NamedCurve:
     def __repr__(self) -> str:
         return f"<NamedCurve {self.name}: {self.crossings} crossings, {self.immersions} immersions>"
 
-    def _repr_svg_(self) -> str:
+    def _repr_svg_(self) -> str | None:
         from plyfold.arrangement.arrangement import arrange
 
         return arrange(self.curve)._repr_svg_()

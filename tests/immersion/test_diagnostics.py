@@ -13,7 +13,9 @@ EIGHT = ([1, 0], [True, False], 3)
 
 
 def cases(k):
-    return [(code, Arrangement.from_gauss(*code)) for code in census(k)]
+    """All curves with k crossings, in the direction in which they are used."""
+    arranged = [Arrangement.from_gauss(*code) for code in census(k)]
+    return [(planar_maps.gauss_code(*drawn.gauss_code()), drawn) for drawn in arranged]
 
 
 def reference_corners(code):

@@ -8,9 +8,10 @@ import pytest
 from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.immersion.immersion import Immersion
 from plyfold.immersion.solve import find_immersion, immersions
+from plyfold.paper import procedure
 from plyfold.paper import procedure as paper
 from plyfold.paper.layout import glue_layout
-from plyfold.paper.procedure import paper_immersion, run_paper
+from plyfold.paper.procedure import run_paper
 from reference import gluings, random_curves
 from reference.planar_maps import (
     census,
@@ -52,7 +53,7 @@ def judge(code, reading):
     """What the procedure says about one curve, and whether that is right; what it builds is in the reference."""
     arranged = Arrangement.from_gauss(*code)
     exact = gluings.keys(*code_of(arranged))
-    run, result = run_paper(arranged, reading), paper_immersion(arranged, reading)
+    run, result = run_paper(arranged, reading), procedure.find_immersion(arranged, reading)
     if result:
         assert key_of(result) in exact
         return "found"
@@ -104,7 +105,9 @@ class TestEveryCurve:
             if may_bound_disk(code) and gluings.immersions(*code):
                 copies = [copy for copy in symmetric_copies(code) if turning_number(copy) == 1]
                 for reading, seen in verdicts.items():
-                    seen.append([bool(paper_immersion(Arrangement.from_gauss(*copy), reading)) for copy in copies])
+                    seen.append(
+                        [bool(procedure.find_immersion(Arrangement.from_gauss(*copy), reading)) for copy in copies]
+                    )
         always, never = sum(map(all, verdicts["literal"])), sum(not any(seen) for seen in verdicts["literal"])
         assert (always, never, len(verdicts["literal"])) == (36, 21, 86)
         assert all(map(all, verdicts["repaired"]))
@@ -119,7 +122,7 @@ class TestEveryCurve:
         assert [accepted[k] for k in range(5)] == [0, 1, 2, 8, 27]
         limacon = Arrangement.from_gauss([1, 0], [True, False], 1)
         assert run_paper(limacon).groups == ((0,), (1,))
-        assert not paper_immersion(limacon)
+        assert not procedure.find_immersion(limacon)
 
 
 class TestFirstFailure:
@@ -148,7 +151,7 @@ class TestOtherReadings:
     def found(monkeypatch, name, replacement):
         monkeypatch.setattr(paper, name, replacement)
         codes = [code for code in census(6) if may_bound_disk(code)]
-        return sum(bool(paper_immersion(Arrangement.from_gauss(*code))) for code in codes)
+        return sum(bool(procedure.find_immersion(Arrangement.from_gauss(*code))) for code in codes)
 
     @pytest.mark.slow
     def test_note_5_arcs_count_only_when_recurse_has_ended(self, monkeypatch):
@@ -207,25 +210,24 @@ def next_between(state, m, f):
 class TestRepairedFailure:
     def test_borders_of_one_sheet_are_not_joined(self):
         arranged = Arrangement.from_gauss(*REPAIRED_FAILURE)
-        obstruction = paper_immersion(arranged, "repaired")
+        obstruction = procedure.find_immersion(arranged, "repaired")
         assert obstruction.reason == "paper's procedure"
         assert "does not mean that there is no immersion" in str(obstruction)
         (immersion,) = immersions(arranged)
         assert not gluings.problems(code_of(arranged), immersion.own_sheet.tolist(), immersion.gluing.tolist())
 
-    def test_as_a_method_of_find_immersion(self):
-        assert (
-            find_immersion(Arrangement.from_gauss([1, 0], [True, False], 1), method="paper").reason == "turning number"
-        )
-        assert find_immersion(Arrangement.from_gauss(*FIRST_FAILURE), method="paper").reason == "paper's procedure"
-        assert find_immersion(Arrangement.from_gauss([], [], 1), method="paper")
+    def test_curves_that_bound_no_disk_are_told_before_it_begins(self):
+        limacon = Arrangement.from_gauss([1, 0], [True, False], 1)
+        assert procedure.find_immersion(limacon).reason == "turning number"
+        assert procedure.find_immersion(Arrangement.from_gauss(*FIRST_FAILURE)).reason == "paper's procedure"
+        assert procedure.find_immersion(Arrangement.from_gauss([], [], 1))
 
 
 class TestRandomDisks:
     @staticmethod
     def verdicts(outline, sizes, reading):
         rng = np.random.default_rng(2011)
-        return Counter(bool(paper_immersion(arrange(outline(rng, size)), reading)) for size in sizes)
+        return Counter(bool(procedure.find_immersion(arrange(outline(rng, size)), reading)) for size in sizes)
 
     def test_ribbons(self):
         """Long ribbons cross their own partitions, where the literal reading goes round in circles."""
@@ -241,11 +243,11 @@ class TestRandomDisks:
     @pytest.mark.parametrize(("polygon", "k", "layering_counts"), random_curves.SEVERAL_IMMERSIONS)
     def test_curves_with_several_immersions(self, polygon, k, layering_counts):
         arranged = arrange(polygon)
-        stuck = paper_immersion(arranged)
+        stuck = procedure.find_immersion(arranged)
         assert not stuck
         assert "round in circles" in stuck.sentence
         assert len(stuck.where) == 1
-        assert key_of(paper_immersion(arranged, "repaired")) in gluings.keys(*code_of(arranged))
+        assert key_of(procedure.find_immersion(arranged, "repaired")) in gluings.keys(*code_of(arranged))
 
     def test_calls_grow_linearly_with_the_borders(self):
         rng = np.random.default_rng(3)

@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 import plyfold as pf
 from plyfold.gallery import CURVES, chain
 from plyfold.immersion.dual_tree import grow_dual_tree
-from plyfold.immersion.parts import independent_parts
-from plyfold.immersion.propagation import narrow
+from plyfold.immersion.propagation import independent_parts, narrow
 from plyfold.immersion.word import Word, write_word
 from reference import parts as reference
 from reference import random_curves

@@ -15,17 +15,16 @@ from plyfold.clock import Clock
 from plyfold.gallery import chain
 from plyfold.immersion.solve import count_immersions, immersions
 from plyfold.layering.embedding import count_embeddings, embeddings, find_embedding
-from plyfold.layering.levels.clauses import LevelClauses, list_levels, solve_levels
 from plyfold.layering.levels.counting import count_level_solutions
-from plyfold.layering.levels.equations import level_equations
+from plyfold.layering.levels.equations import LevelClauses, level_equations, list_levels, solve_levels
 from plyfold.layering.orders.counting import count_layerings
 from plyfold.layering.orders.listing import layerings
 from plyfold.layering.orders.search import find_layering
 from plyfold.obstruction import Unknown
-from reference import gluings, random_curves
+from reference import gluings, loops, random_curves
 from reference.layerings import level_solutions, level_solutions_by_immersion, levels_agree
 from reference.level_subsets import ending_outside, joined, levels_fit
-from reference.planar_maps import census, corners, gauss_code, may_bound_disk
+from reference.planar_maps import census, corners, gauss_code, left_and_right, may_bound_disk, windings
 
 SMALLEST_WITHOUT_LAYERING = [
     ([9, 4, 3, 2, 1, 10, 7, 6, 11, 0, 5, 8, 13, 12, 15, 14], [1, 1, 1, 0, 0, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0], 5),
@@ -56,10 +55,16 @@ def straight_from(arranged):
     return LevelClauses(level_equations(arranged))
 
 
+def borders_of(code):
+    """The borders as the reference for several loops has them, which asks for no turning number."""
+    four = tuple((c.a_top, c.a_bottom, c.b_top, c.b_bottom) for c in corners(code))
+    return loops.LoopBorders(tuple(windings(code)[left] for left, _ in left_and_right(code)), four)
+
+
 def assert_all_found(arranged):
     """All three functions agree with brute force over levels; both ways of listing and counting do."""
     code = code_of(arranged)
-    expected = set(level_solutions(code))
+    expected = set(level_solutions(code) if may_bound_disk(code) else loops.level_solutions(borders_of(code)))
     found = list(embeddings(arranged))
     assert len(found) == len(expected)
     assert set(map(levels_of, found)) == expected
@@ -80,6 +85,19 @@ def assert_all_found(arranged):
 def test_every_curve(k):
     for code in census(k):
         assert_all_found(Arrangement.from_gauss(*code))
+
+
+@pytest.mark.parametrize(
+    ("k", "curves", "embeddable"), [(2, 0, 0), (4, 1, 1), pytest.param(6, 37, 27, marks=pytest.mark.slow)]
+)
+def test_disks_with_a_handle(k, curves, embeddable):
+    """One loop that turns −1 times bounds a disk with a handle, or nothing."""
+    candidates = [Arrangement.from_gauss(*code) for code in census(k)]
+    handles = [arranged for arranged in candidates if arranged.turning_number == -1]
+    assert len(handles) == curves
+    found = [find_embedding(arranged) for arranged in handles]
+    assert sum(map(bool, found)) == embeddable
+    assert all(surface.genus == 1 for surface in found if surface)
 
 
 @pytest.mark.parametrize(("polygon", "_", "layering_counts"), random_curves.SEVERAL_IMMERSIONS)

@@ -3,6 +3,7 @@
 import pytest
 
 import plyfold as pf
+from nightly.lists import levels
 from plyfold.errors import InputError
 from reference.loops import casing, level_solutions, loop_borders
 
@@ -28,27 +29,27 @@ def levels_by_casing(curves):
 
 @pytest.mark.parametrize(("curves", "expected"), [(INSIDE, 6), (HANGING_TOGETHER, 6), (NESTED, 6)])
 def test_every_surface_is_listed_once(curves, expected):
-    listed = [tuple(surface.level.tolist()) for surface in pf.embeddings(curves)]
+    listed = [levels(surface) for surface in pf.embeddings(curves)]
     assert len(listed) == len(set(listed)) == pf.count_embeddings(curves) == expected
     assert set(listed) == set().union(*levels_by_casing(curves).values())
-    assert tuple(pf.find_embedding(curves).level.tolist()) in listed
+    assert levels(pf.find_embedding(curves)) in listed
 
 
 @pytest.mark.parametrize(("curves", "refused"), [(INSIDE, 2), (HANGING_TOGETHER, 2), (NESTED, 1)])
 def test_a_casing_of_several_surfaces_is_refused(curves, refused):
     """Of those with one surface each, that is the answer."""
     by_casing = levels_by_casing(curves)
-    for over, levels in by_casing.items():
-        assert {tuple(surface.level.tolist()) for surface in pf.layered_surfaces(curves, over)} == levels
-        if len(levels) == 1:
-            assert tuple(pf.embed_cased(curves, over).level.tolist()) in levels
+    for over, expected in by_casing.items():
+        assert {levels(surface) for surface in pf.embeddings(curves, over)} == expected
+        if len(expected) == 1:
+            assert levels(pf.embed_cased(curves, over)) in expected
             continue
         with pytest.raises(InputError, match="several surfaces") as caught:
             pf.embed_cased(curves, over)
         assert set(caught.value.where) <= {curve[0] for curve in curves}
-    assert sum(len(levels) > 1 for levels in by_casing.values()) == refused
+    assert sum(len(several) > 1 for several in by_casing.values()) == refused
 
 
 def test_the_curve_that_is_not_determined_is_named():
-    with pytest.raises(InputError, match="level of curve 1, at \\(5, 5\\)\n  hint: layered_surfaces"):
-        pf.find_layered_surface([BIG, SMALL], over=[])
+    with pytest.raises(InputError, match="level of curve 1, at \\(5, 5\\)\n  hint: embeddings"):
+        pf.embed_cased([BIG, SMALL], [])

@@ -14,7 +14,7 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Ints
 
-__all__ = ["begun_at", "numbered_from", "visits_from_base"]
+__all__ = ["begun_at", "borders_numbered_back", "numbered_from", "visits_from_base"]
 
 Values = TypeVar("Values", Ints, Bools)
 
@@ -26,7 +26,7 @@ def visits_from_base(arrangement: Arrangement) -> Ints:
 
 
 def numbered_from(arrangement: Arrangement, base: int) -> Arrangement:
-    """Return the planar map, without the drawing, with visits, borders and darts numbered from a visit on.
+    """Return the planar map of one curve, without the drawing, with visits, borders and darts numbered from a visit on.
 
     Cells and crossings keep their numbers. Cost: O(k).
     """
@@ -45,10 +45,15 @@ def numbered_from(arrangement: Arrangement, base: int) -> Arrangement:
         cell_of_dart=begun_at(arrangement.cell_of_dart, 2 * base),
         cell_darts=cell_darts,
         crossing_of_visit=begun_at(arrangement.crossing_of_visit, base),
-        curve=None,
+        curves=(),
         crossings=np.empty((0, 2)),
         visit_edge=np.empty(0, dtype=np.int64),
     )
+
+
+def borders_numbered_back(arrangement: Arrangement, values: Values) -> Values:
+    """Return one value for each border, numbered as usual, of values numbered from the base visit on."""
+    return begun_at(values, arrangement.n_borders - arrangement.base_visit)
 
 
 def begun_at(array: Values, start: int) -> Values:

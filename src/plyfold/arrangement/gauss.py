@@ -90,7 +90,7 @@ class GaussCode:
 
     @classmethod
     def of(cls, curve: CurveLike) -> GaussCode:
-        """Return the code of a curve, in the direction in which its turning number is not negative.
+        """Return the code of a curve, in the direction that :func:`~plyfold.arrange` gives it.
 
         Parameters
         ----------

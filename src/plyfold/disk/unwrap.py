@@ -30,7 +30,7 @@ from plyfold.disk.places import Missing, Places, locate, neighbours, places_in_s
 from plyfold.disk.round_map import round_map
 from plyfold.errors import InputError, PlyfoldError
 from plyfold.flat.triangulate import chosen_immersion
-from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.immersion import Immersion, require_disk
 from plyfold.io.mesh.saving import save_model
 from plyfold.mesh.cells import DEFAULT_TRIANGLES, refuse_sizes, triangulate_cells
 from plyfold.mesh.sheets import glue_copies
@@ -311,7 +311,7 @@ def unwrap(
     """
     if isinstance(surface, Lifted):
         return surface.unwrap()
-    immersion = surface if isinstance(surface, Immersion) else chosen_immersion(surface, None)
+    immersion = require_disk(surface) if isinstance(surface, Immersion) else chosen_immersion(surface, None)
     return _unwound_immersion(immersion, triangles, max_area)
 
 

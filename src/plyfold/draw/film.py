@@ -23,7 +23,7 @@ from plyfold.errors import InputError, PlyfoldError
 from plyfold.io.saving import draft_in, refuse_existing, save_bytes
 
 if TYPE_CHECKING:
-    from plyfold.layering.orders.search import Progress
+    from plyfold.clock import Progress
     from plyfold.surface.lift import Surface
 
 __all__ = ["FILMS", "save_film"]

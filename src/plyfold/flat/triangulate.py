@@ -11,7 +11,7 @@ from plyfold.arrays import Floats, Ints
 from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError, PlyfoldError
 from plyfold.flat.delaunay import delaunay_triangles, flip_edges
 from plyfold.flat.sweep import sweep_triangles
-from plyfold.immersion.immersion import Immersion, require_immersion
+from plyfold.immersion.immersion import Immersion, require_disk, require_immersion
 from plyfold.immersion.solve import find_immersion
 from plyfold.mesh.cells import refuse_max_area
 from plyfold.outline.curve import Curve, as_curve
@@ -114,7 +114,7 @@ def chosen_immersion(curve: CurveLike, immersion: Immersion | None) -> Immersion
     drawn = require_immersion(immersion).arrangement
     if not (_same(drawn, curve) if isinstance(curve, Arrangement) else _draws(drawn, as_curve(curve).points)):
         raise InputError("the immersion belongs to another curve", hint="make it from the same arrangement")
-    return immersion
+    return require_disk(immersion)
 
 
 def _faces_as_given(curve: CurveLike, faces: Ints, drawn: Arrangement) -> Ints:

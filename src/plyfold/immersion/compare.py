@@ -6,6 +6,7 @@ import numpy as np
 
 from plyfold.arrays import Ints
 from plyfold.errors import InputError
+from plyfold.graphs import components
 from plyfold.immersion.immersion import Immersion, require_immersion
 
 __all__ = ["changed_borders", "flip_distance"]
@@ -75,14 +76,10 @@ def flip_distance(first: Immersion, second: Immersion) -> int:
 
 def _partition_distance(first: Ints, second: Ints) -> int:
     """Return the distance of two partitions of the same things, given the group of each."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     groups = np.unique(first, return_inverse=True)[1], np.unique(second, return_inverse=True)[1]
     sizes = int(groups[0].max()) + 1, int(groups[1].max()) + 1
-    graph = coo_array((np.ones(len(first)), (groups[0], groups[1] + sizes[0])), shape=(sum(sizes), sum(sizes)))
-    joined = int(connected_components(graph, directed=False)[0])
-    return sum(sizes) - 2 * joined
+    joined = components(sum(sizes), groups[0], groups[1] + sizes[0])
+    return sum(sizes) - 2 * int(joined.max() + 1)
 
 
 def _meet(first: Immersion, second: Immersion) -> Ints:

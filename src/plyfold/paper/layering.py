@@ -41,19 +41,19 @@ import numpy as np
 
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering
-from plyfold.layering.orders.problem import OrderProblem, order_problem, places_of_cells
+from plyfold.layering.orders.search import OrderProblem, order_problem, places_of_cells
 from plyfold.layering.sat import minimal_core, solve
 from plyfold.obstruction import Obstruction
 from plyfold.paper.collapsed import CollapsedGraph, edge_collapsed_graphs
 
-__all__ = ["paper_layering"]
+__all__ = ["find_layering"]
 
 Clause = list[int]
 Option = tuple[int, tuple[int, ...]]
 """A variable, and the path round a gap that is taken if it is true."""
 
 
-def paper_layering(immersion: Immersion) -> Layering | Obstruction:
+def find_layering(immersion: Immersion) -> Layering | Obstruction:
     """Look for an order of the sheets that follows a spanning tree of every edge-collapsed graph (§3 of [MGR11]_).
 
     Parameters
@@ -65,7 +65,7 @@ def paper_layering(immersion: Immersion) -> Layering | Obstruction:
     Layering or Obstruction
         The layering has been checked. The obstruction has the reason ``"paper's procedure"`` and for its value a tuple
         of cells whose spanning trees cannot be followed together. It says only that the procedure failed:
-        :func:`~plyfold.find_layering` decides.
+        :func:`plyfold.find_layering` decides.
 
     Notes
     -----
@@ -81,7 +81,7 @@ def paper_layering(immersion: Immersion) -> Layering | Obstruction:
     --------
     >>> from plyfold import find_immersion
     >>> ramp = [(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)]
-    >>> sorted(paper_layering(find_immersion(ramp)).level.tolist())
+    >>> sorted(find_layering(find_immersion(ramp)).level.tolist())
     [1, 1, 1, 1, 2]
     """
     problem = order_problem(immersion)

@@ -3,7 +3,7 @@
 The borders are taken in order of the winding number of their cells. Each is joined by an arc in the disk layout to the
 next border of the same cell, if that is a *valid construction*; first everything between the two is processed in the
 same way. Borders joined by arcs form a group: they share a sheet. :func:`run_paper` forms the groups, and
-:func:`paper_immersion` glues and checks the sheets. The choice of arcs is greedy, and it can fail on a curve that
+:func:`find_immersion` glues and checks the sheets. The choice of arcs is greedy, and it can fail on a curve that
 bounds a disk; then the obstruction says that the procedure failed, not that there is no immersion.
 
 The pseudo-code leaves open what to do in the places below. The numbers come back in the comments.
@@ -49,13 +49,15 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
+from plyfold.graphs import representative
 from plyfold.immersion.dual_tree import around_cells, grow_dual_tree
 from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.solve import visible_obstruction
 from plyfold.obstruction import Obstruction
 from plyfold.paper.layout import glue_layout
 
-__all__ = ["PaperRun", "Reading", "paper_immersion", "run_paper"]
+__all__ = ["PaperRun", "Reading", "find_immersion", "run_paper"]
 
 Reading: TypeAlias = Literal["literal", "repaired"]
 Arc: TypeAlias = tuple[int, int]
@@ -84,20 +86,21 @@ class PaperRun:
     stuck_at: int | None = None
 
 
-def paper_immersion(arranged: Arrangement, reading: Reading = "literal") -> Immersion | Obstruction:
+def find_immersion(curve: CurveLike, reading: Reading = "literal") -> Immersion | Obstruction:
     """Look for an immersion by the paper's greedy procedure (§2.3 of [MGR11]_).
 
     Parameters
     ----------
-    arranged : Arrangement
+    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
     reading : {"literal", "repaired"}
         How the pseudo-code is understood; see :mod:`plyfold.paper.procedure`.
 
     Returns
     -------
     Immersion or Obstruction
-        The immersion has been checked against the definition. The obstruction, with the reason ``"paper's procedure"``
-        and a border as its value, says only that the procedure failed: :func:`~plyfold.find_immersion` decides.
+        The immersion has been checked against the definition. An obstruction is a turning number other than 1, a
+        negative winding number, or, with the reason ``"paper's procedure"`` and a border as its value, says only that
+        the procedure failed: :func:`plyfold.find_immersion` decides.
 
     Notes
     -----
@@ -111,11 +114,14 @@ def paper_immersion(arranged: Arrangement, reading: Reading = "literal") -> Imme
 
     Examples
     --------
-    >>> from plyfold import arrange
     >>> ramp = [(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)]
-    >>> [group.borders for group in paper_immersion(arrange(ramp)).disk_layout()]
+    >>> [group.borders for group in find_immersion(ramp).disk_layout()]
     [(0, 6), (1, 5), (2, 4), (3,), (7,)]
     """
+    arranged = arrange(curve)
+    obstruction = visible_obstruction(arranged)
+    if obstruction is not None:
+        return obstruction
     run = run_paper(arranged, reading)
     if run.stuck_at is not None:
         return _failed(arranged, run.stuck_at, "went round in circles at")
@@ -167,19 +173,12 @@ def _failed(arranged: Arrangement, border: int, what: str) -> Obstruction:
 def _joined(n_borders: int, arcs: Iterable[Arc]) -> tuple[tuple[int, ...], ...]:
     """Return the groups that the arcs make."""
     group = list(range(n_borders))
-
-    def first(border: int) -> int:
-        while group[border] != border:
-            group[border] = group[group[border]]
-            border = group[border]
-        return border
-
     for m, f in arcs:
-        low, high = sorted((first(m), first(f)))
+        low, high = sorted((representative(group, m), representative(group, f)))
         group[high] = low
     members: dict[int, list[int]] = {}
     for border in range(n_borders):
-        members.setdefault(first(border), []).append(border)
+        members.setdefault(representative(group, border), []).append(border)
     return tuple(map(tuple, members.values()))
 
 

@@ -18,7 +18,7 @@ from plyfold.certify import check_surface
 from plyfold.clock import UNWATCHED, Clock, Progress, Watch
 from plyfold.disk.unwrap import UnwoundDisk, unwound_mesh
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
-from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.immersion import Immersion, require_disk
 from plyfold.immersion.solve import find_immersion, watched_immersions
 from plyfold.io.mesh.saving import refuse_ending, save_model
 from plyfold.io.saving import save_bytes
@@ -359,12 +359,13 @@ def layering_of(
 ) -> Layering | IntersectingLayering:
     """Return the layering that :func:`lift` lifts, with its options and errors."""
     if isinstance(curve, Layering | IntersectingLayering):
+        require_disk(curve.immersion)
         return curve
     choose = _least_intersecting if allow_intersections else _liftable
     if isinstance(curve, Obstruction):
         raise (NotImmersibleError if curve.reason in IMMERSION_REASONS else NotEmbeddableError)(curve)
     if isinstance(curve, Immersion):
-        return choose([curve], watch)
+        return choose([require_disk(curve)], watch)
     drawn = watched_arrangement(curve, "perturb", watch)
     candidates = watched_immersions(drawn, watch)
     first = next(candidates, None)

@@ -8,54 +8,61 @@ walking along the curve gives all levels, from a border of the unbounded cell, w
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
-from plyfold.arrangement.several import Loops, are_several
+from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrays import Bools, Ints
+from plyfold.clock import Clock
 from plyfold.errors import InputError
-from plyfold.immersion.immersion import Immersion, count_each, require_memory_for_gluing
-from plyfold.immersion.obstructions import visible_obstruction
-from plyfold.layering.layering import Layering
+from plyfold.layering.layering import Layering, layering_of_levels
+from plyfold.layering.levels.equations import (
+    LevelClauses,
+    level_clauses,
+    no_levels,
+    no_surface,
+    solve_levels,
+)
 from plyfold.obstruction import Obstruction, Unknown
+from plyfold.outline.curve import OutlineLike
 
-if TYPE_CHECKING:
-    from plyfold.layering.levels.layered_surface import LayeredSurface
-
-__all__ = ["embed_cased", "layering_of_levels"]
+__all__ = ["casing_of_visits", "embed_cased"]
 
 
-def embed_cased(curve: CurveLike, over: npt.ArrayLike) -> Layering | LayeredSurface | Obstruction | Unknown:
+def embed_cased(
+    curve: OutlineLike, over: npt.ArrayLike, time_limit: float | None = None
+) -> Layering | Obstruction | Unknown:
     """Lift a cased curve: over and under are given at every crossing, as in a picture of a knot with gaps.
 
     Parameters
     ----------
     curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
-        Several curves bound one surface, with holes or handles: see :func:`~plyfold.find_layered_surface`.
+        One curve bounds a disk, perhaps with handles; several bound one surface, with holes and handles, perhaps in
+        several pieces.
     over : array_like of bool, shape (2k,) or (k,)
         For each visit of ``arrange(curve)``, whether the strand passes over the other one; or for each crossing,
         whether it does so at the first of its two visits.
+    time_limit : float, optional
+        Seconds after which to give up on several curves; none by default.
 
     Returns
     -------
-    Layering or Obstruction
-        The only layered disk with this casing, over an immersion of its own; or the reason why there is none: the
+    Layering or Obstruction or Unknown
+        The only layered surface with this casing, over an immersion of its own; or the reason why there is none: the
         turning number, a negative winding number, or ``"casing"``: the first crossing (``value``) along the curve,
-        from a border of the unbounded cell, at which the levels do not agree with what is given.
+        from a border of the unbounded cell, at which the levels do not agree with what is given. Of several curves
+        ``value`` is a tuple of crossings at which no levels fit together, and the reason ``"no embedding"``.
 
     Raises
     ------
     InputError
         If ``over`` has the wrong length, or both strands or none are to pass over at some crossing. Of several curves,
         also if several surfaces have this casing: it does not determine the level of a curve that lies in others
-        without crossing them. :func:`~plyfold.layered_surfaces` lists them.
+        without crossing them. ``embeddings(curves, over)`` lists them all.
 
     Notes
     -----
-    One pass, O(k), and O(Σ w) to write down the immersion [EM09]_ (theorem 1).
+    One pass, O(k), and O(Σ w) to write down the immersion [EM09]_ (theorem 1). Of several curves, a SAT problem.
 
     References
     ----------
@@ -70,57 +77,48 @@ def embed_cased(curve: CurveLike, over: npt.ArrayLike) -> Layering | LayeredSurf
     >>> print(embed_cased(ramp, [True, True, False, True]))
     The casing lifts to no surface: past crossing 3, the strand would be on level 0, but there is only level 1.
     """
-    if are_several(curve):
-        from plyfold.layering.levels.layered_surface import find_layered_surface
-
-        return find_layered_surface(curve, over=over)
-    arranged = arrange(curve)
+    clock, arranged = Clock(time_limit), arrange(curve)
     casing = casing_of_visits(arranged, over)
-    obstruction = visible_obstruction(arranged)
+    obstruction = no_surface(arranged)
     if obstruction is not None:
         return obstruction
+    if arranged.n_loops > 1:
+        return _embed_several(arranged, casing, clock)
     start = int(np.flatnonzero(arranged.winding[arranged.left_cell] == 1)[0])
     level = _levels_along(arranged, casing, start)
     obstruction = _first_fault(arranged, casing, level, start)
     return layering_of_levels(arranged, level) if obstruction is None else obstruction
 
 
-def layering_of_levels(arranged: Arrangement, level: Ints) -> Layering:
-    """Build the layered disk in which the own sheets of the borders have given levels.
-
-    Parameters
-    ----------
-    arranged : Arrangement
-        Turning number 1, no negative winding number.
-    level : (borders,) int
-        From 1 to the winding number on the left of the border. At every crossing the two strands have different
-        levels over the top cell, and past the crossing the upper one's is one less on the side away from it.
-
-    Returns
-    -------
-    Layering
-        Over each cell the sheets are numbered from below. Cost: O(Σ w), the sheets counted once per border.
-    """
-    require_memory_for_gluing(arranged)
-    winding, lower = arranged.winding, arranged.winding[arranged.right_cell]
-    first_sheet = np.cumsum(winding) - winding
-    border = np.repeat(np.arange(arranged.n_borders), lower)
-    right = count_each(lower)
-    left = right + (right >= level[border] - 1)
-    immersion = Immersion(
-        arrangement=arranged,
-        sheet_cell=np.repeat(np.arange(arranged.n_cells), winding),
-        first_sheet=first_sheet,
-        own_sheet=first_sheet[arranged.left_cell] + level - 1,
-        gluing=np.stack(
-            [border, first_sheet[arranged.right_cell[border]] + right, first_sheet[arranged.left_cell[border]] + left],
-            axis=1,
-        ),
-    )
-    return Layering(immersion, count_each(winding) + 1)
+def _embed_several(arranged: Arrangement, casing: Bools, clock: Clock) -> Layering | Obstruction | Unknown:
+    clauses = level_clauses(arranged, casing)
+    try:
+        level = solve_levels(clauses, clock)
+        if level is not None:
+            _require_only(arranged, clauses, level, clock)
+    except TimeoutError:
+        return Unknown(
+            "time limit",
+            f"Unknown after {clock.spent:.3g} s: whether there is a layered surface with this casing.",
+            {"crossings": arranged.n_crossings, "seconds": clock.spent},
+        )
+    return no_levels(arranged, clauses, clock) if level is None else layering_of_levels(arranged, level)
 
 
-def casing_of_visits(arranged: Arrangement | Loops, over: npt.ArrayLike) -> Bools:
+def _require_only(arranged: Arrangement, clauses: LevelClauses, level: Ints, clock: Clock) -> None:
+    """Refuse a casing that other levels have as well. Raises TimeoutError when the time is over."""
+    differing = clauses.other_than(level)
+    other = solve_levels(clauses, clock, [differing]) if differing else None
+    if other is not None:
+        free = np.unique(arranged.loop_of_border[level != other]).tolist()
+        raise InputError(
+            f"several surfaces have this casing: it does not determine the level of curve {', '.join(map(str, free))}",
+            where=[arranged.curves[loop].points[0] for loop in free],
+            hint="embeddings(curves, over) lists them all",
+        )
+
+
+def casing_of_visits(arranged: Arrangement, over: npt.ArrayLike) -> Bools:
     """Return over and under by visits, from either form; refuse anything else."""
     given = np.array(over, ndmin=1)
     visits = len(arranged.partner)
@@ -159,7 +157,7 @@ def _first_fault(arranged: Arrangement, casing: Bools, level: Ints, start: int) 
     visit = np.arange(len(casing))
     outside = (level < 1) | (level > arranged.winding[arranged.left_cell])
     at_departure = np.where(visit == start, 1, level)
-    top = at_departure[np.where(arranged.ccw, visit - 1, visit)]
+    top = at_departure[np.where(arranged.ccw, arranged.border_before, arranged.border_after)]
     disagree = np.where(casing, top <= top[arranged.partner], top >= top[arranged.partner])
     walked = (visit - start - 1) % len(visit)
     faulty = np.roll(outside | (disagree & (walked > walked[arranged.partner])), -start - 1)
@@ -180,7 +178,7 @@ def _fault(arranged: Arrangement, level: Ints, visit: int, outside: Bools) -> Ob
     return Obstruction("casing", sentence, _place(arranged, crossing), crossing, arranged)
 
 
-def _place(arranged: Arrangement | Loops, crossing: int) -> tuple[tuple[float, float], ...]:
+def _place(arranged: Arrangement, crossing: int) -> tuple[tuple[float, float], ...]:
     if not len(arranged.crossings):
         return ()
     x, y = arranged.crossings[crossing].tolist()

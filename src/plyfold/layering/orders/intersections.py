@@ -25,11 +25,12 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Floats, Ints, freeze
 from plyfold.clock import Clock
 from plyfold.errors import PlyfoldError
-from plyfold.immersion.immersion import Immersion, count_each
+from plyfold.immersion.immersion import Immersion
 from plyfold.layering.orders.maxsat import fewest_failures
-from plyfold.layering.orders.problem import OrderProblem, independent_orders
+from plyfold.layering.orders.search import OrderProblem, independent_orders
 from plyfold.layering.sat import StoppableSolver, in_time, solver_of
 from plyfold.memory import number_of_tuples, require_memory
+from plyfold.ragged import count_each, pairs_in_each
 
 __all__ = ["IntersectingLayering", "border_lengths", "least_intersecting_layering"]
 
@@ -160,7 +161,7 @@ def _levels_in_time(immersion: Immersion, clock: Clock) -> tuple[Ints, bool]:
 
 def border_lengths(arrangement: Arrangement) -> Floats:
     """Return the length of each border in units of the drawing; 1 for a Gauss code."""
-    if arrangement.curve is None:
+    if not arrangement.curves:
         return np.ones(arrangement.n_borders)
     steps = (np.diff(arrangement.border_points(border), axis=0) for border in range(arrangement.n_borders))
     return np.array([np.hypot(*step.T).sum() for step in steps])
@@ -171,10 +172,7 @@ def _glued_pairs(immersion: Immersion) -> Ints:
     border, right, left = immersion.gluing.T
     _require_memory(immersion, _BYTES_PER_PAIR)
     count = np.bincount(border, minlength=immersion.arrangement.n_borders)
-    row = np.arange(len(border))
-    beyond = np.cumsum(count)[border] - row - 1  # how many rows of the same border follow
-    first = np.repeat(row, beyond)
-    second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(beyond) - beyond, beyond)
+    first, second = pairs_in_each(count)
     return np.column_stack([border[first], right[first], right[second], left[first], left[second]])
 
 

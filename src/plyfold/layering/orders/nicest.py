@@ -24,8 +24,7 @@ from plyfold.clock import Clock
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering, meeting_sheets
 from plyfold.layering.orders.maxsat import fewest_failures
-from plyfold.layering.orders.problem import OrderProblem, order_problem
-from plyfold.layering.orders.search import solve_orders, undecided
+from plyfold.layering.orders.search import OrderProblem, order_problem, solve_orders, undecided
 from plyfold.layering.sat import StoppableSolver, in_time, solver_of
 from plyfold.obstruction import Obstruction, Unknown
 
