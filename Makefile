@@ -22,7 +22,7 @@ test: $(READY) lint  ## Style, types, and every test but the slow ones
 	$(BIN)/python -m pytest -n 2
 
 test-busy: $(READY)  ## The same beside eight busy processes: no test depends on how fast the machine is
-	$(BIN)/python tools/busy.py 8 $(MAKE) --no-print-directory test
+	$(BIN)/python tools/busy.py 8 make --no-print-directory test
 
 test-slow: $(READY)  ## The tests that take minutes: every curve with six crossings
 	$(BIN)/python -m pytest -n 2 -m slow

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from nightly.curves import draw
+from nightly.curves import LISTS, draw
 from plyfold.errors import PlyfoldError
 from plyfold.sketch.export import export
 from plyfold.sketch.look import look
@@ -38,7 +38,9 @@ class Scaled(NamedTuple):
 def scaled(seed: int) -> Scaled:
     """The curve of a seed, at a scale between 1e-12 and 1e12."""
     scale = float(10 ** np.random.default_rng(seed).uniform(-POWERS, POWERS))
-    points = [[scale * x, scale * y] for x, y in draw(seed).points]
+    drawn = draw(seed)
+    # The page draws one loop: of a list it gets the first.
+    points = [[scale * x, scale * y] for x, y in (drawn.points[0] if drawn.kind in LISTS else drawn.points)]
     data = {"plyfold": 1, "strokes": [{"points": points, "closed": True}]}
     return Scaled(seed, scale, read_document(data))
 
