@@ -12,8 +12,8 @@ from plyfold.clock import NO_LIMIT
 from plyfold.errors import MemoryLimitError
 from plyfold.immersion import immersion
 from plyfold.layering.levels.equations import LevelClauses, level_equations, solve_levels
-from plyfold.layering.orders import intersections, sheet_pairs
-from plyfold.layering.orders import problem as orders
+from plyfold.layering.orders import intersections
+from plyfold.layering.orders import search as orders
 from plyfold.mesh import sheets
 from plyfold.mesh.cells import triangulate_cells
 from plyfold.paper.layout import glue_layout
@@ -122,7 +122,7 @@ def test_sizes_are_those_that_are_taken(name, monkeypatch):
     """The estimate lies above what Python and numpy allocate, and not far above."""
     make, given, _ = LARGE[name]
     arguments, sizes = [argument() for argument in given], []
-    for module in (immersion, intersections, orders, sheet_pairs, sheets):
+    for module in (immersion, intersections, orders, sheets):
         monkeypatch.setattr(module, "require_memory", lambda size, *_: sizes.append(size))
     tracemalloc.start()
     before, _ = tracemalloc.get_traced_memory()
