@@ -11,6 +11,7 @@ from __future__ import annotations
 import heapq
 from collections import defaultdict
 from collections.abc import Iterable
+from dataclasses import dataclass
 from math import log
 from typing import TypeAlias
 
@@ -28,6 +29,7 @@ class TooLargeError(Exception):
     """A table has too many rows."""
 
 
+@dataclass(frozen=True, eq=False)
 class Table:
     """For some variables, the values that are possible, and the number of ways for each.
 
@@ -37,11 +39,8 @@ class Table:
     rows : dict of tuple of int to int
     """
 
-    __slots__ = ("rows", "variables")
-
-    def __init__(self, variables: tuple[int, ...], rows: dict[Row, int]) -> None:
-        self.variables = variables
-        self.rows = rows
+    variables: tuple[int, ...]
+    rows: dict[Row, int]
 
 
 def count_solutions(tables: Iterable[Table], clock: Clock) -> int:
