@@ -73,7 +73,7 @@ def test_no_function_hides_a_package():
 
 
 def test_every_name_is_there_for_people_and_for_type_checkers():
-    for module in (pf, pf.draw, pf.hard, pf.certify):
+    for module in (pf, pf.draw, pf.hard, pf.certify, pf.io, pf.paper):
         for name in module.__all__:
             assert getattr(module, name).__doc__
         assert set(module.__all__) <= set(dir(module))

@@ -326,7 +326,7 @@ class Arrangement:
         >>> [arrange(points[i:] + points[:i]).base_visit for i in range(4)]
         [1, 0, 0, 1]
         """
-        if len(self.curves) != 1 or not self.n_crossings:
+        if self.n_loops > 1 or self.curve is None or not self.n_crossings:
             return 0
         visits = np.flatnonzero(self.ccw)
         edge, other = self.visit_edge[visits], self.visit_edge[self.partner[visits]]
