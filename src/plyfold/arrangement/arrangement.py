@@ -30,7 +30,7 @@ from plyfold.arrays import Bools, Floats, Ints, freeze
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GaussCodeError, InputError, PlyfoldError
 from plyfold.graphs import components
-from plyfold.outline.curve import Coded, Curve, CurveLike, OutlineLike, as_curve
+from plyfold.outline.curve import Coded, Curve, CurveLike, OutlineLike, are_several, as_curve
 from plyfold.predicates import cross_sign
 
 __all__ = ["Arrangement", "CurveLike", "arrange", "require_one_loop", "watched_arrangement"]
@@ -525,31 +525,13 @@ def watched_arrangement(curve: OutlineLike, general_position: Literal["perturb",
     if hasattr(curve, "partner"):  # a GaussCode, which a module further on defines
         given = cast("Coded", curve)
         return Arrangement.from_gauss(given.partner, given.ccw, given.outer)
-    curves = tuple(map(as_curve, cast("Sequence[object]", curve) if _are_several(curve) else [curve]))
+    curves = tuple(map(as_curve, cast("Sequence[object]", curve) if are_several(curve) else [curve]))
     if len(curves) == 1:
         return _of_curve(curves[0], general_position, watch)
     arranged = Arrangement._of_loops(curves)
     if arranged.winding.max() > 0:
         return arranged
     return replace(Arrangement._of_loops(tuple(loop.reversed() for loop in curves)), reversed=True)
-
-
-def _are_several(value: object) -> bool:
-    """Tell a collection of closed curves from a single one.
-
-    Examples
-    --------
-    >>> triangle = [(0, 0), (1, 0), (0, 1)]
-    >>> _are_several(triangle), _are_several([triangle]), _are_several([Curve(triangle), triangle])
-    (False, True, True)
-    """
-    return isinstance(value, list | tuple | np.ndarray) and len(value) > 0 and all(map(_is_curve, value))
-
-
-def _is_curve(value: object) -> bool:
-    if isinstance(value, list | tuple | np.ndarray):
-        return len(value) > 0 and np.ndim(value[0]) == 1
-    return isinstance(value, Curve) or hasattr(value, "geom_type") or hasattr(value, "curve")
 
 
 def require_one_loop(arranged: Arrangement, what: str = "this") -> None:

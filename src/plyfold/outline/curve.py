@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
 
-__all__ = ["Coded", "Curve", "CurveLike", "Drawn", "Geometry", "OutlineLike", "Repair", "as_curve"]
+__all__ = ["Coded", "Curve", "CurveLike", "Drawn", "Geometry", "OutlineLike", "Repair", "are_several", "as_curve"]
 
 
 class Drawn(Protocol):
@@ -228,6 +228,24 @@ def as_curve(value: object) -> Curve:
     if hasattr(value, "curve"):
         return _curve_of_owner(value.curve)
     return Curve(cast("npt.ArrayLike", value))
+
+
+def are_several(value: object) -> bool:
+    """Tell a collection of closed curves from a single one.
+
+    Examples
+    --------
+    >>> triangle = [(0, 0), (1, 0), (0, 1)]
+    >>> are_several(triangle), are_several([triangle]), are_several([Curve(triangle), triangle])
+    (False, True, True)
+    """
+    return isinstance(value, list | tuple | np.ndarray) and len(value) > 0 and all(map(_is_curve, value))
+
+
+def _is_curve(value: object) -> bool:
+    if isinstance(value, list | tuple | np.ndarray):
+        return len(value) > 0 and np.ndim(value[0]) == 1
+    return isinstance(value, Curve) or hasattr(value, "geom_type") or hasattr(value, "curve")
 
 
 def _curve_of_owner(curve: object) -> Curve:
