@@ -19,7 +19,7 @@ import numpy.typing as npt
 from plyfold import colours
 from plyfold.arrays import Floats
 from plyfold.disk.motion import Motion
-from plyfold.draw.canvas import middle_and_size, natural_stretch
+from plyfold.draw.placement import middle_and_size, natural_stretch
 from plyfold.errors import InputError, PrecisionError
 from plyfold.options import refuse_unless_count
 

@@ -85,7 +85,7 @@ class Immersion:
         return f"<Immersion: {self.n_sheets} sheets over {self.arrangement.n_cells - 1} cells>"
 
     def _repr_svg_(self) -> str:
-        from plyfold.draw.layout_svg import layout_svg
+        from plyfold.draw.svg import layout_svg
 
         return layout_svg(self)
 

@@ -47,7 +47,7 @@ class Layering:
 
     def _repr_svg_(self) -> str | None:
         # A Gauss code alone has no picture.
-        from plyfold.draw.over_under_svg import over_under_svg
+        from plyfold.draw.over_under_files import over_under_svg
 
         return None if self.immersion.arrangement.curve is None else over_under_svg(self, colours="sheets")
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from plyfold.arrays import Floats
-from plyfold.draw.layout_plot import BorderCircle
+from plyfold.draw.placement import BorderCircle
 from plyfold.errors import NotImmersibleError
 from plyfold.immersion.compare import changed_borders
 from plyfold.immersion.immersion import Immersion

@@ -10,7 +10,7 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.gauss import GaussCode
-from plyfold.draw.canvas import label_circle
+from plyfold.draw.placement import label_circle
 from plyfold.immersion.blank_word import blank_word
 from plyfold.immersion.solve import count_immersions, find_immersion
 from plyfold.obstruction import Obstruction
