@@ -17,7 +17,8 @@ import plyfold as pf
 from plyfold import draw
 from plyfold.colours import INK, OBSTRUCTION, PAPER, mix, sheet_colour
 from plyfold.disk.motion import Motion
-from plyfold.draw.canvas import Frame, blank, line, polygon, write
+from plyfold.draw.canvas import blank, line, polygon, write
+from plyfold.draw.placement import Frame
 from plyfold.gallery import CURVES
 from plyfold.io.saving import save_bytes
 from plyfold.offers.kinks import find_kink

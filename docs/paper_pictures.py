@@ -14,9 +14,8 @@ from matplotlib.patches import Rectangle
 import plyfold as pf
 from plyfold.colours import ACCENT, INK, mix, sheet_colour
 from plyfold.draw import plot_arrangement
-from plyfold.draw.canvas import border_middle
 from plyfold.draw.figures import save
-from plyfold.draw.layout_plot import BorderCircle
+from plyfold.draw.placement import BorderCircle, border_middle
 from plyfold.gallery import chain
 from plyfold.paper import procedure
 from plyfold.paper.procedure import PaperRun, Reading, run_paper

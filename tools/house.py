@@ -49,8 +49,8 @@ ORDER = [
 EXCEPTIONS = {
     ("plyfold.arrangement.arrangement", "plyfold.draw.svg"): "_repr_svg_ of an arrangement",
     ("plyfold.arrangement.gauss", "plyfold.draw.svg"): "_repr_svg_ of a Gauss code",
-    ("plyfold.immersion.immersion", "plyfold.draw.layout_svg"): "_repr_svg_ of an immersion",
-    ("plyfold.layering.layering", "plyfold.draw.over_under_svg"): "_repr_svg_ of a layering",
+    ("plyfold.immersion.immersion", "plyfold.draw.svg"): "_repr_svg_ of an immersion",
+    ("plyfold.layering.layering", "plyfold.draw.over_under_files"): "_repr_svg_ of a layering",
     ("plyfold.outline.curve", "plyfold.draw.svg"): "_repr_svg_ of a curve",
     ("plyfold.obstruction", "plyfold.draw.notebook"): "_repr_png_ of an obstruction",
     ("plyfold.disk.unwrap", "plyfold.draw.notebook"): "_repr_png_ of an unwound disk",

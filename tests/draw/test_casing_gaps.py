@@ -4,8 +4,8 @@ import shapely
 
 import plyfold as pf
 from plyfold import draw
-from plyfold.draw.canvas import Frame
 from plyfold.draw.casing_gaps import cased_strands
+from plyfold.draw.placement import Frame
 from plyfold.errors import InputError
 from plyfold.gallery import CURVES
 

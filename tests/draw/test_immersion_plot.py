@@ -8,7 +8,7 @@ from matplotlib.colors import to_hex
 import plyfold as pf
 from plyfold import draw
 from plyfold.colours import INK, PAPER, mix, sheet_colour
-from plyfold.draw.layout_svg import layout_svg
+from plyfold.draw.svg import layout_svg
 from plyfold.errors import NotImmersibleError
 from plyfold.gallery import CURVES
 

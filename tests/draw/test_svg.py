@@ -6,6 +6,7 @@ import pytest
 import shapely
 
 from plyfold import Arrangement, arrange
+from plyfold.colours import ACCENT
 from plyfold.draw.svg import arrangement_svg
 
 RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], float)
@@ -75,7 +76,7 @@ def test_gauss_code_becomes_a_chord_diagram():
     drawn = arrange(RAMP)
     root = parse(arrangement_svg(Arrangement.from_gauss(*drawn.gauss_code())))
     labels = [text.text for text in root.iter(f"{SVG}text")]
-    assert len(list(root.iter(f"{SVG}line"))) == 4
+    assert [path.get("stroke") for path in root.iter(f"{SVG}path")].count(ACCENT) == 4
     assert labels == [f"{visit}{'+' if ccw else '−'}" for visit, ccw in enumerate(drawn.ccw)]
 
 

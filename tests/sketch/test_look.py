@@ -11,7 +11,8 @@ import plyfold as pf
 from plyfold.errors import CurveError, StrokeError
 from plyfold.gallery import CURVES, chain
 from plyfold.offers.kinks import find_kink
-from plyfold.sketch.look import in_words, look
+from plyfold.report import in_words
+from plyfold.sketch.look import look
 from plyfold.sketch.schema import Look, Stroke
 from reference import crossings, gluings
 from reference.random_curves import MILNOR_LIKE, random_polygon

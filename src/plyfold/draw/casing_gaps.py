@@ -9,7 +9,7 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Floats
-from plyfold.draw.canvas import Frame
+from plyfold.draw.placement import Frame
 
 if TYPE_CHECKING:
     from plyfold.layering.layering import Layering

@@ -9,9 +9,9 @@ import numpy as np
 
 from plyfold.arrays import Floats
 from plyfold.colours import INK, OBSTRUCTION, PAPER, mix, sheet_colour, text_colour
-from plyfold.draw.arrangement_plot import drawn_points, plot_arrangement
-from plyfold.draw.canvas import Frame, blank, dots, grid, line, note_below, polygon, write
-from plyfold.draw.layout_plot import BorderCircle
+from plyfold.draw.arrangement_plot import plot_arrangement
+from plyfold.draw.canvas import blank, dots, grid, line, note_below, polygon, write
+from plyfold.draw.placement import BorderCircle, Frame, drawn_points
 from plyfold.options import refuse_unless_count
 from plyfold.paper.collapsed import (
     CollapsedGraph,

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.colours import INK
+from plyfold.colours import INK, PAPER
 from plyfold.draw.arrangement_plot import plot_arrangement
 from plyfold.draw.layers_plot import plot_layers
 from plyfold.draw.layout_plot import plot_layout
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 Panels: TypeAlias = list[tuple[str, Callable[..., object]]]
 
-__all__ = ["overview", "save", "summary"]
+__all__ = ["overview", "picture_bytes", "save", "summary"]
 
 _PANEL = 3.7
 
@@ -98,9 +98,14 @@ def save(figure: Figure, path: str | PathLike[str], force: bool = False) -> None
     if kind not in figure.canvas.get_supported_filetypes():
         raise InputError(f"{Path(path).name}: a picture cannot be written so", hint="use .png, .svg or .pdf")
     refuse_existing(path, force)
+    save_bytes(path, picture_bytes(figure, kind), force)
+
+
+def picture_bytes(figure: Figure, kind: str) -> bytes:
+    """Return a figure as a file of some kind, like ``"png"``."""
     drawn = BytesIO()
-    figure.savefig(drawn, format=kind, dpi=160, facecolor="white")
-    save_bytes(path, drawn.getvalue(), force)
+    figure.savefig(drawn, format=kind, dpi=160, facecolor=PAPER)
+    return drawn.getvalue()
 
 
 def _panels(

@@ -16,8 +16,8 @@ import numpy.typing as npt
 from plyfold.arrays import Floats
 from plyfold.colours import INK, PAPER, rgb, sheet_colour
 from plyfold.disk.motion import Motion
-from plyfold.draw.canvas import middle_and_size, natural_stretch
 from plyfold.draw.depth_buffer import View
+from plyfold.draw.placement import middle_and_size, natural_stretch
 from plyfold.draw.render import Image, Mesh, shade
 from plyfold.errors import InputError, PlyfoldError
 from plyfold.io.saving import draft_in, refuse_existing, save_bytes

@@ -10,9 +10,9 @@ import numpy as np
 from plyfold.arrangement.arrangement import CurveLike
 from plyfold.arrays import Floats
 from plyfold.colours import INK, PAPER, mix, sheet_colour
-from plyfold.draw.arrangement_plot import drawn_points
-from plyfold.draw.canvas import Frame, blank, closed, grid, label_circle, line, line_weight, note_below, polygon
+from plyfold.draw.canvas import blank, grid, line, note_below, polygon
 from plyfold.draw.layout_plot import plot_layout
+from plyfold.draw.placement import Frame, closed, drawn_points, label_circle, line_weight
 from plyfold.immersion.immersion import Immersion, require_immersion
 from plyfold.immersion.solve import count_immersions, find_immersion, immersions
 from plyfold.options import refuse_unless_count

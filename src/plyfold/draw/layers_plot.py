@@ -8,10 +8,10 @@ import numpy as np
 
 from plyfold.arrays import Floats
 from plyfold.colours import INK, PAPER, mix, sheet_colour
-from plyfold.draw.arrangement_plot import drawn_points
-from plyfold.draw.canvas import Frame, blank, closed, line, line_weight, polygon, write
+from plyfold.draw.canvas import blank, line, polygon, write
 from plyfold.draw.casing_gaps import cased_strands
 from plyfold.draw.over_under import OverUnder, over_under
+from plyfold.draw.placement import Frame, closed, drawn_points, line_weight
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -67,7 +67,7 @@ def _layer(axes: Axes, layering: Layering | IntersectingLayering, level: int, fr
     arrangement = immersion.arrangement
     for sheet in np.flatnonzero(layering.level == level).tolist():
         outline = frame(arrangement.cell_outline(int(immersion.sheet_cell[sheet]))) @ _SHEAR + lift
-        polygon(axes, outline, mix(sheet_colour(sheet), PAPER, 0.25), edgecolor="white", linewidth=0.7)
+        polygon(axes, outline, mix(sheet_colour(sheet), PAPER, 0.25), edgecolor=PAPER, linewidth=0.7)
     for border in np.flatnonzero(layering.level[immersion.own_sheet] == level).tolist():
         points = arrangement.border_points(border)
         flat = frame(closed(points) if arrangement.n_crossings == 0 else points) @ _SHEAR

@@ -8,9 +8,10 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 from plyfold.colours import INK, PAPER, rgb, sheet_colour
-from plyfold.draw.canvas import blank, closed, line, middle_and_size, new_axes
+from plyfold.draw.canvas import blank, line, new_axes
 from plyfold.draw.depth_buffer import View
 from plyfold.draw.obstruction_plot import plot_obstruction
+from plyfold.draw.placement import closed, middle_and_size
 from plyfold.draw.render import Mesh, shade
 from plyfold.obstruction import Obstruction
 

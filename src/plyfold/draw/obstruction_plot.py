@@ -13,8 +13,9 @@ from plyfold.arrangement.arrangement import Arrangement, CurveLike
 from plyfold.arrangement.arrangement import arrange as arrangement_of
 from plyfold.arrays import Floats
 from plyfold.colours import OBSTRUCTION, PAPER, mix, sheet_colour, text_colour, winding_colour
-from plyfold.draw.arrangement_plot import drawn_points, plot_arrangement
-from plyfold.draw.canvas import Frame, border_middle, label_circle, polygon, write, write_below
+from plyfold.draw.arrangement_plot import plot_arrangement
+from plyfold.draw.canvas import polygon, write, write_below
+from plyfold.draw.placement import Frame, border_middle, drawn_points, label_circle
 from plyfold.errors import InputError
 from plyfold.immersion.immersion import Immersion
 from plyfold.immersion.solve import find_immersion

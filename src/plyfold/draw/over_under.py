@@ -17,8 +17,8 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.colours import CLOTH_HIGH, PAPER, layer_colour, mix, sheet_colour
-from plyfold.draw.canvas import Frame, line_weight
 from plyfold.draw.casing_gaps import cut_strands, strand_with_gaps
+from plyfold.draw.placement import Frame, line_weight
 from plyfold.errors import InputError
 from plyfold.layering.layering import Layering
 

@@ -9,9 +9,10 @@ import numpy as np
 
 from plyfold.arrays import Floats
 from plyfold.colours import INK, OBSTRUCTION, layer_colour, rgb, sheet_colour
-from plyfold.draw.canvas import blank, closed, line, line_weight, middle_and_size, natural_stretch
+from plyfold.draw.canvas import blank, line
 from plyfold.draw.depth_buffer import View
 from plyfold.draw.over_under import ClothColours
+from plyfold.draw.placement import closed, line_weight, middle_and_size, natural_stretch
 from plyfold.draw.render import Image, Mesh, shade
 from plyfold.errors import InputError
 from plyfold.options import refuse_unless_count, refuse_unless_number

@@ -131,7 +131,7 @@ class Immersion:
 
     def _repr_svg_(self) -> str | None:
         # The disk layout; what is no disk has none.
-        from plyfold.draw.layout_svg import layout_svg
+        from plyfold.draw.svg import layout_svg
 
         return layout_svg(self) if self.is_disk else None
 

@@ -55,7 +55,7 @@ class Layering:
 
     def _repr_svg_(self) -> str | None:
         # A Gauss code alone has no picture, several curves none yet.
-        from plyfold.draw.over_under_svg import over_under_svg
+        from plyfold.draw.over_under_files import over_under_svg
 
         return over_under_svg(self, colours="sheets") if len(self.immersion.arrangement.curves) == 1 else None
 
