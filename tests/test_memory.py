@@ -5,10 +5,10 @@ from functools import cache
 
 import numpy as np
 import pytest
-from plyfold.layering.clock import NO_LIMIT
 
 import plyfold as pf
 from plyfold import memory
+from plyfold.clock import NO_LIMIT
 from plyfold.errors import MemoryLimitError
 from plyfold.immersion import immersion
 from plyfold.layering.levels.clauses import LevelClauses, solve_levels
