@@ -23,12 +23,12 @@ import numpy.typing as npt
 
 from plyfold.arrangement.arrangement import CurveLike
 from plyfold.arrays import Floats, Ints, freeze, read_only
-from plyfold.certify import CertificateError, check_immersed_disk
+from plyfold.certify import check_immersed_disk
 from plyfold.disk.arcs import Arc, arcs_of
 from plyfold.disk.files import model_of_disk
 from plyfold.disk.places import Missing, Places, locate, neighbours, places_in_sheet
 from plyfold.disk.round_map import round_map
-from plyfold.errors import InputError, PlyfoldError
+from plyfold.errors import CertificateError, InputError, PlyfoldError
 from plyfold.flat.triangulate import chosen_immersion
 from plyfold.immersion.immersion import Immersion
 from plyfold.io.mesh.saving import save_model
