@@ -21,7 +21,6 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.arrangement import CurveLike
 from plyfold.arrays import Floats, Ints, freeze, read_only
 from plyfold.certify import check_immersed_disk
 from plyfold.disk.arcs import Arc, arcs_of
@@ -34,6 +33,7 @@ from plyfold.immersion.immersion import Immersion
 from plyfold.io.mesh.saving import save_model
 from plyfold.mesh.cells import DEFAULT_TRIANGLES, refuse_sizes, triangulate_cells
 from plyfold.mesh.sheets import glue_copies
+from plyfold.outline.curve import CurveLike
 from plyfold.outline.points import as_points
 
 __all__ = ["DISK_ENDINGS", "UnwoundDisk", "map_disk", "unwrap"]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.arrangement import arrange as arrangement_of
 from plyfold.arrays import Floats
 from plyfold.colours import ACCENT, INK, OBSTRUCTION, mix, text_colour, winding_colour
@@ -26,6 +26,7 @@ from plyfold.draw.canvas import (
     write,
     write_below,
 )
+from plyfold.outline.curve import CurveLike
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

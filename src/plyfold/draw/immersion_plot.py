@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import CurveLike
 from plyfold.arrays import Floats
 from plyfold.colours import INK, PAPER, mix, sheet_colour
 from plyfold.draw.arrangement_plot import drawn_points
@@ -16,6 +15,7 @@ from plyfold.draw.layout_plot import plot_layout
 from plyfold.immersion.immersion import Immersion, require_immersion
 from plyfold.immersion.solve import count_immersions, find_immersion, immersions
 from plyfold.options import refuse_unless_count
+from plyfold.outline.curve import CurveLike
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
+from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import PlyfoldError, PrecisionError
 from plyfold.mesh.cells import chain_of
+from plyfold.outline.curve import CurveLike
 
 if TYPE_CHECKING:
     from shapely import Polygon

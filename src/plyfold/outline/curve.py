@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
 
-__all__ = ["Coded", "Curve", "CurveLike", "Drawn", "Geometry", "Repair", "as_curve"]
+__all__ = ["Coded", "Curve", "CurveLike", "Drawn", "Geometry", "OutlineLike", "Repair", "as_curve"]
 
 
 class Drawn(Protocol):
@@ -57,6 +57,9 @@ CurveLike: TypeAlias = (
     "Curve | Drawn | Coded | Geometry | npt.NDArray[Any] | Sequence[Sequence[float]] | Sequence[npt.NDArray[Any]]"
 )
 """Whatever stands for a closed curve: a curve, points of shape (n, 2), a shapely geometry, an arrangement or a code."""
+
+OutlineLike: TypeAlias = "CurveLike | Sequence[CurveLike]"
+"""Whatever stands for an outline: a closed curve, or a list of them."""
 
 
 @dataclass(frozen=True, eq=False, init=False)

@@ -12,7 +12,7 @@ from typing import cast
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike, watched_arrangement
+from plyfold.arrangement.arrangement import Arrangement, watched_arrangement
 from plyfold.arrays import Floats, Ints, freeze
 from plyfold.certify import check_surface
 from plyfold.clock import UNWATCHED, Clock, Progress, Watch
@@ -28,7 +28,7 @@ from plyfold.layering.orders.search import first_layering
 from plyfold.mesh.cells import DEFAULT_TRIANGLES, area_of_edge, refuse_broken, refuse_sizes, triangulate_cells
 from plyfold.obstruction import IMMERSION_REASONS, Obstruction
 from plyfold.options import refuse_unless_flag, refuse_unless_number
-from plyfold.outline.curve import Curve
+from plyfold.outline.curve import Curve, CurveLike
 from plyfold.surface.chords import split_chords
 from plyfold.surface.files import Colouring, model_of_surface
 from plyfold.surface.glue import glue_sheets, intersection_curves
