@@ -1,4 +1,4 @@
-"""The colours of all pictures, chosen in one place.
+"""The colours of all pictures and pages, chosen in one place: the pages get them as CSS variables.
 
 The sheets of a surface are told apart by hues that stay apart for colour-blind eyes (after Okabe and Ito [OI08]_);
 winding numbers are an order, so they go from light to strong in one hue, and negative ones warn in red.
@@ -11,7 +11,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 __all__ = [
     "ACCENT",
@@ -19,11 +19,14 @@ __all__ = [
     "CLOTH_HIGH",
     "CLOTH_LOW",
     "INK",
+    "LINE_ON_DARK",
     "OBSTRUCTION",
+    "PALE",
     "PAPER",
     "SHEETS",
     "layer_colour",
     "mix",
+    "page_style",
     "rgb",
     "sheet_colour",
     "text_colour",
@@ -38,6 +41,8 @@ OBSTRUCTION = "#d1203a"
 CLOTH_LOW = "#1f57a4"
 CLOTH_HIGH = "#79b8ee"
 BACK = "#e8a87c"
+PALE = "#b4bccb"
+LINE_ON_DARK = "#0b0f17"
 
 SHEETS = (
     "#2f7fc1",
@@ -53,6 +58,35 @@ SHEETS = (
 _WINDING = ("#dcebf8", "#abcff1", "#76aee4", "#4889d0", "#2768b0", "#134886")
 _NEGATIVE = ("#fbd9d6", "#f2a49d", "#dd6a66", "#bf3a44", "#9b1c30")
 _LAYERS = ("#1b4f98", "#bfe3f2")
+
+# On a dark page winding numbers go from dim to bright.
+_WINDING_AT_NIGHT = ("#1c3a5e", "#24568d", "#2f75ba", "#4a95da", "#78b6ec", "#abd4f3")
+_NEGATIVE_AT_NIGHT = ("#54262c", "#823039", "#b04550", "#d56f73", "#f0a6a2")
+
+_PAPER_AT_NIGHT = "#1e2430"
+_INK_AT_NIGHT = "#e8ecf3"
+
+# The names of the pages' variables: their colours on a light and on a dark page. Of what is behind a colour with eight
+# digits, some is seen: the last two say how little.
+_PAGE: Mapping[str, tuple[str, str]] = {
+    "ink": (INK, _INK_AT_NIGHT),
+    "soft": ("#566072", "#a8b2c2"),
+    "paper": ("#fdfdfc", "#171c25"),
+    "ground": ("#eef1f5", "#10141b"),
+    "raised": (PAPER, _PAPER_AT_NIGHT),
+    "panel": (f"{PAPER}e0", f"{_PAPER_AT_NIGHT}e6"),
+    "edge": (f"{INK}21", f"{_INK_AT_NIGHT}26"),
+    "shade": ("#0a0e1673", "#0a0e1673"),
+    "strong": (CLOTH_LOW, CLOTH_HIGH),
+    "on-strong": (PAPER, "#10141b"),
+    "accent": (ACCENT, "#f29b6b"),
+    "wrong": (OBSTRUCTION, "#ff6b78"),
+    "good": ("#10705a", "#6fd3b5"),
+    "lit": ("#f2b632", "#d99a1c"),
+    "dot": ("#cfd6e0", "#333c4b"),
+    "centre": (PAPER, "#2c3444"),
+    "rim": ("#e3e8ef", "#151a23"),
+}
 
 
 def rgb(colour: str) -> tuple[float, float, float]:
@@ -128,6 +162,40 @@ def text_colour(background: str) -> str:
     """
     ink, paper = (_contrast(colour, background) for colour in (INK, PAPER))
     return INK if ink >= paper else PAPER
+
+
+def page_style() -> str:
+    """Return the colours of the pages as a style sheet: CSS variables for light pages and for dark ones.
+
+    A page is as the system has it, unless an attribute ``data-theme`` says ``light`` or ``dark``. Shades of winding
+    numbers, the colours of words on them, and the sheets' colours are variables with a list.
+
+    Examples
+    --------
+    >>> page_style().splitlines()[:3]
+    [':root, [data-theme="light"] {', '  color-scheme: light;', '  --ink: #1d2638;']
+    """
+    light, dark = (_variables(theme) for theme in (0, 1))
+    by_system = ':root:not([data-theme="light"], :has([data-theme="light"]))'
+    return (
+        f':root, [data-theme="light"] {{\n  color-scheme: light;\n{light}}}\n\n'
+        f'[data-theme="dark"] {{\n  color-scheme: dark;\n{dark}}}\n\n'
+        f"@media (prefers-color-scheme: dark) {{ {by_system} {{\n  color-scheme: dark;\n{dark}}} }}\n\n"
+    )
+
+
+def _variables(theme: int) -> str:
+    """Return the variables of a light (0) or dark (1) page."""
+    winding, negative = ((_WINDING, _NEGATIVE), (_WINDING_AT_NIGHT, _NEGATIVE_AT_NIGHT))[theme]
+    lists = {
+        "winding": winding,
+        "on-winding": map(text_colour, winding),
+        "negative": negative,
+        "on-negative": map(text_colour, negative),
+        "sheets": map(sheet_colour, range(3 * len(SHEETS))),
+    }
+    values = {name: colours[theme] for name, colours in _PAGE.items()} | {k: " ".join(v) for k, v in lists.items()}
+    return "".join(f"  --{name}: {value};\n" for name, value in values.items())
 
 
 def _hex(channels: Sequence[float]) -> str:
