@@ -46,7 +46,7 @@ def with_lines(trees, module, *lines):
         (
             "plyfold.outline.points",
             "import plyfold.outline.curve",
-            "in a circle: plyfold.outline.curve, plyfold.outline.",
+            "in a circle: plyfold.outline.curve, plyfold.",
         ),
         ("plyfold.certify.solid", "import plyfold.arrays", "a checker reads plyfold.arrays"),
         (

@@ -15,6 +15,7 @@ import plyfold as pf
 from plyfold.cli.commands import main
 from plyfold.cli.progress import Stopwatch
 from plyfold.gallery import CURVES
+from plyfold.report import words
 
 LOOP = "0,0\n9,0\n9,6\n3,6\n3,-3\n4,-3\n4,5\n8,5\n8,1\n0,1\n"
 EIGHT = "0,0\n2,2\n2,0\n0,2\n"
@@ -37,14 +38,15 @@ def eight(tmp_path):
 def test_check_says_yes(loop, capsys):
     assert main(["check", str(loop)]) == 0
     text = capsys.readouterr().out
-    assert text.startswith("Yes")
+    assert text.startswith(f"Yes. {words(1).sentence}\n")
     for line in ("crossings                4", "turning number           1", "immersions               1"):
         assert line in text
 
 
 def test_check_says_no(eight, capsys):
     assert main(["check", str(eight)]) == 1
-    assert "turns 0 times" in capsys.readouterr().out
+    text = capsys.readouterr().out
+    assert text.startswith("No disk. The curve turns 0 times")
 
 
 @pytest.mark.parametrize("name", CURVES)

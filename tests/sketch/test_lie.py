@@ -1,5 +1,6 @@
 """How the cloth lies, as the page is told: every number of it against the definitions."""
 
+from dataclasses import asdict
 from itertools import combinations
 
 import numpy as np
@@ -8,6 +9,7 @@ import shapely
 
 from plyfold.errors import TimeLimitError
 from plyfold.gallery import CURVES, chain
+from plyfold.report import words
 from plyfold.sketch import drawings
 from plyfold.sketch.lie import lie
 from plyfold.sketch.lifting import surface
@@ -158,6 +160,7 @@ def test_what_is_not_decided_in_time_is_unknown(no_time):
     answer = asked(points)
     assert (answer["layerable"], answer["layerings"], answer["levels"]) == (None, None, None)
     assert answer["obstruction"] is None
+    assert answer["verdict"] == asdict(words(1, decided=False))
     with pytest.raises(TimeLimitError):
         surface(Surface(closed(points), 0, 0, None, 300))
 
@@ -169,6 +172,15 @@ def test_the_surface_is_that_of_the_layering():
     assert first["mesh"]["level"] != second["mesh"]["level"]
     assert first["gap"] == pytest.approx(0.05 * np.ptp(points, axis=0).max())
     assert surface(Surface(closed(points), 0, 0, 2.5, 300))["gap"] == 2.5
+
+
+def test_the_verdict_is_in_the_words_of_the_report():
+    points = CURVES["smallest-unliftable"].curve.points.tolist()
+    answers = [asked(points, number) for number in (0, 1)]
+    stuck, lifted = sorted(answers, key=lambda answer: answer["layerable"])
+    assert lifted["verdict"] == asdict(words(2))
+    assert stuck["verdict"] == asdict(words(2, stuck["obstruction"]["sentence"]))
+    assert stuck["verdict"]["headline"] == "A disk of cloth, in 2 ways; this one cannot be lifted"
 
 
 def test_a_surface_that_cuts_itself_only_where_that_is_asked_for():

@@ -8,7 +8,8 @@ import shapely
 
 from plyfold.errors import CurveError, StrokeError
 from plyfold.gallery import CURVES, chain
-from plyfold.sketch.look import in_words, look
+from plyfold.report import in_words
+from plyfold.sketch.look import look
 from plyfold.sketch.schema import Look, Stroke
 from reference import crossings
 from reference.random_curves import MILNOR_LIKE

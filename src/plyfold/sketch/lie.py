@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from time import perf_counter
 from typing import Any
 
@@ -13,7 +14,8 @@ from plyfold.errors import NotImmersibleError
 from plyfold.immersion.compare import changed_borders
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering
-from plyfold.obstruction import Obstruction
+from plyfold.obstruction import Obstruction, Unknown
+from plyfold.report import words
 from plyfold.sketch.drawings import Layered, immersed, immersion_count, layered
 from plyfold.sketch.schema import VERSION, Lie
 
@@ -64,7 +66,8 @@ def lie(question: Lie) -> dict[str, Any]:
         "sheet_cell": disk.sheet_cell.tolist(),
         "layout": _layout(disk),
     }
-    answer |= _layering(layered(question.strokes, question.immersion, question.layering))
+    found = layered(question.strokes, question.immersion, question.layering)
+    answer |= _layering(found) | {"verdict": _verdict(count, found.found)}
     return answer | {"seconds": perf_counter() - began}
 
 
@@ -92,6 +95,12 @@ def _layering(layered: Layered) -> dict[str, Any]:
         "levels": found.level.tolist() if isinstance(found, Layering) else None,
         "casing": found.casing.tolist() if isinstance(found, Layering) else None,
     }
+
+
+def _verdict(count: int, found: Layering | Obstruction | Unknown) -> dict[str, str]:
+    """Return the verdict on the loop in words, now that it is known whether this immersion can be lifted."""
+    obstruction = found.sentence if isinstance(found, Obstruction) else ""
+    return asdict(words(count, obstruction, decided=not isinstance(found, Unknown)))
 
 
 def _changed(question: Lie, disk: Immersion, count: int) -> list[int]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+from dataclasses import asdict
 from time import perf_counter
 from typing import Any
 
@@ -15,13 +15,13 @@ from plyfold.immersion.blank_word import blank_word
 from plyfold.immersion.solve import count_immersions, find_immersion
 from plyfold.obstruction import Obstruction
 from plyfold.offers.kinks import Kink, find_kink
+from plyfold.report import words
 from plyfold.sketch.drawings import arranged
 from plyfold.sketch.schema import VERSION, Look
 
-__all__ = ["in_words", "look"]
+__all__ = ["look"]
 
 _LONGEST_WORD = 60
-_LONGEST_NUMBER = 12
 _LABEL_TOLERANCE = 0.02
 
 
@@ -69,21 +69,6 @@ def look(question: Look) -> dict[str, Any]:
     }
 
 
-def in_words(count: int) -> str:
-    """Return a count as people read it; from a million million on, only how large it is.
-
-    Examples
-    --------
-    >>> in_words(12345), in_words(2**400)
-    ('12,345', 'about 2.58 · 10^120')
-    """
-    if len(str(count)) <= _LONGEST_NUMBER:
-        return f"{count:,}"
-    exponent = len(str(count)) - 1
-    leading = math.floor(count // 10 ** (exponent - 3) / 10) / 100
-    return f"about {leading:.2f} · 10^{exponent}"
-
-
 def _border(drawn: Arrangement, border: int) -> list[list[float]]:
     points = drawn.border_points(border)
     whole = points if drawn.n_crossings else np.concatenate([points, points[:1]])
@@ -108,12 +93,11 @@ def _verdict(drawn: Arrangement) -> dict[str, Any]:
     if isinstance(found, Obstruction):
         return _no_disk(drawn, found)
     count = count_immersions(drawn)
-    ways = "in one way" if count == 1 else f"in {in_words(count)} ways"
     return {
         "immersible": True,
         "immersions": str(count),
         "reason": None,
-        "sentence": f"Yes: this is the outline of a disk of cloth, which can lie {ways}.",
+        **asdict(words(count)),
         "where": [],
         "kink": None,
     }
@@ -125,7 +109,7 @@ def _no_disk(drawn: Arrangement, obstruction: Obstruction) -> dict[str, Any]:
         "immersible": False,
         "immersions": "0",
         "reason": obstruction.reason,
-        "sentence": f"No disk. {obstruction.sentence}",
+        **asdict(words(0, obstruction.sentence)),
         "where": [list(place) for place in obstruction.where],
         "kink": kink and _kink(kink),
     }
