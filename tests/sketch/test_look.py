@@ -9,7 +9,7 @@ import shapely
 from plyfold.errors import CurveError, StrokeError
 from plyfold.gallery import CURVES, chain
 from plyfold.report import in_words
-from plyfold.sketch.look import look
+from plyfold.sketch.look import look_at
 from plyfold.sketch.schema import Look, Stroke
 from reference import crossings
 from reference.random_curves import MILNOR_LIKE
@@ -20,7 +20,7 @@ def closed(points):
 
 
 def asked(points):
-    return look(Look(closed(points)))
+    return look_at(Look(closed(points)))
 
 
 def area(points):
@@ -93,13 +93,13 @@ def test_strokes_in_any_order_and_direction_make_one_loop():
     points = [tuple(map(float, p)) for p in MILNOR_LIKE]
     pieces = [points[0:4], points[3:8], points[7:12], [points[11], points[0]]]
     strokes = [pieces[2][::-1], pieces[0], pieces[3], pieces[1][::-1]]
-    answer = look(Look(tuple(Stroke(tuple(stroke)) for stroke in strokes)))
+    answer = look_at(Look(tuple(Stroke(tuple(stroke)) for stroke in strokes)))
     assert answer["verdict"]["immersions"] == "2"
     assert {tuple(p) for p in answer["points"]} == set(points)
 
 
 def test_bridged_gaps_are_told():
-    answer = look(Look((Stroke(((0, 0), (4, 0))), Stroke(((4, 0.25), (0, 3), (0, 0))))))
+    answer = look_at(Look((Stroke(((0, 0), (4, 0))), Stroke(((4, 0.25), (0, 3), (0, 0))))))
     assert answer["repairs"] == [{"kind": "gap bridged", "where": [4, 0.125], "size": 0.25}]
 
 
@@ -113,7 +113,7 @@ def test_bridged_gaps_are_told():
 )
 def test_what_is_not_one_loop_is_unfinished(strokes, words):
     with pytest.raises(StrokeError, match=words):
-        look(Look(strokes))
+        look_at(Look(strokes))
 
 
 def test_a_loop_that_crosses_itself_too_often_is_refused():

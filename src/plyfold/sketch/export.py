@@ -19,9 +19,9 @@ from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, P
 from plyfold.layering.layering import Layering
 from plyfold.obstruction import Obstruction
 from plyfold.sketch.drawings import arranged, immersed
-from plyfold.sketch.embedding import png_with, svg_with
-from plyfold.sketch.lifting import lifted_surface
-from plyfold.sketch.schema import Document, Export, Points, document_data
+from plyfold.sketch.lie import lifted_surface
+from plyfold.sketch.pictures import png_with, svg_with
+from plyfold.sketch.schema import Document, Export, Polyline, document_data
 
 __all__ = ["FORMATS", "export"]
 
@@ -63,8 +63,8 @@ def export(order: Export) -> tuple[bytes, str]:
 
     Examples
     --------
-    >>> from plyfold.sketch.schema import Surface
-    >>> export(Export(Document(()), "json", Surface((), 0, 0, None, 100)))[1]
+    >>> from plyfold.sketch.schema import Lift
+    >>> export(Export(Document(()), "json", Lift((), 0, 0, None, 100)))[1]
     'application/json'
     """
     if order.format not in _TYPES:
@@ -170,7 +170,7 @@ def _strokes_figure(document: Document) -> Any:
     return figure
 
 
-def _line(points: Points, closed: bool) -> Floats:
+def _line(points: Polyline, closed: bool) -> Floats:
     return np.array([*points, *points[:1]] if closed else points, dtype=np.float64)
 
 
