@@ -59,7 +59,7 @@ def plot_arrangement(
         Where to draw; by default on a new figure.
     obstruction : Obstruction, optional
         Mark its places by red crosses and put its sentence below.
-    borders : bool
+    borders : bool, optional
         Number the borders, up to 60 of them; a note says if there are more.
 
     Returns

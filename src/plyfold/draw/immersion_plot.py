@@ -118,7 +118,7 @@ def plot_immersions(curve: CurveLike, ax: Axes | None = None, *, most: int = 4) 
     curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
     ax : matplotlib Axes, optional
         Where to draw; by default on a new figure. Each picture gets axes of its own inside these (``ax.child_axes``).
-    most : int
+    most : int, optional
         How many to draw; if there are more, a note says so.
 
     Returns

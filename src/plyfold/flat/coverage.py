@@ -23,7 +23,18 @@ __all__ = ["Covered", "coverage", "outlined"]
 
 
 class Covered(NamedTuple):
-    """A cell, and how often the curve goes round it, counter-clockwise in the direction of its arrangement."""
+    """A cell, and how often the curve goes round it, counter-clockwise in the direction of its arrangement.
+
+    Parameters
+    ----------
+    polygon : shapely.Polygon
+    winding : int
+
+    Examples
+    --------
+    >>> [cell.winding for cell in coverage([(0, 0), (1, 0), (0, 1)])]
+    [1]
+    """
 
     polygon: Polygon
     winding: int
