@@ -35,7 +35,7 @@ from plyfold.paper.collapsed import (
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "tests"))
 
-from layering.test_paper_layering import LIFTS_ANOTHER_WAY, eight_crossings  # noqa: E402
+from paper.test_layering import LIFTS_ANOTHER_WAY, eight_crossings  # noqa: E402
 from reference.planar_maps import census, may_bound_disk  # noqa: E402
 from reference.random_curves import angle, glued_disk, ribbon_outline  # noqa: E402
 

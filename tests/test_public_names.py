@@ -5,9 +5,13 @@ import sys
 from types import ModuleType
 
 import numpy as np
+import pytest
 from mypy import api
 
 import plyfold as pf
+
+RAMP = [(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)]
+HEAVY = {"numpy", "scipy", "shapely", "pysat", "matplotlib", "numba"}
 
 
 def test_public_names():
@@ -94,11 +98,20 @@ def test_a_type_checker_sees_mistakes(tmp_path):
     assert [line.split(": error: ")[0].split(":")[-1] for line in found.splitlines()[:-1]] == ["4", "6"]
 
 
+def loaded_by(lines):
+    """Which of the libraries that take long to load some lines need, in a fresh process."""
+    program = f"import sys\nimport plyfold as pf\n{lines}\nprint(*{HEAVY} & sys.modules.keys())"
+    done = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True)
+    return set(done.stdout.split())
+
+
 def test_importing_loads_nothing_heavy():
-    program = (
-        "import sys, plyfold; print(*sorted({'numpy', 'scipy', 'shapely', 'pysat', 'matplotlib'} & sys.modules.keys()))"
-    )
-    assert subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True).stdout == "\n"
+    assert loaded_by("") == set()
+
+
+@pytest.mark.parametrize("name", ["arrange", "bounds_disk", "find_immersion", "count_immersions"])
+def test_small_answers_load_what_crossings_need(name):
+    assert loaded_by(f"pf.{name}({RAMP})") == {"numpy", "shapely"}
 
 
 def test_values_leave_the_arrays_they_were_given_as_they_were():

@@ -1,7 +1,8 @@
 """The shape of the code, measured: ``python tools/house.py`` prints the table, ``--check`` holds the rules.
 
 The rules: every file reads rooms before its own alone, but for the lines named in :data:`EXCEPTIONS`; no imports go
-round in circles; the checkers of ``certify`` read nothing but errors; no top-level name is in two modules.
+round in circles; the checkers of ``certify`` read nothing but errors; a public name is in one module alone, but for the
+same thing, see :data:`SAME_THINGS`.
 """
 
 from __future__ import annotations
@@ -58,6 +59,22 @@ EXCEPTIONS = {
     ("plyfold.surface.lift", "plyfold.draw.film"): "export to .gif and .mp4",
     ("plyfold.surface.lift", "plyfold.draw.viewer"): "export to .html, show, and _repr_html_ of a surface",
 }
+
+# Public names that several modules define, for they are the same thing: the reason to define them again.
+SAME_THINGS = {
+    "Bools": "certify shares nothing with what it checks",
+    "Floats": "certify shares nothing with what it checks",
+    "Ints": "certify shares nothing with what it checks",
+    "Signs": "certify shares nothing with what it checks",
+    "find_immersion": "the exact one, and that of the paper as pf.paper.find_immersion",
+    "find_layering": "the exact one, and that of the paper as pf.paper.find_layering",
+    "main": "the program: its first lines, before the library is imported, and what they hand over to",
+}
+
+# Names of several things that are to be told apart.
+FOR_NOW: frozenset[str] = frozenset(
+    ["Arc", "Clause", "Clauses", "Outline", "Piece", "Places", "Room", "following", "glue_sheets"],
+)
 
 LIFT = """
 import collections, sys
@@ -271,9 +288,8 @@ def table() -> str:
     return "\n".join(["| measure | value |", "|---|---|", *(f"| {name} | {value} |" for name, value in rows)])
 
 
-def broken_rules() -> Iterator[str]:
+def broken_rules(trees: dict[str, ast.Module]) -> Iterator[str]:
     """Yield a sentence for every rule that is broken."""
-    trees = modules()
     found = imports(trees)
     for line in unexplained(found):
         yield f"{line.module}, line {line.line}: reads {line.target}, which does not come before it"
@@ -285,6 +301,11 @@ def broken_rules() -> Iterator[str]:
     for line in found:
         if room(line.module) == "certify" != room(line.target) and line.target != "plyfold.errors":
             yield f"{line.module}, line {line.line}: a checker reads {line.target}"
+    several = {name: homes for name, homes in names_in_several_modules(trees).items() if not name.startswith("_")}
+    for name in several.keys() - SAME_THINGS.keys() - FOR_NOW:
+        yield f"{name} names several things: in {', '.join(several[name])}"
+    for name in SAME_THINGS.keys() - several.keys():
+        yield f"the reason for {name} to be defined again is not needed"
 
 
 def main() -> int:
@@ -294,8 +315,8 @@ def main() -> int:
     if not parser.parse_args().check:
         print(table())
         return 0
-    broken = sorted(broken_rules())
-    print("\n".join(broken) if broken else "All imports follow the order of the rooms.")
+    broken = sorted(broken_rules(modules()))
+    print("\n".join(broken) if broken else "The house is in order.")
     return bool(broken)
 
 

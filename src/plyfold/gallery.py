@@ -41,6 +41,11 @@ class NamedCurve:
         In how many ways the curve bounds an immersed disk.
     embeddable : int
         How many of these can be layered.
+
+    Examples
+    --------
+    >>> CURVES["milnor"]
+    <NamedCurve milnor: 6 crossings, 2 immersions>
     """
 
     name: str
@@ -97,7 +102,7 @@ def rounded(corners: npt.ArrayLike, rounds: int = 3) -> Points:
     Parameters
     ----------
     corners : array_like, shape (n, 2)
-    rounds : int
+    rounds : int, optional
 
     Returns
     -------
@@ -294,6 +299,15 @@ CURVES: Mapping[str, NamedCurve] = {
 
 def named_curve(name: str) -> NamedCurve:
     """Return a curve of the gallery.
+
+    Parameters
+    ----------
+    name : str
+        As ``plyfold gallery`` lists it.
+
+    Returns
+    -------
+    NamedCurve
 
     Raises
     ------

@@ -3,7 +3,8 @@
 import numpy as np
 
 import plyfold as pf
-from plyfold.certify import CertificateError, check_immersed_disk
+from plyfold.certify import check_immersed_disk
+from plyfold.errors import CertificateError
 from reference.certificates import is_immersed_disk
 from reference.random_curves import Polygon, glued_disk
 

@@ -13,7 +13,7 @@ from urllib.parse import urlsplit
 import numpy as np
 import pytest
 
-from plyfold.sketch.answers import json_answer
+from plyfold.sketch.answers import json_reply
 from plyfold.sketch.opening import start
 from plyfold.sketch.pages import _policy
 from plyfold.sketch.server import SketchServer
@@ -335,7 +335,7 @@ class Observed(Server):
 @pytest.fixture
 def observed():
     workers = Workers()
-    serving = SketchServer("127.0.0.1", 0, workers, json_answer(start(None)))
+    serving = SketchServer("127.0.0.1", 0, workers, json_reply(start(None)))
     thread = threading.Thread(target=serving.serve_forever)
     thread.start()
     yield Observed(serving.address, None, None, workers)

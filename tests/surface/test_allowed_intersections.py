@@ -8,8 +8,8 @@ import pytest
 
 from plyfold.arrangement.arrangement import arrange
 from plyfold.arrangement.gauss import GaussCode
-from plyfold.certify import CertificateError, check_layered, check_surface
-from plyfold.errors import NotEmbeddableError
+from plyfold.certify import check_layered, check_surface
+from plyfold.errors import CertificateError, NotEmbeddableError
 from plyfold.gallery import CURVES
 from plyfold.immersion.solve import immersions
 from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering

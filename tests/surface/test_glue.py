@@ -7,7 +7,8 @@ import pytest
 
 from plyfold import find_layering, immersions
 from plyfold.arrangement.arrangement import arrange
-from plyfold.certify import CertificateError, check_disk_mesh, check_immersed_disk, check_layered
+from plyfold.certify import check_disk_mesh, check_immersed_disk, check_layered
+from plyfold.errors import CertificateError
 from plyfold.gallery import CURVES
 from plyfold.layering.layering import Layering
 from plyfold.mesh.cells import triangulate_cells

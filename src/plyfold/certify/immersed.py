@@ -8,8 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.certify.disk import Sides, disk_sides
-from plyfold.certify.exact import Bools, CertificateError, Floats, Ints, different, finite
+from plyfold.certify.exact import Bools, Floats, Ints, different, finite
 from plyfold.certify.places import Places, on_edges, require_positive
+from plyfold.errors import CertificateError
 
 __all__ = [
     "Walk",
@@ -63,7 +64,7 @@ def check_immersed_disk(
     >>> check_immersed_disk(square, square, [[0, 1, 2], [0, 2, 3]], boundary=[0, 1, 2, 3])
     >>> check_immersed_disk(square, square, [[0, 1, 2], [0, 2, 3]], boundary=[1, 2, 3, 0])
     Traceback (most recent call last):
-    plyfold.certify.exact.CertificateError: the boundary does not start at the curve's first point, at (0, 0)
+    plyfold.errors.CertificateError: the boundary does not start at the curve's first point, at (0, 0)
     """
     sides, walk = walked(curve_points, vertices_xy, faces, boundary)
     require_immersed(sides, walk, on_edges(walk.near, walk.edges, walk.curve, walk.is_point))

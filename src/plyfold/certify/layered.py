@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.certify.exact import Bools, CertificateError, Floats, Ints, as_faces, different, finite, pair_keys
+from plyfold.certify.exact import Bools, Floats, Ints, as_faces, different, finite, pair_keys
 from plyfold.certify.places import Places, doubles, require_positive
+from plyfold.errors import CertificateError
 
 __all__ = ["check_layered", "require_gap", "require_layered", "require_no_overlap"]
 
@@ -60,7 +61,7 @@ def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.
     >>> two_sheets[3] = (0, 0, -1)
     >>> check_layered(two_sheets, [[0, 1, 2], [3, 4, 5]])
     Traceback (most recent call last):
-    plyfold.certify.exact.CertificateError: two triangles over one another change their order, at (0, 0), (1, 0), (0, 1)
+    plyfold.errors.CertificateError: two triangles over one another change their order, at (0, 0), (1, 0), (0, 1)
     """
     require_gap(gap)
     positions = finite(vertices, 3)

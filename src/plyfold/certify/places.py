@@ -14,7 +14,8 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.certify.exact import Bools, CertificateError, Floats, Ints
+from plyfold.certify.exact import Bools, Floats, Ints
+from plyfold.errors import CertificateError
 
 __all__ = ["Places", "doubles", "on_edges", "require_positive"]
 

@@ -11,6 +11,7 @@ from plyfold.cli.draw import add_draw_command
 from plyfold.cli.flat import add_flat_commands
 from plyfold.cli.gallery import add_gallery_command
 from plyfold.cli.inputs import NO_DISK
+from plyfold.cli.interrupts import INTERRUPTED, INTERRUPTED_SENTENCE
 from plyfold.cli.lift import add_lift_command
 from plyfold.cli.progress import clear_progress
 from plyfold.cli.sketch import add_sketch_command
@@ -19,7 +20,7 @@ from plyfold.errors import NotEmbeddableError, NotImmersibleError, PlyfoldError,
 
 __all__ = ["main"]
 
-BAD_INPUT, UNKNOWN, INTERRUPTED = 2, 3, 130
+BAD_INPUT, UNKNOWN = 2, 3
 
 _COMMANDS = (
     add_check_command,
@@ -85,7 +86,7 @@ def main(arguments: list[str] | None = None) -> int:
         return _complain(options, error, BAD_INPUT)
     except KeyboardInterrupt:
         clear_progress()
-        complain("plyfold: interrupted; nothing was left half-written")
+        complain(INTERRUPTED_SENTENCE)
         return INTERRUPTED
 
 

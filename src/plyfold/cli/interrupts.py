@@ -14,11 +14,11 @@ from _thread import RLock, start_new_thread
 from contextlib import suppress
 from typing import NoReturn
 
-__all__ = ["end_at_interrupts", "raise_interrupts"]
+__all__ = ["CLEAR_LINE", "INTERRUPTED", "INTERRUPTED_SENTENCE", "end_at_interrupts", "raise_interrupts"]
 
 INTERRUPTED = 130
-_MESSAGE = "plyfold: interrupted; nothing was left half-written\n"
-_CLEAR_LINE = "\r\x1b[K"
+INTERRUPTED_SENTENCE = "plyfold: interrupted; nothing was left half-written"
+CLEAR_LINE = "\r\x1b[K"
 
 _leaving = RLock()
 
@@ -56,11 +56,11 @@ def _leave(*_: object) -> NoReturn:
         for draft in list(getattr(saving, "unfinished", ())):
             with suppress(OSError):
                 draft.unlink()
-        _say(_MESSAGE)
+        _say(INTERRUPTED_SENTENCE)
         os._exit(INTERRUPTED)
 
 
 def _say(message: str) -> None:
     """Write to standard error past Python's streams: the signal may have come while these were being written to."""
     with suppress(OSError):
-        os.write(2, ((_CLEAR_LINE if os.isatty(2) else "") + message).encode())
+        os.write(2, ((CLEAR_LINE if os.isatty(2) else "") + message + "\n").encode())

@@ -21,19 +21,19 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.arrangement import CurveLike
 from plyfold.arrays import Floats, Ints, freeze, read_only
-from plyfold.certify import CertificateError, check_immersed_disk
+from plyfold.certify import check_immersed_disk
 from plyfold.disk.arcs import Arc, arcs_of
 from plyfold.disk.files import model_of_disk
 from plyfold.disk.places import Missing, Places, locate, neighbours, places_in_sheet
 from plyfold.disk.round_map import round_map
-from plyfold.errors import InputError, PlyfoldError
+from plyfold.errors import CertificateError, InputError, PlyfoldError
 from plyfold.flat.triangulate import chosen_immersion
 from plyfold.immersion.immersion import Immersion, require_disk
 from plyfold.io.mesh.saving import save_model
 from plyfold.mesh.cells import DEFAULT_TRIANGLES, refuse_sizes, triangulate_cells
 from plyfold.mesh.sheets import glue_copies
+from plyfold.outline.curve import CurveLike
 from plyfold.outline.points import as_points
 
 __all__ = ["DISK_ENDINGS", "UnwoundDisk", "map_disk", "unwrap"]
@@ -177,7 +177,10 @@ class UnwoundDisk:
         return self.places(points).of(self.plane, self.faces)
 
     def to_space(self, points: npt.ArrayLike) -> Floats:
-        """Map points of the unit disk, shape (p, 2), to the lifted surface, shape (p, 3); as :meth:`to_plane`."""
+        """Map points of the unit disk, shape (p, 2), to the lifted surface, shape (p, 3); as :meth:`to_plane`.
+
+        Raises InputError if the disk has not been lifted.
+        """
         if self.space is None:
             raise InputError("this disk has not been lifted", hint="lift(immersion).unwrap() gives one with heights")
         return self.places(points).of(self.space, self.faces)
@@ -196,6 +199,10 @@ class UnwoundDisk:
         sheet : int
         missing : {"error", "nan"}
             What is said of points that are not below the sheet.
+
+        Returns
+        -------
+        (p, 2) float
 
         Raises
         ------
@@ -217,7 +224,7 @@ class UnwoundDisk:
             The ending chooses the format: ``.obj`` and ``.ply`` have vertices, triangles and texture coordinates in
             double precision; ``.glb`` has the round disk as a morph target, too, and an animation that unwinds it.
             Sheets have names and colours, in an ``.mtl`` file beside an OBJ.
-        force : bool
+        force : bool, optional
             Replace existing files.
 
         Raises
@@ -278,8 +285,9 @@ def unwrap(
     surface : Surface, Immersion, or a curve (as everywhere)
         Of a curve the first immersion is taken. It need not be liftable.
     triangles : int, optional
-        Roughly how many triangles to make, and ``max_area`` the largest area of one in the drawing. A surface has its
-        own triangles.
+        Roughly how many triangles to make. A surface has its own.
+    max_area : float, optional
+        The largest area of a triangle in the drawing, in place of their number.
 
     Returns
     -------

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.arrangement import arrange as arrangement_of
 from plyfold.arrays import Floats
 from plyfold.colours import ACCENT, INK, OBSTRUCTION, PAPER, mix, text_colour, winding_colour
@@ -22,6 +22,7 @@ from plyfold.draw.placement import (
     label_circle,
     line_weight,
 )
+from plyfold.outline.curve import CurveLike
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -53,7 +54,7 @@ def plot_arrangement(
         Where to draw; by default on a new figure.
     obstruction : Obstruction, optional
         Mark its places by red crosses and put its sentence below.
-    borders : bool
+    borders : bool, optional
         Number the borders, up to 60 of them; a note says if there are more.
 
     Returns

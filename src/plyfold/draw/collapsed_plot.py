@@ -52,7 +52,7 @@ def plot_collapsed_graph(
         Where to draw; by default on a new figure.
     layering : Layering, optional
         Write the levels into the nodes instead of the sheets' numbers, as in the paper's figure 11.
-    tree : collection of (int, int)
+    tree : collection of (int, int), optional
         Edges to draw heavy: a spanning tree.
 
     Returns
@@ -104,7 +104,7 @@ def plot_collapsed_graphs(
         Where to draw; by default on a new figure. Each picture gets axes of its own inside these (``ax.child_axes``).
     layering : Layering, optional
         Write the levels into the nodes instead of the sheets' numbers.
-    most : int
+    most : int, optional
         How many cells to draw; if more have a graph, a note says so.
 
     Returns

@@ -84,7 +84,7 @@ def save(figure: Figure, path: str | PathLike[str], force: bool = False) -> None
     figure : matplotlib Figure
     path : path
         The ending chooses the format: ``.png``, ``.svg`` or ``.pdf``.
-    force : bool
+    force : bool, optional
         Replace an existing file.
 
     Raises
@@ -93,6 +93,14 @@ def save(figure: Figure, path: str | PathLike[str], force: bool = False) -> None
         If matplotlib knows no format with this ending.
     FileExistsError
         If the file exists and ``force`` is not set.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> save(Figure(), "picture.txt")
+    Traceback (most recent call last):
+    plyfold.errors.InputError: picture.txt: a picture cannot be written so
+      hint: use .png, .svg or .pdf
     """
     kind = Path(path).suffix[1:].lower()
     if kind not in figure.canvas.get_supported_filetypes():

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import CurveLike
 from plyfold.arrays import Floats
 from plyfold.colours import INK, PAPER, mix, sheet_colour
 from plyfold.draw.canvas import blank, grid, line, note_below, polygon
@@ -16,6 +15,7 @@ from plyfold.draw.placement import Frame, closed, drawn_points, label_circle, li
 from plyfold.immersion.immersion import Immersion, require_immersion
 from plyfold.immersion.solve import count_immersions, find_immersion, immersions
 from plyfold.options import refuse_unless_count
+from plyfold.outline.curve import CurveLike
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -118,7 +118,7 @@ def plot_immersions(curve: CurveLike, ax: Axes | None = None, *, most: int = 4) 
     curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
     ax : matplotlib Axes, optional
         Where to draw; by default on a new figure. Each picture gets axes of its own inside these (``ax.child_axes``).
-    most : int
+    most : int, optional
         How many to draw; if there are more, a note says so.
 
     Returns

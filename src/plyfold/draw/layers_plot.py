@@ -83,7 +83,7 @@ def plot_casing(layering: Layering, ax: Axes | None = None, *, cloth: bool = Tru
         Of a drawing.
     ax : matplotlib Axes, optional
         Where to draw; by default on a new figure.
-    cloth : bool
+    cloth : bool, optional
         Fill the sheets from below to above, in the colours of :func:`plot_layout`; the curve is dashed where cloth
         hides it. Otherwise, draw the curve alone, as a knot is drawn.
 

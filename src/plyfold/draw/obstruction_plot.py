@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.arrangement import arrange as arrangement_of
 from plyfold.arrays import Floats
 from plyfold.colours import OBSTRUCTION, PAPER, mix, sheet_colour, text_colour, winding_colour
@@ -21,6 +21,7 @@ from plyfold.immersion.immersion import Immersion
 from plyfold.immersion.solve import find_immersion
 from plyfold.layering.orders.search import find_layering
 from plyfold.obstruction import Obstruction
+from plyfold.outline.curve import CurveLike
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -56,7 +56,7 @@ def plot_surface(  # noqa: PLR0913 - each option is keyword-only and independent
         as in :func:`plot_layout`, :func:`plot_immersion` and :func:`plot_layers`.
     stretch : float, optional
         Vertical scale; by default chosen so that the layers can be told apart.
-    pixels : int
+    pixels : int, optional
         Along the longer side; 300 for each inch of the printed picture is enough.
 
     Returns

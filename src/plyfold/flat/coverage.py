@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
+from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import PlyfoldError, PrecisionError
 from plyfold.mesh.cells import chain_of
+from plyfold.outline.curve import CurveLike
 
 if TYPE_CHECKING:
     from shapely import Polygon
@@ -22,7 +23,18 @@ __all__ = ["Covered", "coverage", "outlined"]
 
 
 class Covered(NamedTuple):
-    """A cell, and how often the curve goes round it, counter-clockwise in the direction of its arrangement."""
+    """A cell, and how often the curve goes round it, counter-clockwise in the direction of its arrangement.
+
+    Parameters
+    ----------
+    polygon : shapely.Polygon
+    winding : int
+
+    Examples
+    --------
+    >>> [cell.winding for cell in coverage([(0, 0), (1, 0), (0, 1)])]
+    [1]
+    """
 
     polygon: Polygon
     winding: int

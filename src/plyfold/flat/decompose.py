@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import PrecisionError
 from plyfold.flat.delaunay import delaunay_triangles, inner_edges
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.flat.triangulate import chosen_immersion
 from plyfold.immersion.immersion import Immersion
+from plyfold.outline.curve import CurveLike
 from plyfold.predicates import orient
 
 if TYPE_CHECKING:

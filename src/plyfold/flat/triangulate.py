@@ -6,7 +6,7 @@ from typing import overload
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
+from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError, PlyfoldError
 from plyfold.flat.delaunay import delaunay_triangles, flip_edges
@@ -14,7 +14,7 @@ from plyfold.flat.sweep import sweep_triangles
 from plyfold.immersion.immersion import Immersion, require_disk, require_immersion
 from plyfold.immersion.solve import find_immersion
 from plyfold.mesh.cells import refuse_max_area
-from plyfold.outline.curve import Curve, as_curve
+from plyfold.outline.curve import Curve, CurveLike, as_curve
 from plyfold.predicates import orient
 
 __all__ = ["chosen_immersion", "triangulate"]

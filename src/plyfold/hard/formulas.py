@@ -38,6 +38,11 @@ class FormulaDisk:
     disk : FlapDisk
     flap_of_variable : mapping of int to int
         The flap that shows the value of each variable: above the base is true.
+
+    Examples
+    --------
+    >>> formula_disk([(1, 2)]).flap_of_variable.keys()
+    dict_keys([1, 2])
     """
 
     disk: FlapDisk

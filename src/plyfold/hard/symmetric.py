@@ -34,7 +34,20 @@ TRIES = 20
 
 
 class Unliftable(NamedTuple):
-    """A curve, an immersed disk that it bounds and that cannot be lifted, and the reason."""
+    """A curve, an immersed disk that it bounds and that cannot be lifted, and the reason.
+
+    Parameters
+    ----------
+    curve : Curve
+    immersion : Immersion
+    obstruction : Obstruction
+
+    Examples
+    --------
+    >>> found = next(search_symmetric(np.random.default_rng(0)))
+    >>> found.immersion.arrangement.curve is found.curve
+    True
+    """
 
     curve: Curve
     immersion: Immersion
@@ -49,9 +62,9 @@ def search_symmetric(
     Parameters
     ----------
     rng : numpy.random.Generator
-    order : int
+    order : int, optional
         The curve goes over into itself after a turn by 1 / order; at least 2.
-    triangles : int
+    triangles : int, optional
         How many random triangles, at most, are glued to each part of the regular polygon that a curve begins as: to
         each side, or to two sides of a rhomb if the order is 2.
     attempts : int, optional

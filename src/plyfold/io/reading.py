@@ -47,6 +47,8 @@ def read(path: str | Path, *, id: str | None = None, tolerance: float | None = N
 
     Raises
     ------
+    InputError
+        If what is given is not the path of a file.
     FileFormatError
         If the file is missing, empty, broken, too large, of an unknown format, or holds no curve or several.
     StrokeError

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
+from plyfold.certify.surface import check_rounded
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.errors import InputError, PrecisionError
+from plyfold.errors import CertificateError, InputError, PrecisionError
 from plyfold.mesh.cavity import FREE, GIVEN, Edged
 from plyfold.mesh.mend import Limits, mend_angles, sharp_triangles
 from plyfold.mesh.refine import (
@@ -344,8 +345,6 @@ def _without(outline: Outline, mesh: PlanarMesh, unfit: Ints) -> PlanarMesh:
 
 def refuse_broken(arrangement: Arrangement, mesh: CellTriangulation) -> None:
     """Raise PrecisionError where rounding has broken a mesh."""
-    from plyfold.certify.plane import CertificateError, check_rounded
-
     assert arrangement.curve is not None
     try:
         check_rounded(arrangement.curve.points, mesh.points, mesh.triangles, mesh.chain)

@@ -23,8 +23,8 @@ from plyfold.io.svg_writing import polylines_svg
 from plyfold.layering.layering import Layering
 from plyfold.obstruction import Obstruction
 from plyfold.sketch.drawings import arranged, immersed
-from plyfold.sketch.embedding import png_with, svg_with
-from plyfold.sketch.lifting import lifted_surface
+from plyfold.sketch.lie import lifted_surface
+from plyfold.sketch.pictures import png_with, svg_with
 from plyfold.sketch.schema import Document, Export, document_data
 
 __all__ = ["FORMATS", "export"]
@@ -67,8 +67,8 @@ def export(order: Export) -> tuple[bytes, str]:
 
     Examples
     --------
-    >>> from plyfold.sketch.schema import Surface
-    >>> export(Export(Document(()), "json", Surface((), 0, 0, None, 100)))[1]
+    >>> from plyfold.sketch.schema import Lift
+    >>> export(Export(Document(()), "json", Lift((), 0, 0, None, 100)))[1]
     'application/json'
     """
     if order.format not in _TYPES:

@@ -19,13 +19,13 @@ from plyfold.report import words
 from plyfold.sketch.drawings import arranged
 from plyfold.sketch.schema import VERSION, Look
 
-__all__ = ["look"]
+__all__ = ["look_at"]
 
 _LONGEST_WORD = 60
 _LABEL_TOLERANCE = 0.02
 
 
-def look(question: Look) -> dict[str, Any]:
+def look_at(question: Look) -> dict[str, Any]:
     """Return all that is known of a loop without asking how its cloth lies.
 
     Parameters
@@ -45,7 +45,7 @@ def look(question: Look) -> dict[str, Any]:
     Examples
     --------
     >>> from plyfold.sketch.schema import Stroke
-    >>> answer = look(Look((Stroke(((0, 0), (2, 2), (2, 0), (0, 2)), closed=True),)))
+    >>> answer = look_at(Look((Stroke(((0, 0), (2, 2), (2, 0), (0, 2)), closed=True),)))
     >>> answer["turning_number"], answer["verdict"]["reason"], answer["verdict"]["where"]
     (0, 'turning number', [[1.0, 1.0]])
     """

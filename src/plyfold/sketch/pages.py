@@ -9,7 +9,7 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 
 from plyfold.colours import CLOTH_LOW, PAPER, page_style
-from plyfold.sketch.answers import Answer
+from plyfold.sketch.answers import Reply
 
 __all__ = ["SECURITY_HEADERS", "page_file"]
 
@@ -43,7 +43,7 @@ SECURITY_HEADERS = {
 """With every answer: nothing is loaded from elsewhere, shown in a frame of, or read by, another site, or guessed."""
 
 
-def page_file(path: str) -> Answer | None:
+def page_file(path: str) -> Reply | None:
     """Return a file of the page, or None if there is no such file.
 
     Parameters
@@ -53,7 +53,7 @@ def page_file(path: str) -> Answer | None:
 
     Returns
     -------
-    Answer or None
+    Reply or None
         The colours as a style sheet are made. Only what is listed in the page's two folders is ever opened, so no path
         leads out of them.
 
@@ -72,7 +72,7 @@ def page_file(path: str) -> Answer | None:
         return None
     kind = _TYPES["." + name.rpartition(".")[2]]
     policy = {"Content-Security-Policy": _policy(content)} if kind.startswith("text/html") else {}
-    return Answer(200, kind, content, policy)
+    return Reply(200, kind, content, policy)
 
 
 def _content(name: str) -> bytes | None:

@@ -12,7 +12,7 @@ from typing import cast
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike, watched_arrangement
+from plyfold.arrangement.arrangement import Arrangement, watched_arrangement
 from plyfold.arrays import Floats, Ints, freeze
 from plyfold.certify import check_surface
 from plyfold.clock import UNWATCHED, Clock, Progress, Watch
@@ -28,7 +28,7 @@ from plyfold.layering.orders.search import first_layering
 from plyfold.mesh.cells import DEFAULT_TRIANGLES, area_of_edge, refuse_broken, refuse_sizes, triangulate_cells
 from plyfold.obstruction import IMMERSION_REASONS, Obstruction
 from plyfold.options import refuse_unless_flag, refuse_unless_number
-from plyfold.outline.curve import Curve
+from plyfold.outline.curve import Curve, CurveLike
 from plyfold.surface.chords import split_chords
 from plyfold.surface.files import Colouring, model_of_surface
 from plyfold.surface.glue import glue_sheets, intersection_curves
@@ -177,7 +177,7 @@ class Surface:
             The ending chooses the format: ``.glb``, ``.obj``, ``.ply``, ``.stl``, ``.3mf``, or ``.html`` for a 3D page
             that works in any browser with no network; or ``.gif``, or ``.mp4`` where ffmpeg is installed, for a film of
             the round disk that unwinds onto the drawing and rises to the surface.
-        force : bool
+        force : bool, optional
             Replace an existing file.
         title : str, optional
             Heading of the page; the file's name by default.
@@ -248,7 +248,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     ----------
     curve : Curve, (n, 2) array_like, shapely geometry, Arrangement, Immersion, Layering or IntersectingLayering
         Of a curve the first immersion that can be layered is lifted.
-    allow_intersections : bool
+    allow_intersections : bool, optional
         If no immersion can be layered, lift the one that does with the shortest self-intersections, as far as is known
         (``surface.layering.optimal``), and report them.
     gap : float, optional
@@ -259,14 +259,14 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         Largest area of a triangle seen from above, instead of ``triangles``.
     size : float, optional
         Usual length of the edges, in units of the drawing, instead of ``triangles`` or ``max_area``.
-    stiffness : float
+    stiffness : float, optional
         The length below which the cloth resists bending more than sloping, as a fraction of its mean width: stiffer
         cloth swings out further, softer cloth creases where sheets touch.
     pins : mapping, optional
         Heights that are given, in units of the drawing: ``{sheet: z}`` holds a whole sheet level, ``{(x, y): z}`` a
         point where a single sheet lies, and ``{(x, y, sheet): z}`` one of several sheets. Without pins the lowest
         vertex has the height 0.
-    flat : bool or float
+    flat : bool or float, optional
         Keep those parts level that nothing overlaps: they are so many times as stiff (at least 1), or 100 times if
         true. The way up and down is made where sheets overlap, as far as it can be.
     time_limit : float, optional

@@ -9,7 +9,7 @@ import pytest
 
 from plyfold.cli.commands import main
 
-RAMP = Path(__file__).parents[1] / "examples" / "ramp.svg"
+RAMP = Path(__file__).parents[2] / "examples" / "ramp.svg"
 
 
 @pytest.fixture

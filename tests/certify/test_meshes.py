@@ -8,8 +8,8 @@ from scipy.spatial import Delaunay
 
 import plyfold as pf
 from plyfold import gallery
-from plyfold.certify import CertificateError, check_disk_mesh, check_immersed_disk, check_layered, check_surface
-from plyfold.errors import PlyfoldError
+from plyfold.certify import check_disk_mesh, check_immersed_disk, check_layered, check_surface
+from plyfold.errors import CertificateError, PlyfoldError
 from reference.triangles import meeting_pairs
 
 SQUARE = [(0.0, 0.0), (3.0, 0.0), (3.0, 3.0), (0.0, 3.0)]

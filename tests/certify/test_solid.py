@@ -5,7 +5,8 @@ from contextlib import suppress
 import numpy as np
 import pytest
 
-from plyfold.certify import CertificateError, check_ball_mesh, check_solid
+from plyfold.certify import check_ball_mesh, check_solid
+from plyfold.errors import CertificateError
 
 SQUARE = [(0, 0), (2, 0), (2, 2), (0, 2)]
 

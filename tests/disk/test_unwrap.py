@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 import plyfold as pf
-from plyfold.certify import CertificateError
 from plyfold.disk import round_map
 from plyfold.disk.places import locate
 from plyfold.disk.places import weights as weights_of
-from plyfold.errors import InputError, NotImmersibleError, PlyfoldError, PrecisionError
+from plyfold.errors import CertificateError, InputError, NotImmersibleError, PlyfoldError, PrecisionError
 from plyfold.gallery import CURVES
 from reference import random_curves
 
