@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
+from plyfold.colours import sheet_colour
 
 if TYPE_CHECKING:
     from shapely import Polygon
@@ -37,8 +38,6 @@ def as_wkt(polygons: Sequence[Polygon], properties: Sequence[dict[str, Any]]) ->
 
 def as_svg(polygons: Sequence[Polygon], properties: Sequence[dict[str, Any]]) -> str:
     """Return a picture in the drawing's own units, y down: translucent polygons, what is told of them as titles."""
-    from plyfold.colours import sheet_colour
-
     left, low, right, high = _bounds(polygons)
     margin = 0.05 * max(right - left, high - low)
     box = f"{left - margin} {-high - margin} {right - left + 2 * margin} {high - low + 2 * margin}"
