@@ -23,6 +23,7 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.disk.flatten import Layout, angles_of, flattened, thin
+from plyfold.disk.round_map import cross
 from plyfold.errors import InputError
 
 if TYPE_CHECKING:
@@ -187,8 +188,8 @@ def turned_over(before: Floats, after: Floats, faces: Ints) -> int:
     [0, 1]
     """
     sides = [(points[faces[:, 1:]] - points[faces[:, :1]]) / np.ptp(points, axis=0).max() for points in (before, after)]
-    first, last = (_cross(side[:, 0], side[:, 1]) for side in sides)
-    mixed = (_cross(sides[0][:, 0], sides[1][:, 1]) + _cross(sides[1][:, 0], sides[0][:, 1])) / 2
+    first, last = (cross(side[:, 0], side[:, 1]) for side in sides)
+    mixed = (cross(sides[0][:, 0], sides[1][:, 1]) + cross(sides[1][:, 0], sides[0][:, 1])) / 2
     # On the way the area is first (1 − t)² + 2 mixed t (1 − t) + last t².
     stays = (first > 0) & (last > 0) & (mixed > -np.sqrt(first.clip(0)) * np.sqrt(last.clip(0)))
     return int(len(faces) - stays.sum())
@@ -227,7 +228,3 @@ def _way(points: Floats, faces: Ints) -> float:
     """Return the direction of the first side."""
     x, y = points[faces[0, 1]] - points[faces[0, 0]]
     return float(np.arctan2(y, x))
-
-
-def _cross(first: Floats, second: Floats) -> Floats:
-    return np.asarray(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])

@@ -26,10 +26,11 @@ from plyfold.arrays import Floats, Ints, freeze, read_only
 from plyfold.certify import CertificateError, check_immersed_disk
 from plyfold.disk.arcs import Arc, arcs_of
 from plyfold.disk.files import model_of_disk
-from plyfold.disk.places import Missing, Places, locate, neighbours, places_in_sheet
+from plyfold.disk.places import Missing, Places, locate, places_in_sheet
 from plyfold.disk.round_map import round_map
 from plyfold.errors import InputError, PlyfoldError
 from plyfold.flat.triangulate import chosen_immersion
+from plyfold.halfedges import neighbours_of
 from plyfold.immersion.immersion import Immersion
 from plyfold.io.mesh.saving import save_model
 from plyfold.mesh.cells import DEFAULT_TRIANGLES, refuse_sizes, triangulate_cells
@@ -134,7 +135,7 @@ class UnwoundDisk:
     @cached_property
     def seams(self) -> Ints:
         """Edges where a sheet is glued to the next one, (e, 2): what the borders inside the disk are made of."""
-        beyond = neighbours(self.faces)
+        beyond = neighbours_of(self.faces)
         face, side = np.nonzero((beyond >= 0) & (self.sheet[beyond] > self.sheet[:, None]))
         return np.stack([self.faces[face, side], self.faces[face, (side + 1) % 3]], axis=1)
 
@@ -146,7 +147,7 @@ class UnwoundDisk:
     @cached_property
     def _boundary_faces(self) -> Ints:
         """The triangle at each piece of the boundary."""
-        face, side = np.nonzero(neighbours(self.faces) < 0)
+        face, side = np.nonzero(neighbours_of(self.faces) < 0)
         found = np.empty(len(self.boundary), dtype=np.int64)
         found[self.faces[face, side]] = face
         return found
