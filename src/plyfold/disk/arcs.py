@@ -15,7 +15,7 @@ from plyfold.arrays import Floats, Ints
 from plyfold.disk.places import locate
 from plyfold.disk.round_map import round_map
 from plyfold.graphs import components
-from plyfold.halfedges import following, neighbours_of, twins_of
+from plyfold.halfedges import ends_of, following, twins_of
 from plyfold.immersion.immersion import Group
 
 if TYPE_CHECKING:
@@ -91,11 +91,10 @@ def _parted(faces: Ints) -> Ints:
 
 def _boundary(faces: Ints) -> Ints:
     """Return the vertices on the boundary of a disk of triangles, in order."""
-    face, side = np.nonzero(neighbours_of(faces) < 0)
-    after = np.full(int(faces.max()) + 1, -1)
-    after[faces[face, side]] = faces[face, (side + 1) % 3]
-    following = after.tolist()
-    loop = [int(faces[face[0], side[0]])]
-    for _ in range(len(face) - 1):
-        loop.append(following[loop[-1]])
+    start, end = ends_of(faces)
+    rim = twins_of(faces) < 0
+    after = dict(zip(start[rim].tolist(), end[rim].tolist(), strict=True))
+    loop = [int(start[rim][0])]
+    while len(loop) < len(after):
+        loop.append(after[loop[-1]])
     return np.array(loop)

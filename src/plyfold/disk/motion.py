@@ -29,13 +29,17 @@ from plyfold.errors import InputError
 if TYPE_CHECKING:
     from plyfold.disk.unwrap import UnwoundDisk
 
-__all__ = ["Motion", "turned_over"]
+__all__ = ["Motion", "shapes_of_disk", "turned_over"]
 
 # Shorter sides, in a drawing of size 1, count as that long.
 _SHORTEST = 1e-16
 # How often the stretch is averaged with that of neighbours, until no triangle is torn by it at any of these times.
 _SMOOTHINGS = (5, 20, 80)
 _TRIALS = (0.25, 0.5, 0.75)
+# Shapes from the flat drawing to the disk are so many that no cloth folds over on the straight way between them, up to
+# a number; larger surfaces do without those between.
+_MOST_SHAPES = 17
+_MANY_VERTICES = 20_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,6 +180,17 @@ class Motion:
             if not any(thin(_mixed(self._in_disk, self._in_plane, smooth, time)).any() for time in _TRIALS):
                 return smooth
         return np.full(plain.shape, plain.mean())
+
+
+def shapes_of_disk(unwound: UnwoundDisk) -> dict[str, Floats]:
+    """Return the disk flat on the table, on its way to be round, and round."""
+    motion = Motion(unwound)
+    if len(unwound.plane) < _MANY_VERTICES:
+        drawn, *between, disk = motion.shapes(_MOST_SHAPES)
+    else:
+        drawn, between, disk = unwound.plane, [], motion.disk
+    named = {"flat": drawn, **{f"unwinding {number + 1}": shape for number, shape in enumerate(between)}, "disk": disk}
+    return {name: np.pad(shape, ((0, 0), (0, 1))) for name, shape in named.items()}
 
 
 def turned_over(before: Floats, after: Floats, faces: Ints) -> int:

@@ -24,20 +24,22 @@ import numpy.typing as npt
 from plyfold.arrangement.arrangement import CurveLike
 from plyfold.arrays import Floats, Ints, freeze, read_only
 from plyfold.certify import CertificateError, check_immersed_disk
+from plyfold.colours import sheet_colour
 from plyfold.disk.arcs import Arc, arcs_of
-from plyfold.disk.files import model_of_disk
+from plyfold.disk.motion import shapes_of_disk
 from plyfold.disk.places import Missing, Places, locate, places_in_sheet
 from plyfold.disk.round_map import round_map
 from plyfold.errors import InputError, PlyfoldError
 from plyfold.flat.triangulate import chosen_immersion
 from plyfold.halfedges import neighbours_of
 from plyfold.immersion.immersion import Immersion
+from plyfold.io.mesh.model import DETAIL, Material, Model, size_of
 from plyfold.io.mesh.saving import save_model
 from plyfold.mesh.cells import DEFAULT_TRIANGLES, refuse_sizes, triangulate_cells
 from plyfold.mesh.sheets import glue_copies
 from plyfold.outline.points import as_points
 
-__all__ = ["DISK_ENDINGS", "UnwoundDisk", "map_disk", "unwrap"]
+__all__ = ["DISK_ENDINGS", "UnwoundDisk", "map_disk", "model_of_disk", "unwrap"]
 
 # The files that hold texture coordinates.
 DISK_ENDINGS = (".obj", ".ply", ".glb")
@@ -253,6 +255,28 @@ class UnwoundDisk:
         check_immersed_disk(circle, self.disk, self.faces, self.boundary)
         if not _runs_once_round(circle):
             raise CertificateError("the boundary of the disk does not run once along the unit circle")
+
+
+def model_of_disk(unwound: UnwoundDisk) -> Model:
+    """Return the model of an immersed disk flat on the table, a material for each sheet; its shapes lead to the disk.
+
+    Examples
+    --------
+    >>> list(model_of_disk(unwrap([(0, 0), (1, 0), (0, 1)], max_area=1.0)).shapes)
+    ['unwinding 1', 'unwinding 2', 'unwinding 3', 'disk']
+    """
+    flat, *others = shapes_of_disk(unwound).items()
+    return Model(
+        vertices=flat[1],
+        faces=unwound.faces,
+        material=unwound.sheet,
+        materials=tuple(Material(f"sheet_{i}", sheet_colour(i)) for i in range(unwound.immersion.n_sheets)),
+        smooth=np.zeros(len(unwound.faces), dtype=np.int64),
+        closed=False,
+        detail=DETAIL * size_of(unwound.plane),
+        uv=unwound.uv,
+        shapes=dict(others),
+    )
 
 
 @runtime_checkable
