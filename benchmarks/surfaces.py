@@ -21,7 +21,7 @@ from tables import machine, markdown, number
 import plyfold as pf
 from plyfold.gallery import CURVES
 from plyfold.mesh.cells import CellTriangulation, triangulate_cells
-from plyfold.surface.glue import glue_sheets
+from plyfold.surface.glue import stack_sheets
 from plyfold.surface.heights import smooth_heights
 from plyfold.surface.lift import layering_of
 
@@ -94,7 +94,7 @@ def once(case: Case) -> tuple[list[float], pf.Layering, CellTriangulation, int]:
     layering = timed(lambda: layering_of(case.points, False))
     drawn = layering.immersion.arrangement
     mesh = timed(lambda: triangulate_cells(drawn, triangles=case.triangles))
-    lifted = timed(lambda: glue_sheets(layering, mesh))
+    lifted = timed(lambda: stack_sheets(layering, mesh))
     timed(lambda: smooth_heights(mesh.points, lifted, 0.05 * float(np.ptp(drawn.curve.points, axis=0).max())))
     return seconds, layering, mesh, len(lifted.faces)
 

@@ -24,9 +24,8 @@ SOURCE = Path(__file__).resolve().parent.parent / "src" / "plyfold"
 ORDER = [
     ["arrays", "errors"],
     ["obstruction"],
-    ["options", "clock", "compiled", "colours", "ragged", "graphs", "loading", "memory", "blas", "mistaken", "certify"],
-    ["predicates"],
-    ["turns"],
+    ["options", "clock", "compiled", "colours", "ragged", "graphs", "loading", "memory", "mistaken", "certify"],
+    ["predicates", "halfedges", "matrices"],
     ["outline"],
     ["io"],
     ["arrangement"],

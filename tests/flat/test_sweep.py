@@ -13,7 +13,7 @@ from plyfold.errors import GeneralPositionError
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.flat.sweep_line import empty_skip_list, link_above, sweep_order, unlink
 from plyfold.gallery import CURVES
-from plyfold.turns import as_places, turn
+from plyfold.predicates import as_coordinates, turn
 from reference import random_curves
 
 
@@ -119,7 +119,7 @@ def test_turns_are_exact(kind):
         "tiny": rng.integers(-3, 4, (60, 2)) * 5e-324,
         "huge": rng.normal(size=(60, 2)) * 1e307,
     }[kind]
-    places = as_places(points)
+    places = as_coordinates(points)
     for a, b, c in rng.integers(0, 60, (400, 3)).tolist():
         exact = cross(*points[[a, b, c]].tolist())
         assert turn(places, a, b, c) == (exact > 0) - (exact < 0)

@@ -9,8 +9,8 @@ import pytest
 from plyfold.arrangement.arrangement import arrange
 from plyfold.errors import PlyfoldError, PrecisionError
 from plyfold.gallery import CURVES
+from plyfold.halfedges import following
 from plyfold.mesh.cells import triangulate_cells
-from plyfold.mesh.sheets import following
 from reference import random_curves
 
 RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], dtype=np.float64)

@@ -10,8 +10,8 @@ from plyfold import compiled
 from plyfold.arrangement.arrangement import arrange
 from plyfold.errors import PlyfoldError
 from plyfold.gallery import CURVES
+from plyfold.halfedges import following
 from plyfold.mesh.cells import triangulate_cells
-from plyfold.mesh.sheets import following
 from plyfold.predicates import orient
 from reference import random_curves
 from reference.sharp_triangles import edges_of, reason, smallest_angles

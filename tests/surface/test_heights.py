@@ -9,7 +9,7 @@ from plyfold.clock import Watch
 from plyfold.gallery import CURVES
 from plyfold.mesh.cells import triangulate_cells
 from plyfold.surface.energy import cloth_of
-from plyfold.surface.glue import glue_sheets
+from plyfold.surface.glue import stack_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, smooth_heights
 from plyfold.surface.lift import lift
 from reference import random_curves
@@ -20,7 +20,7 @@ RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5
 def glued(points, triangles=150):
     layering = next(filter(None, map(find_layering, immersions(points))))
     planar = triangulate_cells(layering.immersion.arrangement, triangles=triangles)
-    return planar.points, glue_sheets(layering, planar)
+    return planar.points, stack_sheets(layering, planar)
 
 
 def helix(turns, per_turn=60):

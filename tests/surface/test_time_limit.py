@@ -16,10 +16,10 @@ from plyfold.immersion.dual_tree import grow_dual_tree
 from plyfold.immersion.grouping import find_groupings, list_groupings
 from plyfold.immersion.word import write_word
 from plyfold.mesh.cells import triangulate_cells
-from plyfold.mesh.refine import constrained, outline_of, refine, usual_area
+from plyfold.mesh.refine import constrained, noded_curve, refine, usual_area
 from plyfold.surface.contact import Distances, Problem, least_forces, sprung_heights
 from plyfold.surface.energy import cloth_of, held_response, response
-from plyfold.surface.glue import glue_sheets
+from plyfold.surface.glue import stack_sheets
 from plyfold.surface.heights import smooth_heights
 
 STAGES = [
@@ -84,7 +84,7 @@ def test_with_intersections(stage, monkeypatch):
 def glued():
     layering = pf.find_layering(pf.find_immersion(PRETZEL))
     cells = triangulate_cells(layering.immersion.arrangement, triangles=300)
-    return layering, cells, glue_sheets(layering, cells)
+    return layering, cells, stack_sheets(layering, cells)
 
 
 class TestNothingGoesOn:
@@ -106,7 +106,7 @@ class TestNothingGoesOn:
             list(list_groupings(find_groupings(word), self.late))
 
     def test_meshes(self):
-        outline = outline_of(pf.arrange(PRETZEL))
+        outline = noded_curve(pf.arrange(PRETZEL))
         with pytest.raises(TimeLimitError):
             constrained(outline, self.late)
         library = constrained(outline)
@@ -120,7 +120,7 @@ class TestNothingGoesOn:
         with pytest.raises(TimeLimitError, match="triangulating"):
             triangulate_cells(layering.immersion.arrangement, triangles=triangles, watch=self.late)
         with pytest.raises(TimeLimitError, match="gluing"):
-            glue_sheets(layering, cells, self.late)
+            stack_sheets(layering, cells, self.late)
 
     def test_heights(self):
         _, cells, mesh = glued()

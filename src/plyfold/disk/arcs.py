@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
-from plyfold.disk.places import locate, neighbours, twins
+from plyfold.disk.places import locate
 from plyfold.disk.round_map import round_map
+from plyfold.graphs import components
+from plyfold.halfedges import ends_of, following, twins_of
 from plyfold.immersion.immersion import Group
 
 if TYPE_CHECKING:
@@ -82,23 +84,17 @@ def _arcs_of_sheet(unwound: UnwoundDisk, group: Group) -> list[Arc]:
 
 def _parted(faces: Ints) -> Ints:
     """Return the triangles with new vertices: a sheet that touches itself at a point has two of them there."""
-    from scipy.sparse import csr_array
-    from scipy.sparse.csgraph import connected_components
-
-    beside = twins(faces)
-    side = np.flatnonzero(beside >= 0)
-    after = np.where(side % 3 == 2, side - 2, side + 1)
-    joined = csr_array((np.ones(len(side)), (after, beside[side])), shape=(len(beside), len(beside)))
-    return np.asarray(connected_components(joined, directed=False)[1], dtype=np.int64).reshape(faces.shape)
+    twin = twins_of(faces)
+    side = np.flatnonzero(twin >= 0)
+    return components(len(twin), following(side), twin[side]).reshape(faces.shape)
 
 
 def _boundary(faces: Ints) -> Ints:
     """Return the vertices on the boundary of a disk of triangles, in order."""
-    face, side = np.nonzero(neighbours(faces) < 0)
-    after = np.full(int(faces.max()) + 1, -1)
-    after[faces[face, side]] = faces[face, (side + 1) % 3]
-    following = after.tolist()
-    loop = [int(faces[face[0], side[0]])]
-    for _ in range(len(face) - 1):
-        loop.append(following[loop[-1]])
+    start, end = ends_of(faces)
+    rim = twins_of(faces) < 0
+    after = dict(zip(start[rim].tolist(), end[rim].tolist(), strict=True))
+    loop = [int(start[rim][0])]
+    while len(loop) < len(after):
+        loop.append(after[loop[-1]])
     return np.array(loop)

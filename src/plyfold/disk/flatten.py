@@ -20,7 +20,9 @@ from typing import Any
 import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
-from plyfold.disk.places import twins
+from plyfold.graphs import spanning_tree
+from plyfold.halfedges import ends_of, twins_of
+from plyfold.matrices import factorised
 
 __all__ = ["Layout", "angles_of", "flattened", "thin"]
 
@@ -108,22 +110,24 @@ def _gaps(sides: Floats, faces: Ints, inner: Ints) -> Floats:
 
 def _newton_steps(sides: Floats, faces: Ints, inner: Ints) -> Callable[[Floats], Floats]:
     """Return what gives the change of factors that fills gaps to first order: by the cotangent Laplacian."""
-    from scipy.sparse import csr_array, diags_array
-    from scipy.sparse.linalg import splu
-
     angle, flat = angles_of(sides), thin(sides)
     cotangent = np.where(flat[:, None], 0.0, 1 / np.tan(np.where(flat[:, None], 1.0, angle)))
-    start, end = np.roll(faces, -1, axis=1).ravel(), np.roll(faces, -2, axis=1).ravel()
-    size = int(faces.max()) + 1
-    one_way = csr_array((cotangent.ravel() / 2, (start, end)), shape=(size, size))
-    whole = one_way + one_way.T
-    matrix = (diags_array(whole.sum(axis=1)) - whole)[inner][:, inner].tocsc()
-    options = {"SymmetricMode": True}
+    start, end = ends_of(np.roll(faces, -1, axis=1))
     try:
-        factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+        factors = factorised(_laplacian(start, end, cotangent.ravel() / 2)[inner][:, inner])
     except RuntimeError:  # singular: only triangles without angles around some vertex
         return np.zeros_like
     return lambda gap: np.asarray(factors.solve(gap))
+
+
+def _laplacian(start: Ints, end: Ints, weight: Floats) -> Any:
+    """Return the Laplacian of a graph whose edges have weights; sparse."""
+    from scipy.sparse import csr_array, diags_array
+
+    size = int(max(start.max(), end.max())) + 1
+    one_way = csr_array((weight, (start, end)), shape=(size, size))
+    whole = one_way + one_way.T
+    return diags_array(whole.sum(axis=1)) - whole
 
 
 # ---- triangles of which only the lengths of the sides are given ------------------------------------------------------
@@ -164,8 +168,8 @@ class Layout:
         """
         angle = angles_of(sides)
         within = np.stack([np.zeros(len(sides)), np.pi - angle[:, 1], 2 * np.pi - angle[:, 1] - angle[:, 2]], axis=1)
-        triangle, before, side, beside = self._tree
-        step = within.ravel()[side] - within.ravel()[beside] - np.pi
+        triangle, before, side, twin = self._tree
+        step = within.ravel()[side] - within.ravel()[twin] - np.pi
         first = [0.0] * len(sides)
         for one, previous, more in zip(triangle.tolist(), before.tolist(), step.tolist(), strict=True):
             first[one] = first[previous] + more
@@ -184,28 +188,15 @@ class Layout:
     @cached_property
     def _tree(self) -> tuple[Ints, Ints, Ints, Ints]:
         """Triangles in an order in which each but the first lies beside an earlier one: this one, and their sides."""
-        from scipy.sparse import csr_array
-        from scipy.sparse.csgraph import breadth_first_order
-
-        beside, count = twins(self.faces), len(self.faces)
-        side = np.flatnonzero(beside >= 0)
-        key = side // 3 * count + beside[side] // 3
-        graph = csr_array((np.ones(len(side)), (side // 3, beside[side] // 3)), shape=(count, count))
-        order, before = breadth_first_order(graph, 0)
-        triangle, previous = order[1:].astype(np.int64), before[order[1:]].astype(np.int64)
-        by_key = np.argsort(key)
-        shared = side[by_key[np.searchsorted(key, previous * count + triangle, sorter=by_key)]]
-        return triangle, previous, shared, beside[shared]
+        twin = twins_of(self.faces)
+        side = np.flatnonzero(twin >= 0)
+        before, tie, order = spanning_tree(len(self.faces), side // 3, twin[side] // 3)
+        triangle = order[1:]
+        shared = side[tie[triangle]]
+        return triangle, before[triangle], shared, twin[shared]
 
     @cached_property
     def _factors(self) -> Any:
         """The factors of the Laplacian of the graph, without its first row and column."""
-        from scipy.sparse import csr_array, diags_array
-        from scipy.sparse.linalg import splu
-
-        start, end = self.faces.ravel(), np.roll(self.faces, -1, axis=1).ravel()
-        size = int(self.faces.max()) + 1
-        one_way = csr_array((np.ones(len(start)), (start, end)), shape=(size, size))
-        whole = one_way + one_way.T
-        matrix = (diags_array(whole.sum(axis=0)) - whole).tocsc()[1:, 1:].astype(np.complex128)
-        return splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        start, end = ends_of(self.faces)
+        return factorised(_laplacian(start, end, np.ones(len(start)))[1:, 1:].astype(np.complex128))

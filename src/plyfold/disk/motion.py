@@ -23,18 +23,23 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.disk.flatten import Layout, angles_of, flattened, thin
+from plyfold.disk.round_map import cross
 from plyfold.errors import InputError
 
 if TYPE_CHECKING:
     from plyfold.disk.unwrap import UnwoundDisk
 
-__all__ = ["Motion", "turned_over"]
+__all__ = ["Motion", "shapes_of_disk", "turned_over"]
 
 # Shorter sides, in a drawing of size 1, count as that long.
 _SHORTEST = 1e-16
 # How often the stretch is averaged with that of neighbours, until no triangle is torn by it at any of these times.
 _SMOOTHINGS = (5, 20, 80)
 _TRIALS = (0.25, 0.5, 0.75)
+# Shapes from the flat drawing to the disk are so many that no cloth folds over on the straight way between them, up to
+# a number; larger surfaces do without those between.
+_MOST_SHAPES = 17
+_MANY_VERTICES = 20_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,6 +182,17 @@ class Motion:
         return np.full(plain.shape, plain.mean())
 
 
+def shapes_of_disk(unwound: UnwoundDisk) -> dict[str, Floats]:
+    """Return the disk flat on the table, on its way to be round, and round."""
+    motion = Motion(unwound)
+    if len(unwound.plane) < _MANY_VERTICES:
+        drawn, *between, disk = motion.shapes(_MOST_SHAPES)
+    else:
+        drawn, between, disk = unwound.plane, [], motion.disk
+    named = {"flat": drawn, **{f"unwinding {number + 1}": shape for number, shape in enumerate(between)}, "disk": disk}
+    return {name: np.pad(shape, ((0, 0), (0, 1))) for name, shape in named.items()}
+
+
 def turned_over(before: Floats, after: Floats, faces: Ints) -> int:
     """Return how many triangles turn over while their corners move straight from one place, (n, 2), to another.
 
@@ -187,8 +203,8 @@ def turned_over(before: Floats, after: Floats, faces: Ints) -> int:
     [0, 1]
     """
     sides = [(points[faces[:, 1:]] - points[faces[:, :1]]) / np.ptp(points, axis=0).max() for points in (before, after)]
-    first, last = (_cross(side[:, 0], side[:, 1]) for side in sides)
-    mixed = (_cross(sides[0][:, 0], sides[1][:, 1]) + _cross(sides[1][:, 0], sides[0][:, 1])) / 2
+    first, last = (cross(side[:, 0], side[:, 1]) for side in sides)
+    mixed = (cross(sides[0][:, 0], sides[1][:, 1]) + cross(sides[1][:, 0], sides[0][:, 1])) / 2
     # On the way the area is first (1 − t)² + 2 mixed t (1 − t) + last t².
     stays = (first > 0) & (last > 0) & (mixed > -np.sqrt(first.clip(0)) * np.sqrt(last.clip(0)))
     return int(len(faces) - stays.sum())
@@ -227,7 +243,3 @@ def _way(points: Floats, faces: Ints) -> float:
     """Return the direction of the first side."""
     x, y = points[faces[0, 1]] - points[faces[0, 0]]
     return float(np.arctan2(y, x))
-
-
-def _cross(first: Floats, second: Floats) -> Floats:
-    return np.asarray(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])

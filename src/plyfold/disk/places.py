@@ -9,12 +9,13 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints, freeze
 from plyfold.errors import InputError
+from plyfold.halfedges import neighbours_of
 from plyfold.predicates import orient
 
 if TYPE_CHECKING:
     from plyfold.disk.unwrap import UnwoundDisk
 
-__all__ = ["Missing", "Places", "locate", "neighbours", "places_in_sheet", "twins", "weights"]
+__all__ = ["Missing", "Places", "locate", "places_in_sheet", "weights"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,22 +38,6 @@ class Places:
     def of(self, values: Floats, faces: Ints) -> Floats:
         """Return what vertices have, an array of shape (n, ...), at these places."""
         return np.asarray(np.einsum("pi,pi...->p...", self.weights, values[faces[self.face]]))
-
-
-def twins(faces: Ints) -> Ints:
-    """Return the side beside each side 3t + i, from corner i of triangle t to the next one, or −1; shape (3m,)."""
-    start, end = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    size = int(faces.max()) + 1
-    key, wanted = start * size + end, end * size + start
-    order = np.argsort(key)
-    at = order[np.minimum(np.searchsorted(key, wanted, sorter=order), len(key) - 1)]
-    return np.where(key[at] == wanted, at, -1)
-
-
-def neighbours(faces: Ints) -> Ints:
-    """Return the triangle beyond each side of each triangle, from corner i to i + 1, or −1; shape (m, 3)."""
-    beside = twins(faces)
-    return np.where(beside >= 0, beside // 3, -1).reshape(faces.shape)
 
 
 def locate(points: Floats, vertices: Floats, faces: Ints) -> Places:
@@ -80,7 +65,7 @@ def locate(points: Floats, vertices: Floats, faces: Ints) -> Places:
     """
     from scipy.spatial import KDTree
 
-    beyond = neighbours(faces)
+    beyond = neighbours_of(faces)
     face = np.asarray(KDTree(vertices[faces].mean(axis=1)).query(points)[1], dtype=np.int64)
     walking = np.arange(len(points))
     # A walk that always takes the first way out may go in circles; one that takes any of them does not, for long.

@@ -13,16 +13,17 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import PrecisionError
+from plyfold.halfedges import ends_of
+from plyfold.matrices import factorised
 from plyfold.predicates import orient
 
-__all__ = ["boundary_angles", "cotangents", "round_map"]
+__all__ = ["boundary_angles", "cotangents", "cross", "round_map"]
 
 # Pieces of the boundary count as at least this share of it: with shorter ones, doubles would hold no circle.
 _SHORTEST_SHARE = 1e-7
@@ -30,7 +31,6 @@ _SHORTEST_SHARE = 1e-7
 _LEAST_TANGENT, _LEAST_LENGTH = 1e-8, 1e-16
 # Places are multiples of this, so that they can be moved by 1 with no rounding: texture coordinates are as exact.
 _GRID = 2.0**-52
-_Weights = Callable[[Floats], Floats]
 
 
 def round_map(points: Floats, faces: Ints, boundary: Ints) -> Floats:
@@ -118,7 +118,7 @@ def _weighted_means(weights: Floats, faces: Ints, disk: Floats, inner: Ints, bou
     """
     from scipy.sparse import csr_array, diags_array
 
-    start, end = faces[:, [1, 2, 0]].ravel(), faces[:, [2, 0, 1]].ravel()
+    start, end = ends_of(faces[:, [1, 2, 0]])
     there, back = weights[..., 0].ravel(), weights[..., 1].ravel()
     row, column = np.concatenate([start, end]), np.concatenate([end, start])
     whole = csr_array((np.concatenate([there, back]), (row, column)), shape=(len(disk), len(disk)))[inner]
@@ -127,11 +127,8 @@ def _weighted_means(weights: Floats, faces: Ints, disk: Floats, inner: Ints, bou
 
 
 def _solved(matrix: Any, right: Floats) -> Floats:
-    from scipy.sparse.linalg import splu
-
-    options = {"SymmetricMode": True}
     try:
-        factors = splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+        factors = factorised(matrix)
     except RuntimeError:  # a pivot of 0
         return np.full(right.shape, np.nan)
     solution = factors.solve(right)
@@ -142,7 +139,7 @@ def _solved(matrix: Any, right: Floats) -> Floats:
 def cotangents(corners: Floats) -> Floats:
     """Return half the cotangent of each angle, both ways along the side opposite it."""
     following, preceding = _sides(corners)
-    cosine, sine = (following * preceding).sum(axis=-1), _cross(following, preceding)
+    cosine, sine = (following * preceding).sum(axis=-1), cross(following, preceding)
     cotangent = cosine / np.maximum(sine, _LEAST_TANGENT * np.maximum(np.abs(cosine), _LEAST_LENGTH**2))
     return np.repeat(cotangent[..., None] / 2, 2, axis=-1)
 
@@ -153,7 +150,7 @@ def _mean_values(corners: Floats) -> Floats:
     length = np.maximum(np.hypot(following[..., 0], following[..., 1]), _LEAST_LENGTH)
     product = length * np.roll(length, 1, axis=1)
     # tan(α/2) = sin α / (1 + cos α)
-    sine, beside = _cross(following, preceding), product + (following * preceding).sum(axis=-1)
+    sine, beside = cross(following, preceding), product + (following * preceding).sum(axis=-1)
     tangent = np.maximum(sine, _LEAST_TANGENT * product) / np.maximum(beside, _LEAST_TANGENT * product)
     there_and_back = np.stack([np.roll(tangent, -1, axis=1), np.roll(tangent, -2, axis=1)], axis=-1)
     return np.asarray(there_and_back / np.roll(length, -1, axis=1)[..., None])
@@ -168,5 +165,6 @@ def _sides(corners: Floats) -> tuple[Floats, Floats]:
     return np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
 
 
-def _cross(first: Floats, second: Floats) -> Floats:
+def cross(first: Floats, second: Floats) -> Floats:
+    """Return the cross products of vectors in the plane, shape (..., 2)."""
     return np.asarray(first[..., 0] * second[..., 1] - first[..., 1] * second[..., 0])

@@ -23,20 +23,23 @@ import numpy.typing as npt
 
 from plyfold.arrays import Floats, Ints, freeze, read_only
 from plyfold.certify import check_immersed_disk
+from plyfold.colours import sheet_colour
 from plyfold.disk.arcs import Arc, arcs_of
-from plyfold.disk.files import model_of_disk
-from plyfold.disk.places import Missing, Places, locate, neighbours, places_in_sheet
+from plyfold.disk.motion import shapes_of_disk
+from plyfold.disk.places import Missing, Places, locate, places_in_sheet
 from plyfold.disk.round_map import round_map
 from plyfold.errors import CertificateError, InputError, PlyfoldError
 from plyfold.flat.triangulate import chosen_immersion
+from plyfold.halfedges import neighbours_of
 from plyfold.immersion.immersion import Immersion, require_disk
+from plyfold.io.mesh.model import DETAIL, Material, Model, size_of
 from plyfold.io.mesh.saving import save_model
 from plyfold.mesh.cells import DEFAULT_TRIANGLES, refuse_sizes, triangulate_cells
 from plyfold.mesh.sheets import glue_copies
 from plyfold.outline.curve import CurveLike
 from plyfold.outline.points import as_points
 
-__all__ = ["DISK_ENDINGS", "UnwoundDisk", "map_disk", "unwrap"]
+__all__ = ["DISK_ENDINGS", "UnwoundDisk", "map_disk", "model_of_disk", "unwrap"]
 
 # The files that hold texture coordinates.
 DISK_ENDINGS = (".obj", ".ply", ".glb")
@@ -134,7 +137,7 @@ class UnwoundDisk:
     @cached_property
     def seams(self) -> Ints:
         """Edges where a sheet is glued to the next one, (e, 2): what the borders inside the disk are made of."""
-        beyond = neighbours(self.faces)
+        beyond = neighbours_of(self.faces)
         face, side = np.nonzero((beyond >= 0) & (self.sheet[beyond] > self.sheet[:, None]))
         return np.stack([self.faces[face, side], self.faces[face, (side + 1) % 3]], axis=1)
 
@@ -146,7 +149,7 @@ class UnwoundDisk:
     @cached_property
     def _boundary_faces(self) -> Ints:
         """The triangle at each piece of the boundary."""
-        face, side = np.nonzero(neighbours(self.faces) < 0)
+        face, side = np.nonzero(neighbours_of(self.faces) < 0)
         found = np.empty(len(self.boundary), dtype=np.int64)
         found[self.faces[face, side]] = face
         return found
@@ -259,6 +262,28 @@ class UnwoundDisk:
         check_immersed_disk(circle, self.disk, self.faces, self.boundary)
         if not _runs_once_round(circle):
             raise CertificateError("the boundary of the disk does not run once along the unit circle")
+
+
+def model_of_disk(unwound: UnwoundDisk) -> Model:
+    """Return the model of an immersed disk flat on the table, a material for each sheet; its shapes lead to the disk.
+
+    Examples
+    --------
+    >>> list(model_of_disk(unwrap([(0, 0), (1, 0), (0, 1)], max_area=1.0)).shapes)
+    ['unwinding 1', 'unwinding 2', 'unwinding 3', 'disk']
+    """
+    flat, *others = shapes_of_disk(unwound).items()
+    return Model(
+        vertices=flat[1],
+        faces=unwound.faces,
+        material=unwound.sheet,
+        materials=tuple(Material(f"sheet_{i}", sheet_colour(i)) for i in range(unwound.immersion.n_sheets)),
+        smooth=np.zeros(len(unwound.faces), dtype=np.int64),
+        closed=False,
+        detail=DETAIL * size_of(unwound.plane),
+        uv=unwound.uv,
+        shapes=dict(others),
+    )
 
 
 @runtime_checkable

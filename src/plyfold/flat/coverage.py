@@ -15,6 +15,7 @@ from plyfold.arrays import Floats, Ints
 from plyfold.errors import PlyfoldError, PrecisionError
 from plyfold.mesh.cells import chain_of
 from plyfold.outline.curve import CurveLike
+from plyfold.ragged import count_each
 
 if TYPE_CHECKING:
     from shapely import Polygon
@@ -175,8 +176,7 @@ def _coordinates(arrangement: Arrangement, loops: Sequence[Sequence[int]]) -> tu
     count = length[border]
     first = begin[border] + backward * count
     last = np.cumsum(count)
-    step = np.arange(last[-1]) - np.repeat(last - count, count)
-    position = np.repeat(first, count) + np.repeat(1 - 2 * backward, count) * step
+    position = np.repeat(first, count) + np.repeat(1 - 2 * backward, count) * count_each(count)
     darts_before = np.cumsum([0, *map(len, loops)])
     return points[position % len(points)], np.concatenate([[0], last])[darts_before]
 

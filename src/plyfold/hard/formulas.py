@@ -26,7 +26,7 @@ from plyfold.layering.layering import Layering
 
 __all__ = ["FormulaDisk", "formula_disk"]
 
-Clause = tuple[int, ...]
+_Literals = tuple[int, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +115,7 @@ def formula_disk(clauses: Iterable[Sequence[int]]) -> FormulaDisk:
     return FormulaDisk(disk, {literal: place[flap] for literal, flap in digraph.flap_of.items() if literal > 0})
 
 
-def _checked(clause: Sequence[int]) -> Clause:
+def _checked(clause: Sequence[int]) -> _Literals:
     literals = tuple(sorted(set(clause)))
     if len(literals) not in (2, 3) or 0 in literals or not all(isinstance(literal, Integral) for literal in literals):
         raise InputError(
@@ -152,7 +152,7 @@ class _Digraph:
         self.arcs += zip(flaps, [*flaps[1:], flaps[0]], strict=True)
 
 
-def _add_clause(digraph: _Digraph, clause: Clause, uses: Counter[int]) -> None:
+def _add_clause(digraph: _Digraph, clause: _Literals, uses: Counter[int]) -> None:
     """Add a circle through a flap for one literal that is in no other clause, and the flaps of the others."""
     own = min(clause, key=lambda literal: (uses[literal] > 1, -literal not in digraph.flap_of, -uses[literal]))
     if uses[own] == 1:

@@ -7,14 +7,12 @@ an easy bound on P'', so each is cut until this bound is within the tolerance.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
-__all__ = ["Arc", "Bezier", "Outline", "sample_points"]
+from plyfold.arrays import Floats
 
-_Points: TypeAlias = npt.NDArray[np.float64]
+__all__ = ["Bezier", "DrawnPath", "EllipticArc", "sample_points"]
 
 _SAMPLES = 16
 
@@ -29,18 +27,18 @@ class Bezier:
         Control points.
     """
 
-    controls: _Points
+    controls: Floats
 
     @property
-    def end(self) -> _Points:
+    def end(self) -> Floats:
         """The last point, shape (2,)."""
         return np.asarray(self.controls[-1])
 
-    def transformed(self, matrix: _Points, shift: _Points) -> Bezier:
+    def transformed(self, matrix: Floats, shift: Floats) -> Bezier:
         """Return the curve under x ↦ matrix x + shift."""
         return Bezier(self.controls @ matrix.T + shift)
 
-    def at(self, parameters: _Points) -> _Points:
+    def at(self, parameters: Floats) -> Floats:
         """Return the points at parameters from 0 to 1, shape (m, 2), by de Casteljau's scheme."""
         t = parameters[:, None, None]
         points = np.broadcast_to(self.controls, (len(parameters), *self.controls.shape))
@@ -48,7 +46,7 @@ class Bezier:
             points = (1 - t) * points[:, :-1] + t * points[:, 1:]
         return points[:, 0]
 
-    def flattened(self, tolerance: float) -> list[_Points]:
+    def flattened(self, tolerance: float) -> list[Floats]:
         """Return the vertices after the first point; straight stretches get few, bends many."""
         origin = self.controls[0]
         waiting, vertices = [self.controls - origin], []  # near zero, so that rounding cannot stop the halving
@@ -62,7 +60,7 @@ class Bezier:
 
 
 @dataclass(frozen=True, eq=False)
-class Arc:
+class EllipticArc:
     """An arc of an ellipse: center + axes @ (cos t, sin t) for t from start_angle, over sweep.
 
     Parameters
@@ -76,23 +74,23 @@ class Arc:
         The last point, free of rounding.
     """
 
-    center: _Points
-    axes: _Points
+    center: Floats
+    axes: Floats
     start_angle: float
     sweep: float
-    end: _Points
+    end: Floats
 
-    def transformed(self, matrix: _Points, shift: _Points) -> Arc:
+    def transformed(self, matrix: Floats, shift: Floats) -> EllipticArc:
         """Return the arc under x ↦ matrix x + shift."""
         center, end = matrix @ self.center + shift, matrix @ self.end + shift
-        return Arc(center, matrix @ self.axes, self.start_angle, self.sweep, end)
+        return EllipticArc(center, matrix @ self.axes, self.start_angle, self.sweep, end)
 
-    def at(self, parameters: _Points) -> _Points:
+    def at(self, parameters: Floats) -> Floats:
         """Return the points at parameters from 0 to 1, shape (m, 2)."""
         angles = self.start_angle + self.sweep * parameters
         return self.center + np.column_stack([np.cos(angles), np.sin(angles)]) @ self.axes.T
 
-    def flattened(self, tolerance: float) -> list[_Points]:
+    def flattened(self, tolerance: float) -> list[Floats]:
         """Return the vertices after the first point, at equal steps of the angle."""
         longest_radius = float(np.linalg.norm(self.axes, 2))
         steps = max(1, int(np.ceil(abs(self.sweep) * np.sqrt(longest_radius / (8 * tolerance)))))
@@ -100,13 +98,13 @@ class Arc:
 
 
 @dataclass(frozen=True, eq=False)
-class Outline:
+class DrawnPath:
     """One connected piece of a drawing, open or closed.
 
     Parameters
     ----------
     start : ndarray, shape (2,)
-    segments : tuple of Bezier or Arc
+    segments : tuple of Bezier or EllipticArc
         Each begins where the one before ends.
     closed : bool
         Whether the end is to be joined to the start.
@@ -114,30 +112,30 @@ class Outline:
         What the piece is called in messages.
     """
 
-    start: _Points
-    segments: tuple[Bezier | Arc, ...]
+    start: Floats
+    segments: tuple[Bezier | EllipticArc, ...]
     closed: bool
     name: str
 
-    def flattened(self, tolerance: float) -> _Points:
+    def flattened(self, tolerance: float) -> Floats:
         """Return the vertices of a polyline nowhere farther from the outline than ``tolerance``, shape (n, 2)."""
         return np.array([self.start, *(vertex for piece in self.segments for vertex in piece.flattened(tolerance))])
 
 
-def sample_points(outlines: list[Outline]) -> _Points:
+def sample_points(outlines: list[DrawnPath]) -> Floats:
     """Return points along all segments of the outlines, dense enough to measure their size; shape (n, 2)."""
     parameters = np.linspace(0, 1, _SAMPLES + 1)
     return np.concatenate([piece.at(parameters) for outline in outlines for piece in outline.segments])
 
 
-def _chord_error(controls: _Points) -> float:
+def _chord_error(controls: Floats) -> float:
     """Bound the distance of the Bézier curve from its chord: |P''| ≤ d (d − 1) · the longest second difference."""
     degree = len(controls) - 1
     bends = np.diff(controls, 2, axis=0)
     return degree * (degree - 1) / 8 * float(np.hypot(*bends.T).max(initial=0.0))
 
 
-def _halves(controls: _Points) -> tuple[_Points, _Points]:
+def _halves(controls: Floats) -> tuple[Floats, Floats]:
     left, right = [controls[0]], [controls[-1]]
     while len(controls) > 1:
         controls = (controls[:-1] + controls[1:]) / 2

@@ -15,7 +15,7 @@ from itertools import chain
 from threading import Event, Thread
 from typing import Any, TypeAlias, TypeVar
 
-from plyfold.clock import NO_LIMIT, Clock
+from plyfold.clock import NO_LIMIT, Clock, make_call
 
 __all__ = ["Clauses", "StoppableSolver", "in_time", "minimal_core", "solutions_by_choice", "solve", "solver_of"]
 
@@ -122,29 +122,17 @@ def in_time(time_limit: float | None, solver: StoppableSolver, question: Callabl
     The question is asked in another thread, since signals have to wait for as long as this one is in foreign code.
     Raises TimeoutError when the time is over, unless the question answers all the same.
     """
-    answers: list[Answer] = []
-    errors: list[BaseException] = []
+    outcome: list[Callable[[], Answer]] = []
     # Not Thread.join: interrupted by a signal, it takes the thread for finished.
     done = Event()
-
-    def ask() -> None:
-        try:
-            answers.append(question())
-        except BaseException as error:  # it is raised again below
-            errors.append(error)
-        finally:
-            done.set()
-
     try:
-        Thread(target=ask, daemon=True).start()
+        Thread(target=make_call, args=(question, outcome, done), daemon=True).start()
         done.wait(time_limit)
     finally:
         if not done.is_set():
             solver.interrupt()
             done.wait()
-    if errors:
-        raise errors[0]
-    return answers[0]
+    return outcome[0]()
 
 
 def minimal_core(

@@ -14,17 +14,17 @@ from plyfold.arrays import Floats, Ints
 from plyfold.certify.surface import check_rounded
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import CertificateError, InputError, PrecisionError
-from plyfold.mesh.cavity import FREE, GIVEN, Edged
-from plyfold.mesh.mend import Limits, mend_angles, sharp_triangles
+from plyfold.graphs import components
+from plyfold.mesh.mend import FREE, GIVEN, Edged, Limits, mend_angles, sharp_triangles
 from plyfold.mesh.refine import (
     ENCLOSING,
-    Outline,
+    NodedCurve,
     PlanarMesh,
     Size,
     chain_of,
     constrained,
     left_of_chain,
-    outline_of,
+    noded_curve,
     planar_mesh,
     refine,
     split_chain,
@@ -158,7 +158,7 @@ def triangulate_cells(
     """
     watch = watch.begin("triangulating the cells")
     _refuse_tiny(arrangement)
-    outline = outline_of(arrangement)
+    outline = noded_curve(arrangement)
     if triangles:
         size = usual_area(outline, triangles, max_area)
         for finest in _FINEST:
@@ -193,13 +193,13 @@ def refuse_max_area(points: Floats, max_area: float) -> None:
         )
 
 
-def _plain(outline: Outline, watch: Watch) -> PlanarMesh:
+def _plain(outline: NodedCurve, watch: Watch) -> PlanarMesh:
     """Triangulate without adding points."""
     return planar_mesh(constrained(outline, watch), outline.points, outline.chain, outline.chain_border)
 
 
 def _refined(
-    arrangement: Arrangement, outline: Outline, size: Size, finest: float, watch: Watch
+    arrangement: Arrangement, outline: NodedCurve, size: Size, finest: float, watch: Watch
 ) -> tuple[PlanarMesh, int]:
     """Triangulate, and refine what the surface covers; the library cannot take back steps that were too many.
 
@@ -222,7 +222,7 @@ def _refined(
 
 
 def _with_good_angles(
-    arrangement: Arrangement, outline: Outline, size: Size, finest: float, watch: Watch
+    arrangement: Arrangement, outline: NodedCurve, size: Size, finest: float, watch: Watch
 ) -> CellTriangulation:
     """Refine, and mend; if that takes too many triangles, larger ones elsewhere leave room for more."""
     found: list[CellTriangulation] = []
@@ -241,7 +241,7 @@ def _with_good_angles(
 
 
 def _mended(
-    arrangement: Arrangement, outline: Outline, mesh: CellTriangulation, enough: float, finest: float
+    arrangement: Arrangement, outline: NodedCurve, mesh: CellTriangulation, enough: float, finest: float
 ) -> CellTriangulation | None:
     """Mend triangles with sharp angles outside thin strips, unless it takes too many triangles."""
     sharp = sharp_triangles((mesh.points - outline.centre) / outline.scale, mesh.triangles)
@@ -260,7 +260,7 @@ def _mended(
     return mesh
 
 
-def _drawn(outline: Outline, mesh: CellTriangulation, mended: Edged) -> CellTriangulation:
+def _drawn(outline: NodedCurve, mesh: CellTriangulation, mended: Edged) -> CellTriangulation:
     """Return a mesh with the points that mending has added."""
     unit_points = np.stack([mended.x, mended.y], axis=1)
     points = outline.centre + unit_points * outline.scale
@@ -272,7 +272,7 @@ def _drawn(outline: Outline, mesh: CellTriangulation, mended: Edged) -> CellTria
     return CellTriangulation(points, triangles, mended.beyond, mended.cell, chain, chain_border, left)
 
 
-def _edged(outline: Outline, mesh: CellTriangulation) -> Edged:
+def _edged(outline: NodedCurve, mesh: CellTriangulation) -> Edged:
     """Return triangles in the unit square, with the pieces of the outline that points and half-edges are on."""
     known = len(outline.points)
     piece_of_chain = np.cumsum(mesh.chain < known) - 1
@@ -285,7 +285,8 @@ def _edged(outline: Outline, mesh: CellTriangulation) -> Edged:
     piece[mesh.left[covered]] = piece_of_chain[covered]
     piece[right[right >= 0]] = piece_of_chain[covered][right >= 0]
     x, y = ((mesh.points - outline.centre) / outline.scale).T.copy()
-    return Edged(x, y, on, mesh.triangles.ravel(), mesh.twin, piece, mesh.cell)
+    total = np.array([len(x), len(mesh.cell)])
+    return Edged(x, y, on, mesh.triangles.ravel(), mesh.twin, piece, mesh.cell, total)
 
 
 def _verified(arrangement: Arrangement, mesh: PlanarMesh) -> CellTriangulation:
@@ -302,7 +303,7 @@ def _verified(arrangement: Arrangement, mesh: PlanarMesh) -> CellTriangulation:
     return verified
 
 
-def _repaired(arrangement: Arrangement, outline: Outline, mesh: PlanarMesh) -> CellTriangulation:
+def _repaired(arrangement: Arrangement, outline: NodedCurve, mesh: PlanarMesh) -> CellTriangulation:
     """Verify a mesh; where rounding has broken it, in strips as thin as rounding errors, with fewer points there."""
     for _ in range(_MOST_REPAIRS):
         try:
@@ -315,7 +316,7 @@ def _repaired(arrangement: Arrangement, outline: Outline, mesh: PlanarMesh) -> C
     return _verified(arrangement, mesh)
 
 
-def _unfit(outline: Outline, mesh: PlanarMesh, places: Floats) -> Ints:
+def _unfit(outline: NodedCurve, mesh: PlanarMesh, places: Floats) -> Ints:
     """Return the points that were added at some places, and all others on the same pieces of the outline."""
     known = len(outline.points)
     there = np.zeros(len(mesh.points), dtype=bool)
@@ -326,7 +327,7 @@ def _unfit(outline: Outline, mesh: PlanarMesh, places: Floats) -> Ints:
     return np.flatnonzero(there)
 
 
-def _without(outline: Outline, mesh: PlanarMesh, unfit: Ints) -> PlanarMesh:
+def _without(outline: NodedCurve, mesh: PlanarMesh, unfit: Ints) -> PlanarMesh:
     """Triangulate again without some of the points."""
     kept = np.delete(np.arange(len(mesh.points) - ENCLOSING), unfit)
     number = np.full(len(mesh.points), -1)
@@ -378,17 +379,10 @@ def _cells(arrangement: Arrangement, mesh: PlanarMesh) -> tuple[Ints, Ints]:
 
 def _components(mesh: PlanarMesh, left: Ints, right: Ints) -> Ints:
     """Return the component of each triangle when the mesh is cut along the chain."""
-    from scipy.sparse import csr_array
-    from scipy.sparse.csgraph import connected_components
-
     twin = mesh.twin.copy()
     twin[left] = twin[right] = -1
-    linked = twin >= 0
-    t = len(mesh.triangles)
-    row = np.concatenate([[0], np.cumsum(linked.reshape(t, 3).sum(axis=1))])
-    graph = csr_array((np.ones(row[-1]), twin[linked] // 3, row), shape=(t, t))
-    # Links go both ways, so the strong components are the components, and they need no second copy of the graph.
-    return np.asarray(connected_components(graph, connection="strong")[1], dtype=np.int64)
+    side = np.flatnonzero(np.arange(len(twin)) < twin)
+    return components(len(mesh.triangles), side // 3, twin[side] // 3)
 
 
 # ---- sizes of triangles that make a mesh -----------------------------------------------------------------------------

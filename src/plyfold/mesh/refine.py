@@ -23,19 +23,20 @@ import numpy as np
 from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import PlyfoldError, PrecisionError
+from plyfold.halfedges import ends_of
 
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
 
 __all__ = [
     "ENCLOSING",
-    "Outline",
+    "NodedCurve",
     "PlanarMesh",
     "Size",
     "chain_of",
     "constrained",
     "left_of_chain",
-    "outline_of",
+    "noded_curve",
     "planar_mesh",
     "refine",
     "split_chain",
@@ -72,7 +73,7 @@ class _Covered:
     """The library's triangulation, the curve in it, and the triangles to leave alone; the library updates these."""
 
     library: Any
-    outline: Outline
+    outline: NodedCurve
     uncovered: set[int]
     watch: Watch
 
@@ -100,7 +101,7 @@ class Size(NamedTuple):
     most: float | None
 
 
-def usual_area(outline: Outline, triangles: int, max_area: float | None) -> Size:
+def usual_area(outline: NodedCurve, triangles: int, max_area: float | None) -> Size:
     """Return the size asked for, in the unit square."""
     if max_area is None:
         return Size(triangles, None)
@@ -109,7 +110,7 @@ def usual_area(outline: Outline, triangles: int, max_area: float | None) -> Size
 
 
 def refine(  # noqa: PLR0913 - what is refined, where, how far, and how long
-    library: Any, outline: Outline, winding: Ints, size: Size, finest: float, *, watch: Watch = UNWATCHED
+    library: Any, outline: NodedCurve, winding: Ints, size: Size, finest: float, *, watch: Watch = UNWATCHED
 ) -> float:
     """Add points to a constrained triangulation where the surface is, for good angles and the size asked for.
 
@@ -117,7 +118,7 @@ def refine(  # noqa: PLR0913 - what is refined, where, how far, and how long
     ----------
     library : Triangulation
         Without points added.
-    outline : Outline
+    outline : NodedCurve
     winding : (t,) int
         The winding number of each triangle of the library; those with 0 or less are left alone.
     size : Size
@@ -232,7 +233,7 @@ def _bad_sides(covered: _Covered) -> Floats:
     return np.asarray(lengths[row, side][~np.array(across)])
 
 
-def _neighbours_on_curve(library: Any, outline: Outline) -> dict[int, set[int]]:
+def _neighbours_on_curve(library: Any, outline: NodedCurve) -> dict[int, set[int]]:
     """Return the points of curve and crossings at the ends of the pieces on which each vertex lies."""
     beside: dict[int, set[int]] = {}
     pieces = np.stack([outline.chain, np.roll(outline.chain, -1)], axis=1).tolist()
@@ -259,7 +260,7 @@ def _across_sharp_corner(points: Floats, u: int, v: int, beside: dict[int, set[i
     return False
 
 
-def split_points(library: Any, outline: Outline) -> Ints:
+def split_points(library: Any, outline: NodedCurve) -> Ints:
     """Return rows (piece of the outline's chain, vertex): the points added on the curve, in no order along it."""
     known = len(outline.points) + ENCLOSING
     originals = library.piece_to_originals
@@ -306,7 +307,7 @@ ENCLOSING = 3
 
 
 @dataclass(frozen=True, eq=False)
-class Outline:
+class NodedCurve:
     """The points of curve and crossings, the curve as a chain through them, and the same points in a unit square."""
 
     points: Floats
@@ -328,14 +329,14 @@ class Outline:
         return float(np.spacing(np.abs(self.points).max()) / self.scale)
 
 
-def outline_of(arrangement: Arrangement) -> Outline:
+def noded_curve(arrangement: Arrangement) -> NodedCurve:
     """Return the curve of a drawing, with its crossings."""
     curve = arrangement.curve
     if curve is None:
         raise PlyfoldError("triangles need a drawing, and this arrangement is a Gauss code alone")
     points = np.concatenate([curve.points, arrangement.crossings])
     chain, chain_border = chain_of(arrangement)
-    return Outline(points, chain, chain_border, *_unit_square(points))
+    return NodedCurve(points, chain, chain_border, *_unit_square(points))
 
 
 def chain_of(arrangement: Arrangement) -> tuple[Ints, Ints]:
@@ -368,7 +369,7 @@ def _unit_square(points: Floats) -> tuple[Floats, Floats, float]:
     return (points - centre) / scale, centre, float(scale)
 
 
-def constrained(outline: Outline, watch: Watch = UNWATCHED) -> Any:
+def constrained(outline: NodedCurve, watch: Watch = UNWATCHED) -> Any:
     """Return the constrained Delaunay triangulation; its first three vertices are those of an enclosing triangle."""
     import pythoncdt as cdt
 
@@ -440,7 +441,7 @@ def _twins(corners: Ints, neighbours: Any) -> Ints:
     outside = np.flatnonzero(first >= corners.size)
     first[outside] = 0
     # The twin starts where the half-edge ends.
-    start, end = corners.ravel(), corners[:, [1, 2, 0]].ravel()
+    start, end = ends_of(corners)
     twin = first + (start[first + 1] == end)
     twin += 2 * (start[first + 2] == end)
     twin[outside] = -1
@@ -450,7 +451,7 @@ def _twins(corners: Ints, neighbours: Any) -> Ints:
 # ---- the curve as a chain of edges of triangles ----------------------------------------------------------------------
 
 
-def split_chain(outline: Outline, unit_points: Floats, added: Ints) -> tuple[Ints, Ints]:
+def split_chain(outline: NodedCurve, unit_points: Floats, added: Ints) -> tuple[Ints, Ints]:
     """Return the chain along the curve with the points that were added on it, and the borders.
 
     The added ones are rows (piece of the outline's chain, vertex), in any order.
@@ -466,7 +467,7 @@ def split_chain(outline: Outline, unit_points: Floats, added: Ints) -> tuple[Int
 
 def left_of_chain(triangles: Ints, chain: Ints) -> Ints:
     """Return the half-edge along each piece of a chain, -1 if there is none; a point starts at most two pieces."""
-    start, end = triangles.ravel(), triangles[:, [1, 2, 0]].ravel()
+    start, end = ends_of(triangles)
     pieces = np.arange(len(chain))
     left = np.full(len(pieces), -1)
     for order in (pieces, pieces[::-1]):

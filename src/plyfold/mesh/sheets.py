@@ -6,12 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plyfold.arrays import Ints
+from plyfold.arrays import Bools, Ints
+from plyfold.graphs import components
+from plyfold.halfedges import following
 from plyfold.immersion.immersion import Immersion, require_memory_for_gluing
 from plyfold.memory import require_memory
 from plyfold.mesh.cells import CellTriangulation
+from plyfold.ragged import count_each, starts_of
 
-__all__ = ["Seams", "SheetMesh", "following", "glue_copies", "seams_of"]
+__all__ = ["Seams", "SheetMesh", "glue_copies", "seams_of"]
 
 # With what is needed to make them.
 _BYTES_PER_SEAM = 40
@@ -70,17 +73,12 @@ def seams_of(immersion: Immersion) -> Seams:
     arrangement = immersion.arrangement
     require_memory_for_gluing(arrangement, _BYTES_PER_SEAM)
     count = arrangement.winding[arrangement.cell_of_dart]
-    row = np.cumsum(count) - count - immersion.first_sheet[arrangement.cell_of_dart]
+    row = starts_of(count) - immersion.first_sheet[arrangement.cell_of_dart]
     table = np.full(int(count.sum()), -1)
     border, right, left = immersion.gluing.T
     table[row[2 * border] + left] = right
     table[row[2 * border + 1] + right] = left
     return Seams(row, table)
-
-
-def following(half_edge: Ints) -> Ints:
-    """Return the half-edge that follows within the same triangle; its start is the end of the given one."""
-    return np.where(half_edge % 3 == 2, half_edge - 2, half_edge + 1)
 
 
 def glue_copies(immersion: Immersion, mesh: CellTriangulation) -> SheetMesh:
@@ -114,10 +112,10 @@ def glue_copies(immersion: Immersion, mesh: CellTriangulation) -> SheetMesh:
         immersion.arrangement,
         "triangulate(curve) fills the disk without them",
     )
-    first_copy = np.cumsum(copies) - copies
+    first_copy = starts_of(copies)
     first_sheet = immersion.first_sheet[mesh.cell]
     triangle = np.repeat(np.arange(len(copies)), copies)
-    sheet = np.arange(len(triangle)) + (first_sheet - first_copy)[triangle]
+    sheet = first_sheet[triangle] + count_each(copies)
     point = mesh.triangles[triangle].ravel()
     along = _lifted(mesh.left, immersion.own_sheet[mesh.chain_border], first_copy - first_sheet)
     shared = np.flatnonzero(_under_several(immersion, mesh)[point])
@@ -135,7 +133,7 @@ def _lifted(half_edge: Ints, sheet: Ints, copy_of_sheet: Ints) -> Ints:
     return np.asarray(3 * (copy_of_sheet[triangle] + sheet - triangle) + half_edge)
 
 
-def _under_several(immersion: Immersion, mesh: CellTriangulation) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+def _under_several(immersion: Immersion, mesh: CellTriangulation) -> Bools:
     """Tell over which points there is more than one vertex: a sheet of a cell with winding number 2 comes there."""
     several = np.zeros(len(mesh.points), dtype=bool)
     several[mesh.triangles[immersion.arrangement.winding[mesh.cell] > 1].ravel()] = True
@@ -159,19 +157,12 @@ def _beside(immersion: Immersion, mesh: CellTriangulation, below: Ints, sheet: I
 
 def _joined(point: Ints, shared: Ints, beside: Ints, points: int) -> Ints:
     """Return a number for the vertex at each corner; corners over shared points are joined across half-edges."""
-    from scipy.sparse import csr_array
-    from scipy.sparse.csgraph import connected_components
-
     label = point.copy()
-    if len(shared) == 0:
-        return label
-    place = np.full(len(point), -1)
-    place[shared] = np.arange(len(shared))
-    linked = beside >= 0
-    row = np.concatenate([[0], np.cumsum(linked)])
-    other = place[following(beside[linked])]
-    graph = csr_array((np.ones(len(other)), other, row), shape=(len(shared), len(shared)))
-    label[shared] = points + connected_components(graph, directed=False)[1]
+    if len(shared):
+        place = np.full(len(point), -1)
+        place[shared] = np.arange(len(shared))
+        linked = np.flatnonzero(beside >= 0)
+        label[shared] = points + components(len(shared), linked, place[following(beside[linked])])
     return label
 
 

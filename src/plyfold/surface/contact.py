@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
-from plyfold.blas import one_thread
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.surface.energy import Cloth, Response, factorised, held_response, response
+from plyfold.matrices import factorised, one_thread
+from plyfold.surface.energy import Cloth, Response, held_response, response
 
 __all__ = ["Distances", "Problem", "forced_heights", "least_forces", "sprung_heights"]
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from plyfold.arrays import Floats
 from plyfold.colours import layer_colour, rgb, sheet_colour
-from plyfold.disk.files import shapes_of_disk
+from plyfold.disk.motion import shapes_of_disk
 from plyfold.errors import InputError, PrecisionError
 from plyfold.io.mesh.model import DETAIL, Material, Model, size_of, summed_at_vertices
 from plyfold.options import refuse_unless_flag

@@ -9,19 +9,22 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
+from plyfold.halfedges import following
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering
 from plyfold.mesh.cells import CellTriangulation
-from plyfold.mesh.sheets import SheetMesh, following, glue_copies
+from plyfold.mesh.sheets import SheetMesh, glue_copies
+from plyfold.ragged import count_each, pairs_in_each
 
 __all__ = [
     "LiftedMesh",
     "copies_over_each_other",
-    "glue_sheets",
     "intersection_curves",
+    "numbers_of_copies",
     "passing_edges",
     "shares_of_gap",
+    "stack_sheets",
     "stacked_but_passing",
 ]
 
@@ -59,7 +62,7 @@ class LiftedMesh:
     passing: Ints
 
 
-def glue_sheets(
+def stack_sheets(
     layering: Layering | IntersectingLayering, mesh: CellTriangulation, watch: Watch = UNWATCHED
 ) -> LiftedMesh:
     """Copy the triangles of each cell once per sheet, glue the copies and stack them.
@@ -82,7 +85,7 @@ def glue_sheets(
     >>> from plyfold import find_immersion
     >>> from plyfold import find_layering
     >>> triangle = find_layering(find_immersion([(0, 0), (1, 0), (0, 1)]))
-    >>> lifted = glue_sheets(triangle, triangulate_cells(triangle.immersion.arrangement, max_area=1.0))
+    >>> lifted = stack_sheets(triangle, triangulate_cells(triangle.immersion.arrangement, max_area=1.0))
     >>> lifted.faces.shape, lifted.boundary.tolist(), lifted.stacked.tolist()
     ((1, 3), [0, 1, 2], [])
     """
@@ -116,8 +119,7 @@ def _stacks(immersion: Immersion, sheet_level: Ints, mesh: CellTriangulation, gl
     # Every vertex over a point is the corner of exactly one copy of the point's highest triangle.
     at = np.unique(planar_vertex, return_index=True)[1]
     repeated = np.repeat(top[at], sheets[at])
-    step = np.arange(len(repeated)) - np.repeat(np.cumsum(sheets[at]) - sheets[at], sheets[at])
-    sheet = glued.first_sheet[repeated // 3] + step
+    sheet = glued.first_sheet[repeated // 3] + count_each(sheets[at])
     stacked_vertex = vertex[glued.lifted(repeated, sheet)]
     level = np.empty(len(planar_vertex), dtype=np.int64)
     level[stacked_vertex] = sheet_level[sheet] - 1
@@ -143,8 +145,7 @@ def passing_edges(layering: IntersectingLayering, mesh: CellTriangulation, glued
     rank = np.argsort(mesh.chain_border, kind="stable")
     first, last = (np.searchsorted(mesh.chain_border[rank], border, side=side) for side in ("left", "right"))
     row = np.repeat(np.arange(len(border)), last - first)
-    step = np.arange(len(row)) - np.repeat(np.cumsum(last - first) - (last - first), last - first)
-    beside = mesh.twin[mesh.left[rank[first[row] + step]]]
+    beside = mesh.twin[mesh.left[rank[first[row] + count_each(last - first)]]]
     vertex = glued.faces.ravel()
     sides = (glued.lifted(beside, sheet[row]) for sheet in (lower, upper))
     return np.column_stack([vertex[end] for side in sides for end in (side, following(side))])
@@ -156,7 +157,7 @@ def stacked_but_passing(stacked: Ints, level: Ints, planar_vertex: Ints, passing
     kept = stacked[~np.isin(planar_vertex[stacked[:, 0]], open_points)]
     members = np.flatnonzero(np.isin(planar_vertex, open_points))
     members = members[np.lexsort((level[members], planar_vertex[members]))]
-    pairs = _pairs_in_groups(members, planar_vertex[members])
+    pairs = _pairs(members, np.unique(planar_vertex[members], return_counts=True)[1])
     key, open_key = (np.sort(rows, axis=1) @ [len(level), 1] for rows in (pairs, _open_pairs(passing)))
     return np.concatenate([kept, pairs[~np.isin(key, open_key)]])
 
@@ -202,19 +203,19 @@ def intersection_curves(vertices: Floats, mesh: LiftedMesh) -> tuple[Floats, ...
 
 def copies_over_each_other(mesh: LiftedMesh) -> Ints:
     """Return all pairs of triangles over the same triangle of the drawing, shape (q, 2)."""
+    return _pairs(np.arange(len(mesh.faces)), numbers_of_copies(mesh))
+
+
+def numbers_of_copies(mesh: LiftedMesh) -> Ints:
+    """Return how many triangles lie over each triangle of the drawing; they follow each other."""
     below = mesh.planar_vertex[mesh.faces]
-    first = np.concatenate([[True], (below[1:] != below[:-1]).any(axis=1)])
-    return _pairs_in_groups(np.arange(len(below)), np.cumsum(first))
+    first = np.flatnonzero(np.concatenate([[True], (below[1:] != below[:-1]).any(axis=1)]))
+    return np.diff(np.append(first, len(below)))
 
 
-def _pairs_in_groups(members: Ints, group: Ints) -> Ints:
-    """Return all pairs of members of the same group, in order; the groups follow each other."""
-    place = np.arange(len(members))
-    end = np.searchsorted(group, group, side="right")
-    beyond = end - place - 1
-    first = np.repeat(place, beyond)
-    second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(beyond) - beyond, beyond)
-    return np.column_stack([members[first], members[second]])
+def _pairs(members: Ints, lengths: Ints) -> Ints:
+    """Return all pairs of members of groups with these lengths, that follow each other."""
+    return members[np.column_stack(pairs_in_each(lengths))]
 
 
 def _open_pairs(passing: Ints) -> Ints:

@@ -31,7 +31,7 @@ from plyfold.options import refuse_unless_flag, refuse_unless_number
 from plyfold.outline.curve import Curve, CurveLike
 from plyfold.surface.chords import split_chords
 from plyfold.surface.files import Colouring, model_of_surface
-from plyfold.surface.glue import glue_sheets, intersection_curves
+from plyfold.surface.glue import intersection_curves, stack_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, flat_weight, refuse_stiffness, smooth_heights
 from plyfold.surface.thicken import Solid, thicken
 
@@ -321,7 +321,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     if isinstance(layering, IntersectingLayering):
         cells = split_chords(cells, layering.intersections[:, 0])
         refuse_broken(drawn, cells)
-    mesh = glue_sheets(layering, cells, watch)
+    mesh = stack_sheets(layering, cells, watch)
     heights = smooth_heights(cells.points, mesh, distance, stiffness=stiffness, pins=pins, flat=weight, watch=watch)
     vertices = np.column_stack([cells.points[mesh.planar_vertex], heights])
     curves = intersection_curves(vertices, mesh)

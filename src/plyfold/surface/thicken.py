@@ -11,6 +11,7 @@ import numpy as np
 from plyfold.arrays import Floats, Ints, freeze
 from plyfold.certify import check_solid
 from plyfold.errors import InputError, PrecisionError
+from plyfold.halfedges import ends_of
 from plyfold.io.mesh.saving import save_model
 from plyfold.options import refuse_unless_number
 from plyfold.surface.files import Colouring, model_of_solid
@@ -172,7 +173,7 @@ def _require_strict_order(vertices: Floats) -> None:
 
 def _sheets_along(surface: Surface) -> Ints:
     """Return the sheet of the triangle at each edge of the boundary; edge i starts at the i-th boundary vertex."""
-    start, end = surface.faces.ravel(), np.roll(surface.faces, -1, axis=1).ravel()
+    start, end = ends_of(surface.faces)
     b = len(surface.boundary)
     side = np.flatnonzero((start < b) & (end == (start + 1) % b))
     sheet = np.empty(b, dtype=np.int64)

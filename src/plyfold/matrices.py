@@ -1,4 +1,4 @@
-"""One thread for small matrices.
+"""Large sparse matrices, and one thread for small full ones.
 
 The threads of BLAS wait for each other by turning round and round, several times for each row of a matrix. Where there
 are more of them than idle processors, matrices of a few hundred rows take a hundred times as long.
@@ -13,7 +13,9 @@ from importlib import import_module
 from threading import Lock
 from typing import Any
 
-__all__ = ["one_thread"]
+from plyfold.clock import UNWATCHED, Watch
+
+__all__ = ["factorised", "one_thread"]
 
 _lock = Lock()
 # Gives the threads back, once for each who wants one thread: the numbers that the first one found come first.
@@ -52,3 +54,23 @@ def _threads() -> Any:
     with suppress(ImportError):
         return import_module("threadpoolctl").ThreadpoolController()
     return None
+
+
+def factorised(matrix: Any, watch: Watch = UNWATCHED) -> Any:
+    """Return the factors of a sparse symmetric matrix, real or complex, with its pivots on the diagonal.
+
+    Raises RuntimeError if one of them is 0, as none is of a positive definite matrix.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from scipy.sparse import diags_array
+    >>> factorised(diags_array(np.array([1.0, 2.0]))).solve(np.array([3.0, 4.0])).tolist()
+    [3.0, 2.0]
+    """
+    from scipy.sparse.linalg import splu
+
+    columns, options = matrix.tocsc(), {"SymmetricMode": True}
+    return watch.wait_for(
+        lambda: splu(columns, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options), columns.shape[0]
+    )

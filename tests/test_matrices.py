@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import plyfold as pf
-from plyfold.blas import one_thread
 from plyfold.gallery import CURVES
+from plyfold.matrices import one_thread
 
 threadpoolctl = pytest.importorskip("threadpoolctl")
 
@@ -70,6 +70,6 @@ def test_heights_are_found_with_one():
 
 
 def test_without_the_library(monkeypatch):
-    monkeypatch.setattr("plyfold.blas._threads", lambda: None)
+    monkeypatch.setattr("plyfold.matrices._threads", lambda: None)
     with one_thread():
         assert threads() == {2}
