@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.blas import one_thread
-from plyfold.gallery import CURVES
 
 threadpoolctl = pytest.importorskip("threadpoolctl")
 

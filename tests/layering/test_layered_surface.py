@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.arrangement.arrangement import arrange
 from plyfold.clock import Clock
 from plyfold.errors import GeneralPositionError, InputError
-from plyfold.gallery import CURVES
 from plyfold.layering.embedding import count_embeddings, embeddings, find_embedding
 from plyfold.layering.levels.clauses import LevelClauses, solve_levels
 from plyfold.layering.levels.equations import level_equations

@@ -8,8 +8,9 @@ import pytest
 import shapely
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.errors import CurveError, StrokeError
-from plyfold.gallery import CURVES, chain
+from plyfold.gallery import chain
 from plyfold.offers.kinks import find_kink
 from plyfold.report import in_words
 from plyfold.sketch.look import look
