@@ -68,7 +68,7 @@ def strip(width: float) -> Any:
 
 def cases(largest: int) -> Iterator[Case]:
     """Yield sketches, and then one curve with ever more triangles."""
-    sketches = {name: named.curve.points for name, named in CURVES.items() if named.embeddable}
+    sketches = {name: named.coarse().curve.points for name, named in CURVES.items() if named.embeddable}
     sketches |= {"ribbon of 300": ribbon_disk(300), "dense disk of 60": glued_disk(60), "chain of 370": chain(370)}
     sketches |= {f"helix of {turns} turns": helix(turns) for turns in (5, 10, 15)}
     sketches |= {f"strands {height:g} apart": kiss(height) for height in (1e-2, 1e-3)}
@@ -78,7 +78,7 @@ def cases(largest: int) -> Iterator[Case]:
             yield Case(name, points, 4_000, 5)
     for triangles in (10_000, 100_000, 1_000_000):
         if triangles <= largest:
-            yield Case("pretzel", CURVES["pretzel"].curve.points, triangles, 1)
+            yield Case("pretzel", CURVES["pretzel"].draw(40), triangles, 1)
 
 
 def once(case: Case) -> tuple[list[float], pf.Layering, CellTriangulation, int]:

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
-from plyfold.gallery import CURVES, chain
+from coarse import CURVES
+from plyfold.gallery import chain
 from reference.crossings import base_visit
 from reference.random_curves import MILNOR_LIKE, SEVERAL_IMMERSIONS, glued_disk, random_polygon, ribbon_outline
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import plyfold as pf
-from plyfold.gallery import CURVES
+from coarse import CURVES
 from plyfold.matrices import one_thread
 
 threadpoolctl = pytest.importorskip("threadpoolctl")

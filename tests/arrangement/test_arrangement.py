@@ -7,9 +7,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.arrangement.polylines import winding_number
 from plyfold.errors import GaussCodeError, PlyfoldError
-from plyfold.gallery import CURVES
 from reference.random_curves import ribbon_outline
 
 NAMES = list(CURVES)

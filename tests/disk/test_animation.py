@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.disk.motion import Motion, turned_over
 from plyfold.errors import InputError
-from plyfold.gallery import CURVES
 from reference import random_curves
 
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.disk import round_map
 from plyfold.disk.places import locate
 from plyfold.disk.places import weights as weights_of
 from plyfold.errors import CertificateError, InputError, NotImmersibleError, PlyfoldError, PrecisionError
-from plyfold.gallery import CURVES
 from reference import random_curves
 
 DISKS = {name: named.curve for name, named in CURVES.items() if named.immersions}

@@ -8,10 +8,10 @@ from matplotlib.colors import to_hex
 from matplotlib.patches import FancyArrowPatch, Polygon
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.colours import OBSTRUCTION, sheet_colour
 from plyfold.draw import plot_obstruction
 from plyfold.errors import InputError
-from plyfold.gallery import CURVES
 from plyfold.layering.levels.casing import embed_cased
 from plyfold.obstruction import Obstruction
 

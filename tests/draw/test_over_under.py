@@ -11,12 +11,12 @@ import pytest
 import shapely
 from PIL import Image
 
+from coarse import CURVES
 from plyfold import find_immersion, find_layering, immersions, layerings
 from plyfold.draw.over_under import over_under
 from plyfold.draw.over_under_files import over_under_svg, over_under_tex, over_under_tikz, save_over_under
 from plyfold.draw.placement import label_circle
 from plyfold.errors import InputError, PlyfoldError
-from plyfold.gallery import CURVES
 from plyfold.layering.orders.intersections import least_intersecting_layering
 from plyfold.surface.lift import lift
 from reference import random_curves

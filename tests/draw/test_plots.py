@@ -6,11 +6,11 @@ import pytest
 import shapely
 from matplotlib.colors import rgb_to_hsv, to_hex, to_rgb
 
+from coarse import CURVES
 from plyfold import Arrangement, arrange, find_immersion, find_layering, lift
 from plyfold.colours import INK, OBSTRUCTION, mix, sheet_colour, winding_colour
 from plyfold.draw import plot_arrangement, plot_layers, plot_layout, plot_surface
 from plyfold.errors import InputError, PlyfoldError
-from plyfold.gallery import CURVES
 from plyfold.obstruction import Obstruction
 
 RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], float)

@@ -7,9 +7,9 @@ import pytest
 import shapely
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.errors import PrecisionError
 from plyfold.flat.coverage import coverage
-from plyfold.gallery import CURVES
 from reference import random_curves
 
 

@@ -8,9 +8,10 @@ import pytest
 import shapely
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.errors import NotImmersibleError, PrecisionError
 from plyfold.flat.decompose import decompose
-from plyfold.gallery import CURVES, ribbon
+from plyfold.gallery import ribbon
 from reference import random_curves
 
 # Found to be the least by hand: one more than the places where the ribbon must be cut, or what a deep cell needs.

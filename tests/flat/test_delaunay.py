@@ -6,11 +6,11 @@ import sys
 import numpy as np
 import pytest
 
+from coarse import CURVES
 from plyfold import compiled
 from plyfold.compiled import run_in_python
 from plyfold.flat.delaunay import delaunay_triangles, flip_edges
 from plyfold.flat.sweep import sweep_triangles
-from plyfold.gallery import CURVES
 from plyfold.halfedges import glued_pairs
 from plyfold.immersion.solve import immersions
 from plyfold.predicates import orient

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold import compiled
 from plyfold.certify import check_immersed_disk
 from plyfold.errors import GeneralPositionError
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.flat.sweep_line import empty_skip_list, link_above, sweep_order, unlink
-from plyfold.gallery import CURVES
 from plyfold.predicates import as_coordinates, turn
 from reference import random_curves
 

@@ -7,12 +7,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.certify import check_immersed_disk
 from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError, PlyfoldError
 from plyfold.flat.coverage import coverage
 from plyfold.flat.decompose import decompose
 from plyfold.flat.triangulate import triangulate
-from plyfold.gallery import CURVES
 from reference import random_curves, shor_van_wyk
 
 RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], dtype=np.float64)

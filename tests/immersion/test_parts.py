@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
-from plyfold.gallery import CURVES, chain
+from coarse import CURVES
+from plyfold.gallery import chain
 from plyfold.immersion.dual_tree import grow_dual_tree
 from plyfold.immersion.propagation import independent_parts, narrow
 from plyfold.immersion.word import Word, write_word

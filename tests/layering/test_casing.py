@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.errors import InputError
-from plyfold.gallery import CURVES, chain
+from plyfold.gallery import chain
 from plyfold.layering.levels.casing import embed_cased
 from plyfold.layering.orders.listing import layerings
 from reference import layerings as reference

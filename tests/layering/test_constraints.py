@@ -9,9 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.clock import Clock
 from plyfold.errors import InputError
-from plyfold.gallery import CURVES, chain
+from plyfold.gallery import chain
 from plyfold.layering.orders.counting import count_layerings, count_orders
 from plyfold.layering.orders.listing import layerings, solutions
 from plyfold.layering.orders.nicest import nicest_layering

@@ -5,9 +5,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from coarse import CURVES
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.errors import PlyfoldError
-from plyfold.gallery import CURVES
 from plyfold.immersion.solve import immersions
 from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
 from plyfold.layering.orders.search import find_layering

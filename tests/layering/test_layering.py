@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.errors import InputError, NotEmbeddableError, TimeLimitError
-from plyfold.gallery import CURVES
 from plyfold.layering.orders.counting import count_layerings
 from plyfold.layering.orders.search import first_layering
 from plyfold.layering.sat import minimal_core, solve

@@ -6,9 +6,9 @@ from collections import Counter
 import numpy as np
 import pytest
 
+from coarse import CURVES
 from plyfold.arrangement.arrangement import arrange
 from plyfold.errors import PlyfoldError, PrecisionError
-from plyfold.gallery import CURVES
 from plyfold.halfedges import following
 from plyfold.mesh.cells import triangulate_cells
 from reference import random_curves

@@ -6,10 +6,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold import compiled
 from plyfold.arrangement.arrangement import arrange
 from plyfold.errors import PlyfoldError
-from plyfold.gallery import CURVES
 from plyfold.halfedges import following
 from plyfold.mesh.cells import triangulate_cells
 from plyfold.predicates import orient

@@ -6,9 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.arrangement.arrangement import arrange
 from plyfold.errors import InputError
-from plyfold.gallery import CURVES
 from plyfold.mesh.cells import triangulate_cells
 from reference import random_curves
 

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 import shapely
 
+from coarse import CURVES
 from plyfold.errors import TimeLimitError
-from plyfold.gallery import CURVES, chain
+from plyfold.gallery import chain
 from plyfold.report import words
 from plyfold.sketch import drawings
 from plyfold.sketch.lie import lie, lifted

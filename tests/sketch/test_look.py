@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 import shapely
 
+from coarse import CURVES
 from plyfold.errors import CurveError, StrokeError
-from plyfold.gallery import CURVES, chain
+from plyfold.gallery import chain
 from plyfold.report import in_words
 from plyfold.sketch.look import look_at
 from plyfold.sketch.schema import Look, Stroke

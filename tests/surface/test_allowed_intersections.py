@@ -6,11 +6,11 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from coarse import CURVES
 from plyfold.arrangement.arrangement import arrange
 from plyfold.arrangement.gauss import GaussCode
 from plyfold.certify import check_layered, check_surface
 from plyfold.errors import CertificateError, NotEmbeddableError
-from plyfold.gallery import CURVES
 from plyfold.immersion.solve import immersions
 from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
 from plyfold.layering.orders.search import find_layering

@@ -5,11 +5,11 @@ from collections import Counter
 import numpy as np
 import pytest
 
+from coarse import CURVES
 from plyfold import find_layering, immersions
 from plyfold.arrangement.arrangement import arrange
 from plyfold.certify import check_disk_mesh, check_immersed_disk, check_layered
 from plyfold.errors import CertificateError
-from plyfold.gallery import CURVES
 from plyfold.layering.layering import Layering
 from plyfold.mesh.cells import triangulate_cells
 from plyfold.surface.glue import stack_sheets

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.optimize import nnls
 
+from coarse import CURVES
 from plyfold import find_layering, immersions
 from plyfold.clock import Watch
-from plyfold.gallery import CURVES
 from plyfold.mesh.cells import triangulate_cells
 from plyfold.surface.energy import cloth_of
 from plyfold.surface.glue import stack_sheets

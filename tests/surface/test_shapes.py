@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import plyfold.surface.contact
+from coarse import CURVES
 from plyfold import find_layering, immersions, lift
 from plyfold.errors import InputError
-from plyfold.gallery import CURVES
 from plyfold.mesh.cells import triangulate_cells
 from plyfold.surface.energy import cloth_of
 from plyfold.surface.glue import LiftedMesh, stack_sheets

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from coarse import CURVES
 from plyfold import find_immersion, find_layering, immersions
 from plyfold.certify import check_surface
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, PrecisionError
-from plyfold.gallery import CURVES
 from plyfold.outline.curve import Curve
 from plyfold.surface.lift import lift
 from reference import random_curves

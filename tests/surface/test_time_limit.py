@@ -7,11 +7,11 @@ import pytest
 from scipy.sparse import csr_array
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.arrangement.crossings import find_contacts
 from plyfold.arrangement.general_position import in_general_position
 from plyfold.clock import Clock, Watch
 from plyfold.errors import TimeLimitError
-from plyfold.gallery import CURVES
 from plyfold.immersion.dual_tree import grow_dual_tree
 from plyfold.immersion.grouping import find_groupings, list_groupings
 from plyfold.immersion.word import write_word

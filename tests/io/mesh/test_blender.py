@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from coarse import CURVES
 from plyfold.colours import rgb, sheet_colour
-from plyfold.gallery import CURVES
 from plyfold.surface.lift import lift
 
 bpy = pytest.importorskip("bpy", exc_type=ImportError)

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 import trimesh
 
+from coarse import CURVES
 from plyfold import find_layering, immersions
 from plyfold.colours import rgb, sheet_colour
 from plyfold.errors import InputError, PrecisionError
-from plyfold.gallery import CURVES
 from plyfold.io.mesh.model import single_precision
 from plyfold.io.mesh.plain import obj
 from plyfold.surface.files import model_of_surface

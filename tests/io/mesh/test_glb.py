@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from plyfold.gallery import CURVES
+from coarse import CURVES
 from plyfold.surface.lift import lift
 
 COMPONENT = {5125: "<u4", 5126: "<f4"}
