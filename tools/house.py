@@ -72,7 +72,19 @@ SAME_THINGS = {
 
 # Names of several things that are to be told apart.
 FOR_NOW: frozenset[str] = frozenset(
-    ["Arc", "Clause", "Clauses", "Outline", "Piece", "Places", "Room", "following", "glue_sheets"],
+    [
+        "Arc",
+        "Clause",
+        "Clauses",
+        "Outline",
+        "Piece",
+        "Places",
+        "Room",
+        "find_immersion",
+        "find_layering",
+        "following",
+        "glue_sheets",
+    ],
 )
 
 LIFT = """

@@ -7,23 +7,9 @@ import sys
 
 import pytest
 
+from nightly.disturbed import COMMAND, SENTENCE
+
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="signals")
-
-SENTENCE = b"plyfold: interrupted; nothing was left half-written\n"
-
-AT_A_CALL = """
-import signal, sys
-calls = 0
-def count(frame, event, what):
-    global calls
-    calls += 1
-    if calls == {moment}:
-        signal.raise_signal(signal.SIGINT)
-sys.argv = ["plyfold", {words}]
-from plyfold.cli.program import main
-sys.setprofile(count)
-main()
-"""
 
 IN_FOREIGN_CODE = """
 import hashlib, sys
@@ -32,7 +18,7 @@ def forever(*_, **__):
     print("working", flush=True)
     hashlib.pbkdf2_hmac("sha1", b"", b"", 2**31 - 1)
 surface.smooth_heights = forever
-sys.argv = ["plyfold", {words}]
+sys.argv = {words}
 from plyfold.cli.program import main
 main()
 """
@@ -40,7 +26,7 @@ main()
 
 def started(program, *words):
     return subprocess.Popen(
-        [sys.executable, "-c", program.replace("{words}", ", ".join(map(repr, words)))],
+        [sys.executable, "-c", program.replace("{words}", repr(["plyfold", *words]))],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
     )
@@ -50,7 +36,7 @@ def started(program, *words):
 def test_an_interrupt_while_python_runs(moment, tmp_path):
     """The first of these moments are imports."""
     words = ("lift", "gallery:pretzel", "-o", str(tmp_path / "a.glb"), "-o", str(tmp_path / "a.obj"))
-    with started(AT_A_CALL.replace("{moment}", str(moment)), *words) as process:
+    with started(COMMAND.replace("{moment}", str(moment)), *words) as process:
         said, errors = process.communicate()
     assert (process.returncode, said, errors) == (130, b"", SENTENCE)
     assert list(tmp_path.iterdir()) == []
@@ -112,7 +98,7 @@ def test_interrupts_of_other_programs_are_left_alone(tmp_path):
 
 def test_an_ignored_interrupt_stays_ignored():
     """So does the shell start what goes on in the background."""
-    program = "import signal; signal.signal(signal.SIGINT, signal.SIG_IGN)" + AT_A_CALL.replace("{moment}", "1000")
+    program = "import signal; signal.signal(signal.SIGINT, signal.SIG_IGN)" + COMMAND.replace("{moment}", "1000")
     with started(program, "check", "gallery:circle") as process:
         process.communicate()
     assert process.returncode == 0

@@ -13,8 +13,7 @@ from plyfold.clock import Clock
 if TYPE_CHECKING:
     from plyfold.surface.heights import PinKey
 
-__all__ = ["add_height_options", "add_lift_command", "height_options"]
-
+__all__ = ["add_lift_command"]
 
 # These take minutes for a large surface, and say how far they are.
 _FILMS = (".gif", ".mp4")
@@ -34,7 +33,7 @@ def add_lift_command(commands: Any) -> None:
         help="where no layered surface exists, lift one with the shortest self-intersections",
     )
     lift.add_argument("--triangles", type=int, default=4000, help="roughly how many triangles (default: %(default)s)")
-    add_height_options(lift)
+    _add_height_options(lift)
     lift.add_argument(
         "--thicken",
         type=float,
@@ -66,7 +65,7 @@ def _lift(options: argparse.Namespace) -> int:
         time_limit=clock.left,
         progress=watch,
         allow_intersections=options.allow_intersections,
-        **height_options(options),
+        **_height_options(options),
     )
     watch("writing")
     _export(surface, options, watch)
@@ -105,7 +104,7 @@ def _film(surface: Any, path: str, force: bool, watch: Stopwatch) -> None:
 # ---- the options of ``plyfold lift`` ---------------------------------------------------------------------------------
 
 
-def add_height_options(command: argparse.ArgumentParser) -> None:
+def _add_height_options(command: argparse.ArgumentParser) -> None:
     """Give the options to a subcommand."""
     command.add_argument(
         "--stiffness",
@@ -131,7 +130,7 @@ def add_height_options(command: argparse.ArgumentParser) -> None:
     )
 
 
-def height_options(options: argparse.Namespace) -> dict[str, Any]:
+def _height_options(options: argparse.Namespace) -> dict[str, Any]:
     """Return the arguments of :func:`plyfold.lift` that were given."""
     pins = dict(options.pin) if options.pin else None
     given = {"stiffness": options.stiffness, "pins": pins, "flat": options.flat}

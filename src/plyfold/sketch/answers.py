@@ -121,15 +121,11 @@ def _open(body: bytes, headers: Mapping[str, str]) -> Reply:
         return error_reply("file", error.message or str(error), error.where, error.hint)
 
 
-def _gallery(_body: bytes, _headers: Mapping[str, str]) -> Reply:
-    return json_reply(gallery())
-
-
 _ANSWERS: dict[str, _Answering] = {
     "look": _asked(Look, look_at),
     "lie": _asked(Lie, lie),
     "surface": _asked(Lift, lifted),
     "export": _export,
     "open": _open,
-    "gallery": _gallery,
+    "gallery": lambda _body, _headers: json_reply(gallery()),
 }
