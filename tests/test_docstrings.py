@@ -15,23 +15,8 @@ import plyfold as pf
 
 SOURCE = Path(pf.__file__).parent
 STUBS = sorted(SOURCE.rglob("__init__.pyi"))
-# What is yet to be mended.
-FOR_NOW = {
-    "plyfold.find_immersion",
-    "plyfold.flip_distance",
-    "plyfold.IntersectingLayering",
-    "plyfold.GaussCode.canonical",
-    "plyfold.paper.PaperRun",
-    "plyfold.paper.CollapsedGraph.openings",
-    "plyfold.paper.edge_collapsed_graphs",
-    "plyfold.paper.has_linear_spanning_subtrees",
-}
 SECTION = re.compile(r"^(Parameters|Attributes|Returns|Yields|Raises|Notes|References|Examples)\n-+\n", re.MULTILINE)
 SENTENCE = re.compile(r"[A-Z`:].*[.?]")
-
-
-def but_for_now(names):
-    return [pytest.param(name, marks=[pytest.mark.xfail] * (name in FOR_NOW)) for name in names]
 
 
 def package_of(stub):
@@ -136,7 +121,7 @@ def test_stubs_and_packages_have_the_same_names(stub):
     assert sorted(listed) == sorted(package.__all__)
 
 
-@pytest.mark.parametrize("name", but_for_now(FUNCTIONS))
+@pytest.mark.parametrize("name", list(FUNCTIONS))
 def test_functions(name):
     parts = sections(FUNCTIONS[name])
     require_summary(FUNCTIONS[name])
@@ -144,7 +129,7 @@ def test_functions(name):
     assert doctest.DocTestParser().get_examples(parts["Examples"])
 
 
-@pytest.mark.parametrize("name", but_for_now(CLASSES))
+@pytest.mark.parametrize("name", list(CLASSES))
 def test_classes(name):
     kind = CLASSES[name]
     require_summary(kind)
@@ -155,7 +140,7 @@ def test_classes(name):
     assert doctest.DocTestParser().get_examples(parts["Examples"])
 
 
-@pytest.mark.parametrize("name", but_for_now(METHODS))
+@pytest.mark.parametrize("name", list(METHODS))
 def test_methods(name):
     """A method may say in a few words what it returns and raises; one with parameters describes them all, or none."""
     parts = sections(METHODS[name])

@@ -70,23 +70,6 @@ SAME_THINGS = {
     "main": "the program: its first lines, before the library is imported, and what they hand over to",
 }
 
-# Names of several things that are to be told apart.
-FOR_NOW: frozenset[str] = frozenset(
-    [
-        "Arc",
-        "Clause",
-        "Clauses",
-        "Outline",
-        "Piece",
-        "Places",
-        "Room",
-        "find_immersion",
-        "find_layering",
-        "following",
-        "glue_sheets",
-    ],
-)
-
 LIFT = """
 import collections, sys
 import plyfold as pf
@@ -313,7 +296,7 @@ def broken_rules(trees: dict[str, ast.Module]) -> Iterator[str]:
         if room(line.module) == "certify" != room(line.target) and line.target != "plyfold.errors":
             yield f"{line.module}, line {line.line}: a checker reads {line.target}"
     several = {name: homes for name, homes in names_in_several_modules(trees).items() if not name.startswith("_")}
-    for name in several.keys() - SAME_THINGS.keys() - FOR_NOW:
+    for name in several.keys() - SAME_THINGS.keys():
         yield f"{name} names several things: in {', '.join(several[name])}"
     for name in SAME_THINGS.keys() - several.keys():
         yield f"the reason for {name} to be defined again is not needed"

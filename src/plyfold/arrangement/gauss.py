@@ -224,10 +224,10 @@ class GaussCode:
 
         Parameters
         ----------
-        reversal, reflection : bool
+        reversal, reflection : bool, optional
             Whether a curve counts as equivalent to the same curve run the other way, and to its mirror image. The
             start never counts.
-        any_outer : bool
+        any_outer : bool, optional
             Whether curves that differ only in the unbounded cell are equivalent: curves on the sphere.
 
         Returns

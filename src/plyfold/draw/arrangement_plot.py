@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 __all__ = ["plot_arrangement"]
 
-Places = tuple[tuple[float, float], ...]
+_Marked = tuple[tuple[float, float], ...]
 
 # How far a border's number is from it, and how much room there must be up to another number; the drawing has size 1.
 _BESIDE = 0.026
@@ -99,7 +99,7 @@ def _arrowheads(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
         polygon(axes, tip + head, INK, zorder=3)
 
 
-def _winding_numbers(axes: Axes, arrangement: Arrangement, frame: Frame, marked: Places) -> None:
+def _winding_numbers(axes: Axes, arrangement: Arrangement, frame: Frame, marked: _Marked) -> None:
     """Write the winding number into every cell that has room for it, unless a marked place takes the room."""
     for cell in range(1, arrangement.n_cells):
         x, y, radius = label_circle(arrangement, cell)

@@ -69,6 +69,14 @@ def flip_distance(first: Immersion, second: Immersion) -> int:
     Notes
     -----
     O(k log k).
+
+    Examples
+    --------
+    >>> from plyfold import immersions
+    >>> milnor = [(88, 39), (62, 102), (-17, -15), (-17, -13), (44, -7), (-75, 180),
+    ...           (-88, -39), (-62, -102), (17, 15), (17, 13), (-44, 7), (75, -180)]
+    >>> flip_distance(*immersions(milnor))
+    6
     """
     _meet(first, second)
     return _partition_distance(first.own_sheet, second.own_sheet)

@@ -80,8 +80,13 @@ class CollapsedGraph:
 
         Parameters
         ----------
-        linear : bool
+        linear : bool, optional
             Only those that a linear spanning subtree may use.
+
+        Returns
+        -------
+        tuple of tuple of tuple of int
+            For each gap its paths, each as the sheets along it.
 
         Notes
         -----
@@ -140,6 +145,14 @@ def edge_collapsed_graph(immersion: Immersion, cell: int) -> CollapsedGraph:
 def edge_collapsed_graphs(immersion: Immersion) -> tuple[CollapsedGraph, ...]:
     """Return the edge-collapsed graph of every cell, by cells. Cost: O(k log k).
 
+    Parameters
+    ----------
+    immersion : Immersion
+
+    Returns
+    -------
+    tuple of CollapsedGraph
+
     Examples
     --------
     >>> from plyfold import find_immersion
@@ -184,6 +197,15 @@ def has_linear_spanning_subtrees(immersion: Immersion) -> dict[int, bool]:
 
     The paper's lemma says that an immersion lifts if all have (§3.1). That is not so: docs/paper-layers.md has a
     counterexample. Nor is it necessary. Cost: O(k log k).
+
+    Parameters
+    ----------
+    immersion : Immersion
+
+    Returns
+    -------
+    dict of int to bool
+        By cells.
 
     Examples
     --------

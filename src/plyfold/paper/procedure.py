@@ -60,7 +60,7 @@ from plyfold.paper.layout import glue_layout
 __all__ = ["PaperRun", "Reading", "find_immersion", "run_paper"]
 
 Reading: TypeAlias = Literal["literal", "repaired"]
-Arc: TypeAlias = tuple[int, int]
+_Arc: TypeAlias = tuple[int, int]
 Call: TypeAlias = Iterator["Call"]
 
 
@@ -78,10 +78,16 @@ class PaperRun:
         How often PROCESS and RECURSE were entered, tail calls included.
     stuck_at : int or None
         The border at which the procedure went round in circles; None if it came to its end.
+
+    Examples
+    --------
+    >>> from plyfold import arrange
+    >>> run_paper(arrange([(0, 0), (1, 0), (0, 1)])).groups
+    ((0,),)
     """
 
     groups: tuple[tuple[int, ...], ...]
-    arcs: tuple[Arc, ...]
+    arcs: tuple[_Arc, ...]
     calls: int
     stuck_at: int | None = None
 
@@ -170,7 +176,7 @@ def _failed(arranged: Arrangement, border: int, what: str) -> Obstruction:
     return Obstruction("paper's procedure", sentence, middle, border, arranged)
 
 
-def _joined(n_borders: int, arcs: Iterable[Arc]) -> tuple[tuple[int, ...], ...]:
+def _joined(n_borders: int, arcs: Iterable[_Arc]) -> tuple[tuple[int, ...], ...]:
     """Return the groups that the arcs make."""
     group = list(range(n_borders))
     for m, f in arcs:
@@ -216,7 +222,7 @@ class _State:
     f_list: list[_CircularList]
     next_dart: list[int]
     removed: set[int] = field(default_factory=set)
-    arcs: dict[Arc, None] = field(default_factory=dict)
+    arcs: dict[_Arc, None] = field(default_factory=dict)
     entered: dict[int, int] = field(default_factory=dict)
     calls: int = 0
 
@@ -347,7 +353,7 @@ def _repaired(arranged: Arrangement) -> PaperRun:
     cells, following = arranged.left_cell.tolist(), arranged.next_dart.tolist()
     winding = arranged.winding[arranged.left_cell].tolist()
     partitions = [list(range(arranged.n_borders))]
-    arcs: list[Arc] = []
+    arcs: list[_Arc] = []
     calls = 0
     while partitions:
         rest = partitions.pop()

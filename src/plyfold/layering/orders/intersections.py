@@ -52,6 +52,13 @@ class IntersectingLayering:
         Level of each sheet among the sheets over its cell, counted from below, starting at 1.
     optimal : bool
         Whether it is proved that no levels have shorter intersections. Otherwise these are good ones.
+
+    Examples
+    --------
+    >>> from plyfold import find_immersion
+    >>> from plyfold.gallery import CURVES
+    >>> least_intersecting_layering(find_immersion(CURVES["seven-flaps"].curve), time_limit=5.0)  # doctest: +ELLIPSIS
+    <IntersectingLayering: ... intersections along borders, ...the least possible>
     """
 
     immersion: Immersion

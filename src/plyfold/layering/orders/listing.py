@@ -12,7 +12,7 @@ from plyfold.layering.sat import solve
 
 __all__ = ["layerings", "solutions"]
 
-Clauses = list[frozenset[int]]
+_Clauses = list[frozenset[int]]
 
 
 def layerings(immersion: Immersion) -> Iterator[Layering]:
@@ -41,7 +41,7 @@ def layerings(immersion: Immersion) -> Iterator[Layering]:
             yield problem.layering(literals)
 
 
-def solutions(variables: Sequence[int], clauses: Clauses) -> Iterator[list[int]]:
+def solutions(variables: Sequence[int], clauses: _Clauses) -> Iterator[list[int]]:
     """Yield the true literals of each solution; the first variable that is not decided is tried true, then false.
 
     Examples
@@ -73,7 +73,7 @@ def solutions(variables: Sequence[int], clauses: Clauses) -> Iterator[list[int]]
         consistent = _extend(true, -variables[at], touching)
 
 
-def _extend(true: dict[int, None], literal: int, touching: Mapping[int, Clauses]) -> bool:
+def _extend(true: dict[int, None], literal: int, touching: Mapping[int, _Clauses]) -> bool:
     """Add a literal, and what follows from clauses with one open literal, in order; tell whether that is consistent."""
     waiting = [literal]
     while waiting:
@@ -91,17 +91,17 @@ def _extend(true: dict[int, None], literal: int, touching: Mapping[int, Clauses]
     return True
 
 
-def _parts(problem: OrderProblem) -> list[tuple[list[int], Clauses]]:
+def _parts(problem: OrderProblem) -> list[tuple[list[int], _Clauses]]:
     """Return the variables and clauses of each component; a free variable is one by itself."""
     components = problem.components()
     component_of = {variable: number for number, variables in enumerate(components) for variable in variables}
-    clauses: list[Clauses] = [[] for _ in components]
+    clauses: list[_Clauses] = [[] for _ in components]
     for clause in problem.clauses:
         clauses[component_of[abs(clause[0])]].append(frozenset(clause))
     return list(zip(components, clauses, strict=True))
 
 
-def _combinations(parts: Sequence[tuple[list[int], Clauses]]) -> Iterator[list[int]]:
+def _combinations(parts: Sequence[tuple[list[int], _Clauses]]) -> Iterator[list[int]]:
     """Yield all combinations of solutions of the parts, the last part's changing first.
 
     Each part has at least one solution. Only one of each is held at a time.
