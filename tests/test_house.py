@@ -41,7 +41,7 @@ def with_lines(trees, module, *lines):
             "def draw():\n    from plyfold.cli.commands import main",
             "reads plyfold.cli.commands, which",
         ),
-        ("plyfold.hard.flaps", "import plyfold.paper.layout", "reads plyfold.paper.layout, which does not"),
+        ("plyfold.hard.flaps", "import plyfold.paper.gluing", "reads plyfold.paper.gluing, which does not"),
         ("plyfold.outline.curve", "from plyfold.draw.svg import curve_svg", "reads plyfold.draw.svg, which does not"),
         (
             "plyfold.outline.points",

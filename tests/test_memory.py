@@ -16,7 +16,7 @@ from plyfold.layering.orders import intersections
 from plyfold.layering.orders import search as orders
 from plyfold.mesh import sheets
 from plyfold.mesh.cells import triangulate_cells
-from plyfold.paper.layout import glue_layout
+from plyfold.paper.gluing import glue_layout
 from plyfold.sketch import answers
 
 

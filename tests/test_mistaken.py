@@ -56,12 +56,16 @@ MISTAKES = {
     "a zip": (zip([0, 1, 1, 0], [0, 0, 1, 1], strict=True), "list("),
     "a set": (set(SQUARE), "list"),
     "a dictionary": ({"x": [0, 1, 1], "y": [0, 0, 1]}, "numpy.column_stack"),
-    "strokes": ([[(0, 0), (4, 0)], [(0, 3), (0, 0)], [(4, 0), (0, 3)]], "pf.Curve.from_strokes"),
     "xs and ys": ([[0, 1, 1, 0], [0, 0, 1, 1]], "numpy.transpose"),
-    "curves": ([pf.Curve(SQUARE), pf.Curve(SQUARE)], "pf.find_embedding"),
-    "geometries": ([shapely.box(0, 0, 1, 1), shapely.box(2, 0, 3, 1)], "pf.find_embedding"),
     "nothing": (None, "one x and one y"),
     "a number": (42, "one x and one y"),
+}
+
+
+SEVERAL = {
+    "strokes": ([[(0, 0), (4, 0)], [(0, 3), (0, 0)], [(4, 0), (0, 3)]], "pf.Curve.from_strokes"),
+    "curves": ([pf.Curve(SQUARE), pf.Curve(SQUARE)], "pf.find_embedding"),
+    "geometries": ([shapely.box(0, 0, 1, 1), shapely.box(2, 0, 3, 1)], "pf.find_embedding"),
 }
 
 
@@ -84,6 +88,16 @@ def test_the_right_call_is_named(value, call):
         assert call in str(caught.value)
         assert well_said(caught.value)
         assert len(str(caught.value)) < 300
+
+
+@pytest.mark.parametrize(("value", "call"), SEVERAL.values(), ids=SEVERAL)
+def test_several_are_no_single_curve(value, call):
+    with pytest.raises(CurveError) as caught:
+        pf.Curve(value)
+    assert call in str(caught.value)
+    assert well_said(caught.value)
+    with pytest.raises(InputError):
+        pf.lift(value)
 
 
 @pytest.mark.parametrize("curves", [["examples/ramp.svg"], [SQUARE, "examples/ramp.svg"]])

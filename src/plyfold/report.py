@@ -135,7 +135,7 @@ def _layerable(arrangement: Arrangement, time_limit: float | None) -> dict[str, 
 def describe(figures: dict[str, Any]) -> str:
     """Return the verdict as text: a sentence, and the figures one on a line."""
     cells = ", ".join(f"{count} with {winding}" for winding, count in figures["cells"].items())
-    turned = " (the curve ran clockwise and was turned round)" if figures["reversed"] else ""
+    turned = " (the curve was turned round, so that it can have the surface on its left)" if figures["reversed"] else ""
     rows = {
         "points": f"{figures['points']:,}",
         "crossings": f"{figures['crossings']:,}",

@@ -10,7 +10,7 @@ from plyfold.immersion.immersion import Immersion
 from plyfold.immersion.solve import find_immersion, immersions
 from plyfold.paper import procedure
 from plyfold.paper import procedure as paper
-from plyfold.paper.layout import glue_layout
+from plyfold.paper.gluing import glue_layout
 from plyfold.paper.procedure import run_paper
 from reference import gluings, random_curves
 from reference.planar_maps import (

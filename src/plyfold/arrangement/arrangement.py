@@ -30,7 +30,7 @@ from plyfold.arrays import Bools, Floats, Ints, freeze
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GaussCodeError, InputError, PlyfoldError
 from plyfold.graphs import components
-from plyfold.outline.curve import Coded, Curve, CurveLike, OutlineLike, are_several, as_curve
+from plyfold.outline.curve import Coded, Curve, CurveLike, OutlineLike, are_several, as_curve, as_curves
 from plyfold.predicates import cross_sign
 
 __all__ = ["Arrangement", "CurveLike", "arrange", "require_one_loop", "watched_arrangement"]
@@ -180,9 +180,9 @@ class Arrangement:
         )
 
     @classmethod
-    def _of_loops(cls, curves: tuple[Curve, ...]) -> Arrangement:
+    def _of_loops(cls, curves: tuple[Curve, ...], watch: Watch) -> Arrangement:
         """Return the arrangement of several curves as they are directed."""
-        found = nest(curves)
+        found = nest(curves, watch)
         visits, outer = found.visits, found.outside[0]
         following = next_darts(visits.partner, visits.ccw, found.first_visit)
         same_cell = np.array([*found.bridges.tolist(), *((outer, other) for other in found.outside)], dtype=np.int64)
@@ -525,13 +525,16 @@ def watched_arrangement(curve: OutlineLike, general_position: Literal["perturb",
     if hasattr(curve, "partner"):  # a GaussCode, which a module further on defines
         given = cast("Coded", curve)
         return Arrangement.from_gauss(given.partner, given.ccw, given.outer)
-    curves = tuple(map(as_curve, cast("Sequence[object]", curve) if are_several(curve) else [curve]))
-    if len(curves) == 1:
-        return _of_curve(curves[0], general_position, watch)
-    arranged = Arrangement._of_loops(curves)
+    if not are_several(curve):
+        return _of_curve(as_curve(curve), general_position, watch)
+    several = cast("Sequence[CurveLike]", curve)
+    if len(several) == 1:
+        return watched_arrangement(several[0], general_position, watch)
+    curves = as_curves(several)
+    arranged = Arrangement._of_loops(curves, watch)
     if arranged.winding.max() > 0:
         return arranged
-    return replace(Arrangement._of_loops(tuple(loop.reversed() for loop in curves)), reversed=True)
+    return replace(Arrangement._of_loops(tuple(loop.reversed() for loop in curves), watch), reversed=True)
 
 
 def require_one_loop(arranged: Arrangement, what: str = "this") -> None:

@@ -15,6 +15,7 @@ import numpy as np
 from plyfold.arrangement.crossings import Contacts, Visits, edge_ends, find_contacts, order_visits
 from plyfold.arrangement.general_position import touching_places
 from plyfold.arrays import Bools, Floats, Ints
+from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GeneralPositionError
 from plyfold.graphs import components
 from plyfold.outline.curve import Curve
@@ -48,26 +49,29 @@ class Nest:
     bridges: Ints
 
 
-def nest(curves: Sequence[Curve]) -> Nest:
+def nest(curves: Sequence[Curve], watch: Watch = UNWATCHED) -> Nest:
     """Find the crossings of several closed curves with themselves and each other, and which lies inside which.
 
     Raises
     ------
     GeneralPositionError
         If a vertex lies on another edge or three edges meet in a point. Nothing is moved.
+    TimeLimitError
+        If the time is over.
 
     Notes
     -----
     As for one curve, plus O(n) for each group.
     """
     polyline = _one_after_the_other(curves)
-    visits = _visits(polyline)
+    visits = _visits(polyline, watch)
     first_visit = np.searchsorted(polyline.loop[visits.edge], np.arange(len(curves) + 1))
     plan = _Plan(polyline, visits, first_visit)
     loop = polyline.loop[visits.edge]
     group = components(len(curves), loop, loop[visits.partner])
     outside, bridges = [], []
     for corner, own in sorted(_corners(polyline, group), key=lambda found: tuple(polyline.points[found[0]])):
+        watch.step()
         dart, beyond = _outer_dart(plan, corner), _dart_on_the_left(plan, corner, own)
         if beyond is None:
             outside.append(dart)
@@ -122,9 +126,9 @@ def _one_after_the_other(curves: Sequence[Curve]) -> _Polyline:
     )
 
 
-def _visits(polyline: _Polyline) -> Visits:
+def _visits(polyline: _Polyline, watch: Watch) -> Visits:
     """Return the visits to all crossings along one loop after the other; refuse loops that touch."""
-    found = find_contacts(polyline.points)
+    found = find_contacts(polyline.points, watch)
     edges, touches = found.edges, _own_touches_left_out(polyline, found.touches)
     real = ~polyline.is_jump[edges].any(axis=1)
     contacts = Contacts(edges[real], found.from_right[real], touches, found.exact_signs)

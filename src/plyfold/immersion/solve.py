@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange, require_one_loop
-from plyfold.arrangement.base import begun_at, numbered_from
+from plyfold.arrangement.base_visit import begun_at, numbered_from
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import InputError
 from plyfold.immersion.dual_tree import DualTree, grow_dual_tree

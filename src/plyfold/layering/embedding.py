@@ -14,14 +14,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import islice
+from typing import cast
 
 import numpy.typing as npt
 
-from plyfold.arrangement.arrangement import Arrangement, arrange
-from plyfold.arrangement.base import borders_numbered_back
+from plyfold.arrangement.arrangement import Arrangement, arrange, watched_arrangement
+from plyfold.arrangement.base_visit import borders_numbered_back
 from plyfold.arrays import Ints
-from plyfold.clock import Clock
-from plyfold.immersion.solve import bounds_disk, count_immersions, find_immersion, immersions
+from plyfold.clock import Clock, Watch
+from plyfold.errors import TimeLimitError
+from plyfold.immersion.solve import bounds_disk, count_immersions, find_immersion, immersions, watched_immersions
 from plyfold.layering.layering import Layering, layering_of_levels
 from plyfold.layering.levels.casing import casing_of_visits
 from plyfold.layering.levels.counting import count_level_solutions
@@ -35,7 +37,7 @@ from plyfold.layering.levels.equations import (
 )
 from plyfold.layering.orders.counting import count_layerings
 from plyfold.layering.orders.listing import layerings
-from plyfold.layering.orders.search import find_layering
+from plyfold.layering.orders.search import find_layering, undecided
 from plyfold.layering.tables import TooLargeError
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.outline.curve import OutlineLike
@@ -94,13 +96,22 @@ def find_embedding(curve: OutlineLike, time_limit: float | None = None) -> Layer
     >>> ring.euler_characteristic, len(ring.pieces), ring.genus
     (0, 1, 0)
     """
-    clock, arranged = Clock(time_limit), arrange(curve)
-    if not _may_be_disk(arranged):
-        obstruction = no_surface(arranged)
-        return _from_levels(arranged, clock) if obstruction is None else obstruction
-    first = find_immersion(arranged)
-    if isinstance(first, Obstruction):
-        return first
+    clock = Clock(time_limit)
+    try:
+        arranged = watched_arrangement(curve, "perturb", Watch(clock))
+        if not _may_be_disk(arranged):
+            obstruction = no_surface(arranged)
+            return _from_levels(arranged, clock) if obstruction is None else obstruction
+        return _over_immersions(arranged, clock)
+    except TimeLimitError:
+        return undecided("time limit", "whether there is an embedding", clock)
+
+
+def _over_immersions(arranged: Arrangement, clock: Clock) -> Layering | Obstruction | Unknown:
+    """Return a layering of one of the first immersions, or else ask the curve itself. May raise TimeLimitError."""
+    candidates = list(islice(watched_immersions(arranged, Watch(clock)), 1))
+    if not candidates:
+        return cast("Obstruction", find_immersion(arranged))
     for immersion in islice(immersions(arranged), _FEW):
         found = find_layering(immersion, clock.left)
         if not isinstance(found, Obstruction):
@@ -196,13 +207,21 @@ def count_embeddings(curve: OutlineLike, time_limit: float | None = None) -> int
     >>> count_embeddings(milnor), count_embeddings(chain(milnor, 100)) == 4**100
     (4, True)
     """
-    clock, arranged = Clock(time_limit), arrange(curve)
+    clock = Clock(time_limit)
+    try:
+        return _count(watched_arrangement(curve, "perturb", Watch(clock)), clock)
+    except TimeLimitError:
+        return undecided("time limit", _HOW_MANY, clock)
+
+
+def _count(arranged: Arrangement, clock: Clock) -> int | Unknown:
+    """Return the number of embeddings. May raise TimeLimitError."""
     if no_surface(arranged) is not None or (_may_be_disk(arranged) and not bounds_disk(arranged)):
         return 0
     if not _has_few_immersions(arranged):
         return _count_levels(arranged, clock)
     total = 0
-    for immersion in immersions(arranged):
+    for immersion in watched_immersions(arranged, Watch(clock)):
         number = count_layerings(immersion, clock.left)
         if clock.over or isinstance(number, Unknown):
             return _unknown(_HOW_MANY, arranged, clock, "time limit" if clock.over else "size")
@@ -224,9 +243,8 @@ def _count_levels(arranged: Arrangement, clock: Clock) -> int | Unknown:
 
 
 def _unknown(question: str, arranged: Arrangement, clock: Clock, reason: str = "time limit") -> Unknown:
-    why = f"after {clock.spent:.3g} s" if reason == "time limit" else "for want of memory"
-    known: dict[str, object] = {"crossings": arranged.n_crossings, "seconds": clock.spent}
-    sentence = f"Unknown {why}: {question}."
+    left_open = undecided(reason, question, clock)
+    known, sentence = dict(left_open.established) | {"crossings": arranged.n_crossings}, left_open.sentence
     if _may_be_disk(arranged):
         known["immersions"] = count_immersions(arranged)
         sentence += f" Number of immersions: {_written(count_immersions(arranged))}."

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.errors import CurveError
+from plyfold.errors import CurveError, InputError
 from plyfold.outline.points import Repair, as_planar_points, left_out
 from plyfold.outline.strokes import join_strokes
 from plyfold.predicates import orient
@@ -18,7 +18,18 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
 
-__all__ = ["Coded", "Curve", "CurveLike", "Drawn", "Geometry", "OutlineLike", "Repair", "are_several", "as_curve"]
+__all__ = [
+    "Coded",
+    "Curve",
+    "CurveLike",
+    "Drawn",
+    "Geometry",
+    "OutlineLike",
+    "Repair",
+    "are_several",
+    "as_curve",
+    "as_curves",
+]
 
 
 class Drawn(Protocol):
@@ -239,13 +250,32 @@ def are_several(value: object) -> bool:
     >>> are_several(triangle), are_several([triangle]), are_several([Curve(triangle), triangle])
     (False, True, True)
     """
-    return isinstance(value, list | tuple | np.ndarray) and len(value) > 0 and all(map(_is_curve, value))
+    return isinstance(value, list | tuple | np.ndarray) and any(map(_is_curve, value))
 
 
 def _is_curve(value: object) -> bool:
     if isinstance(value, list | tuple | np.ndarray):
         return len(value) > 0 and np.ndim(value[0]) == 1
-    return isinstance(value, Curve) or hasattr(value, "geom_type") or hasattr(value, "curve")
+    return isinstance(value, Curve) or any(hasattr(value, name) for name in ("geom_type", "curve", "partner"))
+
+
+def as_curves(values: Sequence[object]) -> tuple[Curve, ...]:
+    """Return each of several values as a :class:`Curve`; an error says which one is none.
+
+    Examples
+    --------
+    >>> as_curves([[(0, 0), (1, 0), (0, 1)], 42])
+    Traceback (most recent call last):
+    plyfold.errors.CurveError: curve 1 of 2: points need the shape (n, 2), and these have ()
+      hint: give one x and one y per point
+    """
+    curves = []
+    for number, value in enumerate(values):
+        try:
+            curves.append(as_curve(value))
+        except InputError as error:
+            raise type(error)(f"curve {number} of {len(values)}: {error.message}", error.where, error.hint) from error
+    return tuple(curves)
 
 
 def _curve_of_owner(curve: object) -> Curve:

@@ -55,7 +55,7 @@ from plyfold.immersion.dual_tree import around_cells, grow_dual_tree
 from plyfold.immersion.immersion import Immersion
 from plyfold.immersion.solve import visible_obstruction
 from plyfold.obstruction import Obstruction
-from plyfold.paper.layout import glue_layout
+from plyfold.paper.gluing import glue_layout
 
 __all__ = ["PaperRun", "Reading", "find_immersion", "run_paper"]
 

@@ -1,1 +1,1 @@
-"""The surface: triangulated cells, glued sheets, smooth heights, mesh files (§4 of the paper)."""
+"""The surface: glued sheets in space, smooth heights, solids (§4 of the paper)."""

@@ -8,8 +8,8 @@ while sheets above each other keep a distance: z_upper − z_lower ≥ gap over 
 would let far ends droop, and a membrane alone would crease where the sheets part. Only derivatives of z occur, since
 anything that pulls z towards a plane makes spikes where sheets cross.
 
-The distance is kept by forces at the places of contact (:mod:`plyfold.surface.contact`), or, where these are
-thousands, by springs (:mod:`plyfold.surface.contact`). Both keep a distance that is a millionth of the gap too large,
+The distance is kept by forces at the places of contact, or, where these are thousands, by springs; both are in
+:mod:`plyfold.surface.contact`. Both keep a distance that is a millionth of the gap too large,
 to within that millionth; so no other heights have less energy but for two millionths, and what remains to be done in
 the end is the work of rounding errors.
 

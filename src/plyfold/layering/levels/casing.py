@@ -11,10 +11,10 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.arrangement import Arrangement, arrange
+from plyfold.arrangement.arrangement import Arrangement, watched_arrangement
 from plyfold.arrays import Bools, Ints
-from plyfold.clock import Clock
-from plyfold.errors import InputError
+from plyfold.clock import Clock, Watch
+from plyfold.errors import InputError, TimeLimitError
 from plyfold.layering.layering import Layering, layering_of_levels
 from plyfold.layering.levels.equations import (
     LevelClauses,
@@ -23,10 +23,13 @@ from plyfold.layering.levels.equations import (
     no_surface,
     solve_levels,
 )
+from plyfold.layering.orders.search import undecided
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.outline.curve import OutlineLike
 
 __all__ = ["casing_of_visits", "embed_cased"]
+
+_QUESTION = "whether there is a layered surface with this casing"
 
 
 def embed_cased(
@@ -43,7 +46,7 @@ def embed_cased(
         For each visit of ``arrange(curve)``, whether the strand passes over the other one; or for each crossing,
         whether it does so at the first of its two visits.
     time_limit : float, optional
-        Seconds after which to give up on several curves; none by default.
+        Seconds after which to give up; none by default.
 
     Returns
     -------
@@ -77,7 +80,14 @@ def embed_cased(
     >>> print(embed_cased(ramp, [True, True, False, True]))
     The casing lifts to no surface: past crossing 3, the strand would be on level 0, but there is only level 1.
     """
-    clock, arranged = Clock(time_limit), arrange(curve)
+    clock = Clock(time_limit)
+    try:
+        return _embed(watched_arrangement(curve, "perturb", Watch(clock)), over, clock)
+    except TimeLimitError:
+        return undecided("time limit", _QUESTION, clock)
+
+
+def _embed(arranged: Arrangement, over: npt.ArrayLike, clock: Clock) -> Layering | Obstruction | Unknown:
     casing = casing_of_visits(arranged, over)
     obstruction = no_surface(arranged)
     if obstruction is not None:
@@ -97,11 +107,7 @@ def _embed_several(arranged: Arrangement, casing: Bools, clock: Clock) -> Layeri
         if level is not None:
             _require_only(arranged, clauses, level, clock)
     except TimeoutError:
-        return Unknown(
-            "time limit",
-            f"Unknown after {clock.spent:.3g} s: whether there is a layered surface with this casing.",
-            {"crossings": arranged.n_crossings, "seconds": clock.spent},
-        )
+        return undecided("time limit", _QUESTION, clock)
     return no_levels(arranged, clauses, clock) if level is None else layering_of_levels(arranged, level)
 
 

@@ -21,7 +21,7 @@ from itertools import chain
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrangement.base import begun_at, numbered_from, visits_from_base
+from plyfold.arrangement.base_visit import begun_at, numbered_from, visits_from_base
 from plyfold.arrays import Bools, Ints, freeze
 from plyfold.clock import Clock
 from plyfold.errors import PlyfoldError
@@ -296,7 +296,7 @@ def level_clauses(arranged: Arrangement, casing: Bools | None = None) -> LevelCl
     """Return the clauses of an outline without negative winding numbers, with over and under by visits if given.
 
     Borders and crossings are numbered from the base visit on, so that the order of answers belongs to the drawing;
-    :func:`~plyfold.arrangement.base.borders_numbered_back` numbers levels as usual.
+    :func:`~plyfold.arrangement.base_visit.borders_numbered_back` numbers levels as usual.
     """
     base = arranged.base_visit
     numbered = numbered_from(arranged, base)

@@ -19,7 +19,7 @@ from dataclasses import replace
 from functools import partial
 from itertools import chain
 
-from plyfold.arrangement.base import visits_from_base
+from plyfold.arrangement.base_visit import visits_from_base
 from plyfold.clock import Clock
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering, meeting_sheets

@@ -20,7 +20,7 @@ from typing import Literal, TypeAlias, cast
 
 import numpy as np
 
-from plyfold.arrangement.base import visits_from_base
+from plyfold.arrangement.base_visit import visits_from_base
 from plyfold.arrays import Ints, freeze
 from plyfold.clock import NO_LIMIT, Clock, Progress
 from plyfold.errors import InputError, TimeLimitError
