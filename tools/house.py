@@ -67,7 +67,6 @@ SAME_THINGS = {
     "Signs": "certify shares nothing with what it checks",
     "find_immersion": "the exact one, and that of the paper as pf.paper.find_immersion",
     "find_layering": "the exact one, and that of the paper as pf.paper.find_layering",
-    "main": "the program: its first lines, before the library is imported, and what they hand over to",
 }
 
 LIFT = """

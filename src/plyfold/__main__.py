@@ -1,6 +1,6 @@
 """``python -m plyfold`` is the same as ``plyfold``."""
 
-from plyfold.cli.program import main
+from plyfold_command import main
 
 if __name__ == "__main__":
     main()

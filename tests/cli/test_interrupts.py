@@ -19,7 +19,7 @@ def forever(*_, **__):
     hashlib.pbkdf2_hmac("sha1", b"", b"", 2**31 - 1)
 surface.smooth_heights = forever
 sys.argv = {words}
-from plyfold.cli.program import main
+from plyfold_command import main
 main()
 """
 
@@ -61,7 +61,7 @@ from plyfold.io import saving
 write = Path.replace
 Path.replace = lambda self, target: signal.raise_signal(signal.SIGINT)
 sys.argv = ["plyfold", "gallery", "circle", "-o", {str(tmp_path / "circle.csv")!r}]
-from plyfold.cli.program import main
+from plyfold_command import main
 main()
 """
     with started(program) as process:

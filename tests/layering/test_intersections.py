@@ -9,6 +9,7 @@ from coarse import CURVES
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.errors import PlyfoldError
 from plyfold.immersion.solve import immersions
+from plyfold.layering.orders import intersections as module
 from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
 from plyfold.layering.orders.search import find_layering
 from reference import intersections as reference
@@ -126,7 +127,7 @@ def test_greedy_search_alone_is_good(monkeypatch):
     for immersion in immersions(CURVES["bennequin"].curve):
         found = least_intersecting_layering(immersion, time_limit=60)
         assert_consistent(found)
-        assert not found.optimal
+        assert found.optimal == (not len(found.intersections))
         assert len(found.intersections) <= 2
         assert (found.total_length == 0) == bool(find_layering(immersion))
 
@@ -135,3 +136,11 @@ def test_wrong_levels_are_noticed():
     immersion = next(immersions(CURVES["exit-ramp"].curve))
     with pytest.raises(PlyfoldError, match="levels 1 to 2"):
         IntersectingLayering(immersion, np.ones(immersion.n_sheets, dtype=np.int64), optimal=False).check()
+
+
+def test_none_is_the_least_also_out_of_time(monkeypatch):
+    """Whether more could be proved in time does not matter to an answer without intersections."""
+    immersion = next(immersions(CURVES["exit-ramp"].curve))
+    monkeypatch.setattr(module, "_levels_in_time", lambda immersion, clock: (found.level, False))
+    found = find_layering(immersion)
+    assert least_intersecting_layering(immersion).optimal

@@ -39,7 +39,7 @@ def count(frame, event, what):
     if calls == {moment}:
         signal.raise_signal(signal.SIGINT)
 sys.argv = {words}
-from plyfold.cli.program import main
+from plyfold_command import main
 sys.setprofile(count)
 main()
 """

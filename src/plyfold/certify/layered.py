@@ -73,8 +73,8 @@ def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.
 
 def require_gap(gap: float) -> None:
     """Check that the gap is a distance."""
-    if not 0 <= gap < np.inf:
-        raise CertificateError(f"the gap must be a number from 0 on, not {gap}")
+    if isinstance(gap, bool) or not isinstance(gap, int | float | np.number) or not 0 <= gap < np.inf:
+        raise CertificateError(f"the gap must be a number from 0 on, not {gap!r}")
 
 
 def require_layered(positions: Floats, triangles: Ints, exact: ExactPlaces, gap: float, passing: npt.ArrayLike) -> None:

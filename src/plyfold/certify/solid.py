@@ -92,8 +92,8 @@ def _tops(positions: Floats, upper: Ints, lower: Ints) -> Ints:
 
 def _require_thickness(positions: Floats, top: Ints, thickness: float) -> None:
     """Check that each vertex and the one above it are the roundings of numbers that are exactly the thickness apart."""
-    if not np.isfinite(thickness):
-        raise CertificateError(f"the thickness must be finite, not {thickness}")
+    if isinstance(thickness, bool) or not isinstance(thickness, int | float | np.number) or not np.isfinite(thickness):
+        raise CertificateError(f"the thickness must be a finite number, not {thickness!r}")
     bottom = np.flatnonzero(top >= 0)
     low, high = positions[bottom, 2], positions[top[bottom], 2]
     with np.errstate(over="ignore", invalid="ignore"):

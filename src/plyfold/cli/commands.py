@@ -11,12 +11,12 @@ from plyfold.cli.draw import add_draw_command
 from plyfold.cli.flat import add_flat_commands
 from plyfold.cli.gallery import add_gallery_command
 from plyfold.cli.inputs import NO_DISK
-from plyfold.cli.interrupts import INTERRUPTED, INTERRUPTED_SENTENCE
 from plyfold.cli.lift import add_lift_command
 from plyfold.cli.progress import clear_progress
 from plyfold.cli.sketch import add_sketch_command
 from plyfold.cli.streams import complain, is_of_a_stream, over_any_streams
 from plyfold.errors import NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
+from plyfold_command import INTERRUPTED, INTERRUPTED_SENTENCE
 
 __all__ = ["main"]
 

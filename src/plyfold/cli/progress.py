@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 
-from plyfold.cli.interrupts import CLEAR_LINE
+from plyfold_command import CLEAR_LINE
 
 __all__ = ["Stopwatch", "clear_progress", "timing"]
 

@@ -7,9 +7,9 @@ import signal
 import threading
 from typing import Any, NoReturn
 
-from plyfold.cli.interrupts import raise_interrupts
 from plyfold.cli.streams import complain
 from plyfold.errors import InputError
+from plyfold_command import raise_interrupts
 
 __all__ = ["add_sketch_command"]
 

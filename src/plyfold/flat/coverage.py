@@ -57,7 +57,7 @@ def coverage(curve: CurveLike) -> list[Covered]:
         outline there. Crossings are rounded to double precision.
 
         The signs are those of the direction in which the turning number is not negative: of the points as given, or,
-        if ``arrangement(curve).reversed``, of the curve turned round. In the other direction they are the opposite.
+        if ``arrange(curve).reversed``, of the curve turned round. In the other direction they are the opposite.
 
     Raises
     ------

@@ -1,8 +1,8 @@
-"""Ctrl-C ends the program at once, wherever it is, with no half-written file, and exit code 130.
+"""The program ``plyfold``: wherever it is, Ctrl-C ends it at once, with no half-written file, and exit code 130.
 
-This comes before the library, whose import takes some tenths of a second, and imports little itself. An interrupt is
-no exception here: one raised within an import, or in a call from foreign code, can be lost, or turn into another one.
-And it need not wait for foreign code to come back: a thread of its own hears of it.
+This comes before the package, whose import takes some hundredths of a second, and imports little itself. An interrupt
+is no exception here: one raised within an import, or in a call from foreign code, can be lost, or turn into another
+one. And it need not wait for foreign code to come back: a thread of its own hears of it.
 """
 
 from __future__ import annotations
@@ -14,13 +14,21 @@ from _thread import RLock, start_new_thread
 from contextlib import suppress
 from typing import NoReturn
 
-__all__ = ["CLEAR_LINE", "INTERRUPTED", "INTERRUPTED_SENTENCE", "end_at_interrupts", "raise_interrupts"]
+__all__ = ["CLEAR_LINE", "INTERRUPTED", "INTERRUPTED_SENTENCE", "end_at_interrupts", "main", "raise_interrupts"]
 
 INTERRUPTED = 130
 INTERRUPTED_SENTENCE = "plyfold: interrupted; nothing was left half-written"
 CLEAR_LINE = "\r\x1b[K"
 
 _leaving = RLock()
+
+
+def main() -> NoReturn:
+    """Run the command line."""
+    end_at_interrupts()
+    from plyfold.cli.commands import main
+
+    sys.exit(main())
 
 
 def end_at_interrupts() -> None:
