@@ -8,7 +8,7 @@ import shapely
 from matplotlib.path import Path as Outline
 
 import plyfold as pf
-from plyfold.errors import CurveError, GaussCodeError, PlyfoldError
+from plyfold.errors import CurveError, GaussCodeError, InputError, PlyfoldError
 from plyfold.outline.curve import as_curve
 
 SQUARE = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
@@ -108,7 +108,7 @@ def test_a_list_of_curves_may_hold_mistakes_too(curves):
 
 @pytest.mark.parametrize("strokes", ["examples/ramp.svg", Path("examples/ramp.svg"), Outline(SQUARE)])
 def test_strokes_that_are_none(strokes):
-    with pytest.raises(PlyfoldError) as caught:
+    with pytest.raises(InputError) as caught:
         pf.Curve.from_strokes(strokes)
     assert "pf.read" in str(caught.value) or "to_polygons" in str(caught.value)
     assert well_said(caught.value)
@@ -157,7 +157,7 @@ FILES = {
 def test_files_of_other_kinds(name, tmp_path):
     content, kind, call = FILES[name]
     (tmp_path / name).write_text(content)
-    with pytest.raises(PlyfoldError) as caught:
+    with pytest.raises(InputError) as caught:
         pf.read(tmp_path / name)
     assert str(caught.value).startswith(f"{name}: ")
     assert kind in caught.value.message
@@ -175,7 +175,7 @@ def test_files_of_other_kinds(name, tmp_path):
     ],
 )
 def test_read_takes_a_path(given, call):
-    with pytest.raises(PlyfoldError) as caught:
+    with pytest.raises(InputError) as caught:
         pf.read(given)
     assert call in caught.value.hint
     assert well_said(caught.value)
@@ -209,6 +209,6 @@ def limits():
 
 @pytest.mark.parametrize("name", limits())
 def test_what_is_raised_is_well_said(name):
-    with pytest.raises(PlyfoldError) as caught:
+    with pytest.raises(InputError) as caught:
         limits()[name]()
     assert well_said(caught.value)
