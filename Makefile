@@ -44,6 +44,7 @@ browser:  ## A browser for the tests of the pages, where there is none: Debian's
 lint: $(READY)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(BIN)/python tools/house.py --check
 	$(BIN)/mypy
 
 pictures: $(READY)  ## Rebuild the pictures of the README and of docs

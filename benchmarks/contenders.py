@@ -42,13 +42,13 @@ def plyfold_steps(points: Points) -> Iterator[Step]:
     """Arrangement; verdict with all sheets and their gluing; the count, on a fresh arrangement."""
     import plyfold as pf
 
-    seconds, drawn = timed(lambda: pf.arrangement(points))
+    seconds, drawn = timed(lambda: pf.arrange(points))
     facts = {"k": drawn.n_crossings, "w": int(drawn.winding.max()), "moved": len(drawn.curve.repairs)}
     yield "arrangement", seconds, facts
     seconds, verdict = timed(lambda: pf.find_immersion(drawn))
     glued = len(verdict.gluing) if isinstance(verdict, pf.Immersion) else None
     yield "sheets", seconds, {"disk": bool(verdict), "reason": getattr(verdict, "reason", ""), "glued": glued}
-    fresh = pf.arrangement(points)
+    fresh = pf.arrange(points)
     seconds, count = timed(lambda: pf.count_immersions(fresh))
     yield "count", seconds, {"immersions": str(count)}
 
@@ -57,7 +57,7 @@ def triangle_steps(points: Points) -> Iterator[Step]:
     """Triangulation, from the immersion."""
     import plyfold as pf
 
-    drawn = pf.arrangement(points)
+    drawn = pf.arrange(points)
     immersion = pf.find_immersion(drawn)
     if isinstance(immersion, pf.Immersion):
         seconds, faces = timed(lambda: pf.triangulate(drawn, immersion))

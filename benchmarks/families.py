@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement import winding_number
+from plyfold.arrangement.polylines import winding_number
 from plyfold.gallery import ribbon
 
 Points = npt.NDArray[np.float64]

@@ -19,7 +19,8 @@ from tables import number
 
 import plyfold as pf
 from plyfold.gallery import CURVES, chain
-from plyfold.hard import PALEY, flap_disk, formula_disk
+from plyfold.hard.flaps import PALEY, flap_disk
+from plyfold.hard.formulas import formula_disk
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 

@@ -65,8 +65,8 @@ def sketches() -> dict[str, Points]:
         "chain of loops": chain(400),
         "coil": coil(400),
         "ribbon": ribbon_disk(260, seed=3, wildness=0.3),
-        "pretzel": CURVES["pretzel"].curve.points,
-        "knotted ribbon": CURVES["knotted-ribbon"].curve.points,
+        "pretzel": CURVES["pretzel"].draw(40),
+        "knotted ribbon": CURVES["knotted-ribbon"].draw(40),
         "scribble (no disk)": random_walk(52, seed=5),
     }
     return {name: _scaled(np.asarray(points, dtype=float)) for name, points in drawn.items()}
@@ -193,7 +193,7 @@ def table(names: list[str], measure: Callable[[Points], dict[str, list[float]]])
     print(row(["---", *["--:"] * (2 + len(names))]))
     for sketch, points in sketches().items():
         taken = measure(points)
-        crossings = pf.arrangement(points).n_crossings
+        crossings = pf.arrange(points).n_crossings
         print(row([sketch, str(len(points)), str(crossings), *(shown(taken[name]) for name in names)]), flush=True)
 
 

@@ -19,11 +19,11 @@ from families import chain, glued_disk, ribbon_disk
 from tables import machine, markdown, number
 
 import plyfold as pf
-from plyfold.flat.cells import CellTriangulation, triangulate_cells
 from plyfold.gallery import CURVES
-from plyfold.surface.glue import glue_sheets
+from plyfold.mesh.cells import CellTriangulation, triangulate_cells
+from plyfold.surface.glue import stack_sheets
 from plyfold.surface.heights import smooth_heights
-from plyfold.surface.surface import layering_of
+from plyfold.surface.lift import layering_of
 
 PAGE = Path(__file__).parent.parent / "docs" / "surfaces.md"
 PICTURE = "![Meshes of three drawings, and the smallest angles over the gallery](images/mesh.png)"
@@ -68,17 +68,17 @@ def strip(width: float) -> Any:
 
 def cases(largest: int) -> Iterator[Case]:
     """Yield sketches, and then one curve with ever more triangles."""
-    sketches = {name: named.curve.points for name, named in CURVES.items() if named.embeddable}
+    sketches = {name: named.coarse().curve.points for name, named in CURVES.items() if named.embeddable}
     sketches |= {"ribbon of 300": ribbon_disk(300), "dense disk of 60": glued_disk(60), "chain of 370": chain(370)}
     sketches |= {f"helix of {turns} turns": helix(turns) for turns in (5, 10, 15)}
     sketches |= {f"strands {height:g} apart": kiss(height) for height in (1e-2, 1e-3)}
     sketches |= {f"strip of {width:g}": strip(width) for width in (1e-4, 1e-9)}
     for name, points in sketches.items():
-        if pf.arrangement(points).n_crossings <= MOST_CROSSINGS:
+        if pf.arrange(points).n_crossings <= MOST_CROSSINGS:
             yield Case(name, points, 4_000, 5)
     for triangles in (10_000, 100_000, 1_000_000):
         if triangles <= largest:
-            yield Case("pretzel", CURVES["pretzel"].curve.points, triangles, 1)
+            yield Case("pretzel", CURVES["pretzel"].draw(40), triangles, 1)
 
 
 def once(case: Case) -> tuple[list[float], pf.Layering, CellTriangulation, int]:
@@ -94,7 +94,7 @@ def once(case: Case) -> tuple[list[float], pf.Layering, CellTriangulation, int]:
     layering = timed(lambda: layering_of(case.points, False))
     drawn = layering.immersion.arrangement
     mesh = timed(lambda: triangulate_cells(drawn, triangles=case.triangles))
-    lifted = timed(lambda: glue_sheets(layering, mesh))
+    lifted = timed(lambda: stack_sheets(layering, mesh))
     timed(lambda: smooth_heights(mesh.points, lifted, 0.05 * float(np.ptp(drawn.curve.points, axis=0).max())))
     return seconds, layering, mesh, len(lifted.faces)
 

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 
 import plyfold as pf
 from plyfold.arrangement.gauss import GaussCode
+from plyfold.colours import INK
 from plyfold.draw import plot_arrangement
-from plyfold.draw.colours import INK
 from plyfold.draw.figures import save
 from plyfold.errors import GaussCodeError
 from plyfold.gallery import CURVES
@@ -56,7 +56,7 @@ def sheet() -> None:
     for ax in axes:
         ax.axis("off")
     for ax, (title, code) in zip(axes, panels, strict=False):
-        plot_arrangement(pf.arrangement(pf.Curve.from_gauss(code)), ax=ax)
+        plot_arrangement(pf.arrange(code.to_curve()), ax=ax)
         ax.set_title(title, fontsize=8, color=INK)
     save(figure, HERE / "images" / "codes.png", force=True)
 

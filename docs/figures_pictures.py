@@ -15,14 +15,14 @@ from PIL import Image
 
 import plyfold as pf
 from plyfold import draw
+from plyfold.colours import INK, OBSTRUCTION, PAPER, mix, sheet_colour
+from plyfold.disk.motion import Motion
 from plyfold.draw.canvas import blank, line, polygon, write
-from plyfold.draw.colours import INK, OBSTRUCTION, PAPER, mix, sheet_colour
-from plyfold.draw.places import Frame
+from plyfold.draw.placement import Frame
 from plyfold.gallery import CURVES
 from plyfold.io.saving import save_bytes
-from plyfold.layering.collapsed import edge_collapsed_graph, linear_spanning_subtrees
-from plyfold.sketch.kinks import find_kink
-from plyfold.surface.animation import Motion
+from plyfold.offers.kinks import find_kink
+from plyfold.paper.collapsed import edge_collapsed_graph, linear_spanning_subtrees
 
 IMAGES = Path(__file__).parent / "images"
 DRAWING = (-90.0, 90.0)
@@ -47,7 +47,7 @@ def titled(ax: Axes, title: str) -> None:
 
 def arranged(name: str) -> pf.Arrangement:
     """Return a curve of the gallery with its cells."""
-    return pf.arrangement(CURVES[name].curve)
+    return pf.arrange(CURVES[name].curve)
 
 
 def views(panels: Iterator[Axes], name: str, directions: Sequence[tuple[float, float]], **options: str) -> None:

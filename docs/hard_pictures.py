@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 import plyfold as pf
 from plyfold.draw import plot_arrangement
 from plyfold.draw.figures import save
-from plyfold.hard import PALEY, flap_disk, search_symmetric
+from plyfold.hard.flaps import PALEY, flap_disk
+from plyfold.hard.symmetric import search_symmetric
 
 IMAGES = Path(__file__).parent / "images"
 
@@ -35,7 +36,7 @@ def flaps() -> None:
 
 def draw_curve(ax: Axes, curve: pf.Curve) -> None:
     """Draw a curve with its winding numbers as shades."""
-    plot_arrangement(pf.arrangement(curve), ax=ax)
+    plot_arrangement(pf.arrange(curve), ax=ax)
 
 
 def symmetric() -> None:

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 
 import plyfold as pf
 from plyfold.draw.figures import save
-from plyfold.flat.cells import CellTriangulation, triangulate_cells
 from plyfold.gallery import CURVES
+from plyfold.mesh.cells import CellTriangulation, triangulate_cells
 
 HERE = Path(__file__).parent
 DRAWN = ("pretzel", "stacked-spiral", "bennequin")
@@ -29,7 +29,7 @@ def smallest_angles(mesh: CellTriangulation) -> np.ndarray:
 
 def draw_mesh(name: str, ax: Axes) -> None:
     """Draw the triangles, with those of sharp angles filled."""
-    mesh = triangulate_cells(pf.arrangement(CURVES[name].curve), triangles=TRIANGLES)
+    mesh = triangulate_cells(pf.arrange(CURVES[name].curve), triangles=TRIANGLES)
     ax.triplot(*mesh.points.T, mesh.triangles, linewidth=0.3, color="0.35")
     x, y = mesh.points[mesh.chain].T
     ax.plot(np.append(x, x[0]), np.append(y, y[0]), linewidth=1.0, color="black")
@@ -42,7 +42,7 @@ def draw_mesh(name: str, ax: Axes) -> None:
 
 def draw_histogram(ax: Axes) -> None:
     """Draw how many triangles of the gallery's surfaces have which smallest angle."""
-    drawings = [pf.arrangement(named.curve) for named in CURVES.values() if named.embeddable]
+    drawings = [pf.arrange(named.curve) for named in CURVES.values() if named.embeddable]
     angles = np.concatenate([smallest_angles(triangulate_cells(drawn)) for drawn in drawings])
     ax.hist(angles, bins=np.arange(61), color="tab:blue")
     ax.axvline(BOUND, color="tab:orange")

@@ -22,19 +22,20 @@ import plyfold as pf
 from plyfold.draw import plot_arrangement, plot_collapsed_graph, plot_layout, plot_marked_cell, plot_obstruction
 from plyfold.draw.figures import save
 from plyfold.gallery import CURVES
-from plyfold.hard import PALEY, flap_disk, formula_disk
-from plyfold.layering.collapsed import (
+from plyfold.hard.flaps import PALEY, flap_disk
+from plyfold.hard.formulas import formula_disk
+from plyfold.paper import layering as paper
+from plyfold.paper.collapsed import (
     edge_collapsed_graph,
     edge_collapsed_graphs,
     has_linear_spanning_subtrees,
     linear_spanning_subtrees,
 )
-from plyfold.layering.paper import paper_layering
 
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "tests"))
 
-from layering.test_paper_layering import LIFTS_ANOTHER_WAY, eight_crossings  # noqa: E402
+from paper.test_layering import LIFTS_ANOTHER_WAY, eight_crossings  # noqa: E402
 from reference.planar_maps import census, may_bound_disk  # noqa: E402
 from reference.random_curves import angle, glued_disk, ribbon_outline  # noqa: E402
 
@@ -90,7 +91,7 @@ def followed() -> None:
     figure = Figure(figsize=(15, 7.2), layout="constrained")
     for column, name in zip(figure.subplots(2, 4).T, ("exit-ramp", "stacked-spiral", "milnor", "ten-gon"), strict=True):
         immersion = named_immersions(name)[-1]
-        layering = paper_layering(immersion)
+        layering = paper.find_layering(immersion)
         cell = max(range(immersion.arrangement.n_cells), key=lambda c: len(edge_collapsed_graph(immersion, c).nodes))
         plot_marked_cell(immersion.arrangement, cell, column[0])
         draw_graph(column[1], immersion, cell, layering)
@@ -134,8 +135,8 @@ def graphs_of_every_cell(*immersions: pf.Immersion) -> None:
 
 def another_way() -> None:
     """Draw the disk that lifts, but not along linear spanning subtrees: the cell that cannot follow any of its own."""
-    (immersion,) = pf.immersions(pf.Curve.from_gauss(*LIFTS_ANOTHER_WAY))
-    (cell,) = paper_layering(immersion).value
+    (immersion,) = pf.immersions(pf.GaussCode(*LIFTS_ANOTHER_WAY).to_curve())
+    (cell,) = paper.find_layering(immersion).value
     figure = Figure(figsize=(16, 4.6), layout="constrained")
     drawing, layout, graph = figure.subplots(1, 3)
     plot_arrangement(immersion.arrangement, drawing, borders=True)
@@ -173,7 +174,7 @@ def table(families: Iterable[tuple[str, Iterable[pf.Immersion]]]) -> None:
 def verdicts(immersion: pf.Immersion) -> tuple[bool, bool, bool]:
     """Return whether all cells have linear spanning subtrees, whether it lifts, and whether the paper's way sees it."""
     linear = all(has_linear_spanning_subtrees(immersion).values())
-    return linear, bool(pf.find_layering(immersion)), bool(paper_layering(immersion))
+    return linear, bool(pf.find_layering(immersion)), bool(paper.find_layering(immersion))
 
 
 def of_codes(codes: Iterable[Any]) -> Iterator[pf.Immersion]:
@@ -185,7 +186,7 @@ def of_polygons(seed: int, outline: Callable[[np.random.Generator], Any], number
     """Yield immersions of random curves, up to fifty of each."""
     rng = np.random.default_rng(seed)
     for _ in range(number):
-        yield from islice(pf.immersions(pf.arrangement(outline(rng))), IMMERSIONS_TRIED)
+        yield from islice(pf.immersions(pf.arrange(outline(rng))), IMMERSIONS_TRIED)
 
 
 def symmetric_disk(rng: np.random.Generator, order: int, triangles: int) -> list[tuple[float, float]]:

@@ -12,13 +12,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 import plyfold as pf
+from plyfold.colours import ACCENT, INK, mix, sheet_colour
 from plyfold.draw import plot_arrangement
-from plyfold.draw.colours import ACCENT, INK, mix, sheet_colour
 from plyfold.draw.figures import save
-from plyfold.draw.hyperbolic import BorderCircle
-from plyfold.draw.places import border_middle
+from plyfold.draw.placement import BorderCircle, border_middle
 from plyfold.gallery import chain
-from plyfold.immersion.paper import PaperRun, Reading, paper_immersion, run_paper
+from plyfold.paper import procedure
+from plyfold.paper.procedure import PaperRun, Reading, run_paper
 
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "tests"))
@@ -51,8 +51,8 @@ class Trial(NamedTuple):
 
 def failure(name: str, code: tuple[list[int], list[int], int], reading: Reading) -> None:
     """Draw a curve that bounds one disk and that a reading gets wrong: its groups, and those of the immersion."""
-    curve = pf.Curve.from_gauss(*code)
-    arranged = pf.arrangement(curve)
+    curve = pf.GaussCode(*code).to_curve()
+    arranged = pf.arrange(curve)
     figure = Figure(figsize=(16.5, 4.8), layout="constrained")
     drawing, detail, wrong, right = figure.subplots(1, 4)
     plot_arrangement(arranged, ax=drawing, borders=True)
@@ -71,12 +71,12 @@ def failure(name: str, code: tuple[list[int], list[int], int], reading: Reading)
 
 def accepted() -> None:
     """Draw the limaçon, which the pseudo-code accepts without a test of the turning number, and its groups."""
-    curve = pf.Curve.from_gauss(*LIMACON)
+    curve = pf.GaussCode(*LIMACON).to_curve()
     figure = Figure(figsize=(8.6, 4.4), layout="constrained")
     drawing, groups = figure.subplots(1, 2)
-    plot_arrangement(pf.arrangement(curve), ax=drawing, borders=True)
+    plot_arrangement(pf.arrange(curve), ax=drawing, borders=True)
     drawing.set_title("Pascal's limaçon turns twice")
-    _draw_groups(groups, run_paper(pf.arrangement(curve)).groups)
+    _draw_groups(groups, run_paper(pf.arrange(curve)).groups)
     groups.set_title("one group in each cell: no error")
     save(figure, IMAGES / "paper-limacon.png", force=True)
 
@@ -148,12 +148,12 @@ def _by_size(name: str, reading: Reading) -> Iterator[list[Trial]]:
     outline, sizes = FAMILIES[name]
     for size in sizes:
         rng = np.random.default_rng(size)
-        yield [_trial(pf.arrangement(outline(rng, size)), reading) for _ in range(PER_SIZE)]
+        yield [_trial(pf.arrange(outline(rng, size)), reading) for _ in range(PER_SIZE)]
 
 
 def _trial(arranged: pf.Arrangement, reading: Reading) -> Trial:
     run: PaperRun = run_paper(arranged, reading)
-    found = run.stuck_at is None and bool(paper_immersion(arranged, reading))
+    found = run.stuck_at is None and bool(procedure.find_immersion(arranged, reading))
     return Trial(arranged.n_crossings, run.calls, found)
 
 
@@ -178,7 +178,7 @@ def _scatter(axes: Any, trials: list[Trial], colour: str, reading: Reading) -> N
 
 def _draw_chains(axes: Any) -> None:
     links = range(1, 41)
-    arranged = [pf.arrangement(chain(MILNOR_LIKE, number)) for number in links]
+    arranged = [pf.arrange(chain(MILNOR_LIKE, number)) for number in links]
     crossings = np.array([each.n_crossings for each in arranged])
     axes.plot(crossings, [float(pf.count_immersions(each)) for each in arranged], color=ACCENT, label="immersions")
     axes.plot(crossings, crossings.astype(float) ** 2, color=INK, label="k²")

@@ -8,8 +8,8 @@ from textwrap import fill
 from matplotlib.figure import Figure
 
 import plyfold as pf
+from plyfold.colours import OBSTRUCTION
 from plyfold.draw import plot_arrangement, plot_surface
-from plyfold.draw.colours import OBSTRUCTION
 from plyfold.draw.figures import save, summary
 from plyfold.gallery import CURVES
 
@@ -32,7 +32,7 @@ def gallery() -> None:
         ax.axis("off")
     for place, named in enumerate(CURVES.values()):
         flat, lifted = axes[2 * place : 2 * place + 2]
-        plot_arrangement(pf.arrangement(named.curve), ax=flat)
+        plot_arrangement(pf.arrange(named.curve), ax=flat)
         flat.set_title(named.name, loc="left", fontsize=12, weight="bold")
         if named.embeddable:
             plot_surface(pf.lift(named.curve), ax=lifted, pixels=450)

@@ -25,6 +25,7 @@ def photograph(browser: Any, address: str) -> None:
     tab = browser.new_page(viewport={"width": 1360, "height": 860}, color_scheme="light")
     tab.goto(address)
     tab.get_by_text("layering 1 of").first.wait_for()
+    tab.locator("#surface-tools button").first.wait_for()
     tab.wait_for_timeout(3000)
     tab.screenshot(path=IMAGES / "sketch.png")
 

@@ -11,11 +11,11 @@ from matplotlib.figure import Figure
 
 import plyfold as pf
 from plyfold.arrays import Floats, Ints
+from plyfold.colours import INK, rgb, sheet_colour
 from plyfold.draw.canvas import blank, line
-from plyfold.draw.colours import INK, rgb, sheet_colour
 from plyfold.draw.depth_buffer import Pixels, View, look
 from plyfold.draw.figures import save
-from plyfold.draw.places import natural_stretch
+from plyfold.draw.placement import natural_stretch
 from plyfold.draw.render import Mesh, shade
 from plyfold.gallery import CURVES
 

@@ -1,8 +1,8 @@
 """The program ``plyfold``: wherever it is, Ctrl-C ends it at once, with no half-written file, and exit code 130.
 
-This comes before the library, whose import takes some tenths of a second, and imports little itself. An interrupt is
-no exception here: one raised within an import, or in a call from foreign code, can be lost, or turn into another one.
-And it need not wait for foreign code to come back: a thread of its own hears of it.
+This comes before the package, whose import takes some hundredths of a second, and imports little itself. An interrupt
+is no exception here: one raised within an import, or in a call from foreign code, can be lost, or turn into another
+one. And it need not wait for foreign code to come back: a thread of its own hears of it.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from _thread import RLock, start_new_thread
 from contextlib import suppress
 from typing import NoReturn
 
-__all__ = ["end_at_interrupts", "main", "raise_interrupts"]
+__all__ = ["CLEAR_LINE", "INTERRUPTED", "INTERRUPTED_SENTENCE", "end_at_interrupts", "main", "raise_interrupts"]
 
 INTERRUPTED = 130
-_MESSAGE = "plyfold: interrupted; nothing was left half-written\n"
-_CLEAR_LINE = "\r\x1b[K"
+INTERRUPTED_SENTENCE = "plyfold: interrupted; nothing was left half-written"
+CLEAR_LINE = "\r\x1b[K"
 
 _leaving = RLock()
 
@@ -26,7 +26,7 @@ _leaving = RLock()
 def main() -> NoReturn:
     """Run the command line."""
     end_at_interrupts()
-    from plyfold.cli import main
+    from plyfold.cli.commands import main
 
     sys.exit(main())
 
@@ -64,11 +64,11 @@ def _leave(*_: object) -> NoReturn:
         for draft in list(getattr(saving, "unfinished", ())):
             with suppress(OSError):
                 draft.unlink()
-        _say(_MESSAGE)
+        _say(INTERRUPTED_SENTENCE)
         os._exit(INTERRUPTED)
 
 
 def _say(message: str) -> None:
     """Write to standard error past Python's streams: the signal may have come while these were being written to."""
     with suppress(OSError):
-        os.write(2, ((_CLEAR_LINE if os.isatty(2) else "") + message).encode())
+        os.write(2, ((CLEAR_LINE if os.isatty(2) else "") + message + "\n").encode())

@@ -71,11 +71,12 @@ def test_numba_that_cannot_be_imported_is_left_alone(monkeypatch):
 
 def test_translations_are_named_after_all_sources():
     """numba itself would run an old translation after a change in a file that the loop only calls into."""
-    from plyfold.flat import sweep, turns
+    from plyfold import predicates
+    from plyfold.flat import sweep
 
     parts = compiled._reached(sweep._swept)
-    assert turns.turn in parts
-    assert turns._add in parts
+    assert predicates.turn in parts
+    assert predicates._add_exactly in parts
     names = {compiled._named_after_sources(sweep._swept, some).__qualname__ for some in (parts, parts, set())}
     assert len(names) == 2
 

@@ -1,6 +1,9 @@
 """Errors carry places and obstructions, also from one process to another."""
 
+import ast
+import builtins
 import pickle
+from pathlib import Path
 
 import pytest
 
@@ -42,6 +45,36 @@ def test_an_obstruction_handed_on_says_why():
         pf.lift(next(unliftable))
     with pytest.raises(InputError, match="no immersion"):
         pf.find_layering("a curve")
+
+
+# Errors of Python that are raised by name, in some modules or in any: the reason.
+OTHERS = {
+    ("*", "TimeoutError"): "within the library: whoever hands a clock on catches it",
+    ("*", "AssertionError"): "cannot happen",
+    ("io/saving", "FileExistsError"): "what Python says of such files, as documented",
+    ("io/saving", "IsADirectoryError"): "what Python says of such files",
+    ("io/saving", "OSError"): "what the system says, with the name of the file and not that of its draft",
+    ("io/svg", "ValueError"): "as svgelements raises of other numbers that are none; refused in one place",
+    ("immersion/grouping", "IndexError"): "within the library: the caller knows how many there are",
+    ("layering/orders/search", "ValueError"): "cannot happen",
+    ("cli/sketch", "KeyboardInterrupt"): "a signal that asks the server to end is an interrupt",
+}
+
+
+def raised_by_name(path):
+    """The exceptions that lines of a module raise by their names, classes of Python's own or of the module."""
+    tree = ast.parse(path.read_text())
+    made = {node.name for node in tree.body if isinstance(node, ast.ClassDef)}
+    raised = [node.exc for node in ast.walk(tree) if isinstance(node, ast.Raise)]
+    named = {name.id for error in raised if isinstance(name := getattr(error, "func", error), ast.Name)}
+    return {name for name in named - made if isinstance(getattr(builtins, name, None), type)}
+
+
+def test_what_is_raised_on_purpose_is_of_the_tree():
+    source = Path(pf.__file__).parent
+    paths = {path.relative_to(source).with_suffix("").as_posix(): path for path in source.rglob("*.py")}
+    found = {(name, error) for name, path in paths.items() for error in raised_by_name(path)}
+    assert {(name, error) for name, error in found if ("*", error) not in OTHERS} <= OTHERS.keys()
 
 
 @pytest.mark.parametrize("kind", [getattr(pf.errors, name) for name in pf.errors.__all__])

@@ -8,13 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
-from plyfold.gallery import CURVES, chain
+from coarse import CURVES
+from plyfold.gallery import chain
 from reference.crossings import base_visit
 from reference.random_curves import MILNOR_LIKE, SEVERAL_IMMERSIONS, glued_disk, random_polygon, ribbon_outline
 
 
 def answers(points):
-    drawn = pf.arrangement(points, general_position="raise")
+    drawn = pf.arrange(points, general_position="raise")
     return drawn.n_crossings, drawn.turning_number, sorted(drawn.winding.tolist()), pf.count_immersions(drawn)
 
 
@@ -27,7 +28,7 @@ def frames(points):
     yield points * 1e-8
     yield np.roll(points, 3, axis=0)
     yield points[::-1]
-    if pf.arrangement(points).turning_number != 0:  # reflected and turned round again: the same windings
+    if pf.arrange(points).turning_number != 0:  # reflected and turned round again: the same windings
         yield points * [-1, 1]
 
 
@@ -137,7 +138,7 @@ def test_points_in_the_middle_of_edges_change_no_order_of_answers():
 
 def test_the_order_of_answers_is_that_of_the_gauss_code_from_the_base_visit():
     for points in SEVERAL:
-        drawn = pf.arrangement(points)
+        drawn = pf.arrange(points)
         code = pf.GaussCode.of(drawn).rotated(base_visit(drawn.curve.points))
         assert all_answers(code) == all_answers(drawn)
 

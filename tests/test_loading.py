@@ -8,7 +8,8 @@ import pytest
 
 PROBE = """
 import json, sys
-from plyfold.cli import main, progress
+from plyfold.cli import progress
+from plyfold.cli.commands import main
 
 imported, known, stop = {}, set(sys.modules), progress.Stopwatch.stop
 

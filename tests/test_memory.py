@@ -10,13 +10,13 @@ import plyfold as pf
 from plyfold import memory
 from plyfold.clock import NO_LIMIT
 from plyfold.errors import MemoryLimitError
-from plyfold.flat import sheets
-from plyfold.flat.cells import triangulate_cells
 from plyfold.immersion import immersion
-from plyfold.immersion.layout import glue_layout
-from plyfold.layering import intersections, orders, sheet_pairs
-from plyfold.layering.level_clauses import LevelClauses, solve_levels
-from plyfold.layering.levels import level_equations
+from plyfold.layering.levels.equations import LevelClauses, level_equations, solve_levels
+from plyfold.layering.orders import intersections
+from plyfold.layering.orders import search as orders
+from plyfold.mesh import sheets
+from plyfold.mesh.cells import triangulate_cells
+from plyfold.paper.gluing import glue_layout
 from plyfold.sketch import answers
 
 
@@ -31,7 +31,7 @@ def helix(turns):
 
 @cache
 def drawn():
-    return pf.arrangement(helix(30))
+    return pf.arrange(helix(30))
 
 
 @cache
@@ -122,7 +122,7 @@ def test_sizes_are_those_that_are_taken(name, monkeypatch):
     """The estimate lies above what Python and numpy allocate, and not far above."""
     make, given, _ = LARGE[name]
     arguments, sizes = [argument() for argument in given], []
-    for module in (immersion, intersections, orders, sheet_pairs, sheets):
+    for module in (immersion, intersections, orders, sheets):
         monkeypatch.setattr(module, "require_memory", lambda size, *_: sizes.append(size))
     tracemalloc.start()
     before, _ = tracemalloc.get_traced_memory()

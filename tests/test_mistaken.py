@@ -9,6 +9,7 @@ from matplotlib.path import Path as Outline
 
 import plyfold as pf
 from plyfold.errors import CurveError, GaussCodeError, InputError, PlyfoldError
+from plyfold.outline.curve import as_curve
 
 SQUARE = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
 TREFOIL_PD = [[1, 4, 2, 5], [3, 6, 4, 1], [5, 2, 6, 3]]
@@ -55,12 +56,16 @@ MISTAKES = {
     "a zip": (zip([0, 1, 1, 0], [0, 0, 1, 1], strict=True), "list("),
     "a set": (set(SQUARE), "list"),
     "a dictionary": ({"x": [0, 1, 1], "y": [0, 0, 1]}, "numpy.column_stack"),
-    "strokes": ([[(0, 0), (4, 0)], [(0, 3), (0, 0)], [(4, 0), (0, 3)]], "pf.Curve.from_strokes"),
     "xs and ys": ([[0, 1, 1, 0], [0, 0, 1, 1]], "numpy.transpose"),
-    "curves": ([pf.Curve(SQUARE), pf.Curve(SQUARE)], "pf.find_embedding"),
-    "geometries": ([shapely.box(0, 0, 1, 1), shapely.box(2, 0, 3, 1)], "pf.find_embedding"),
     "nothing": (None, "one x and one y"),
     "a number": (42, "one x and one y"),
+}
+
+
+SEVERAL = {
+    "strokes": ([[(0, 0), (4, 0)], [(0, 3), (0, 0)], [(4, 0), (0, 3)]], "pf.Curve.from_strokes"),
+    "curves": ([pf.Curve(SQUARE), pf.Curve(SQUARE)], "pf.find_embedding"),
+    "geometries": ([shapely.box(0, 0, 1, 1), shapely.box(2, 0, 3, 1)], "pf.find_embedding"),
 }
 
 
@@ -77,12 +82,22 @@ def well_said(error):
 
 @pytest.mark.parametrize(("value", "call"), MISTAKES.values(), ids=MISTAKES)
 def test_the_right_call_is_named(value, call):
-    for use in (pf.arrangement, pf.lift, pf.Curve):
+    for use in (pf.arrange, pf.lift, pf.Curve):
         with pytest.raises(CurveError) as caught:
             use(value)
         assert call in str(caught.value)
         assert well_said(caught.value)
         assert len(str(caught.value)) < 300
+
+
+@pytest.mark.parametrize(("value", "call"), SEVERAL.values(), ids=SEVERAL)
+def test_several_are_no_single_curve(value, call):
+    with pytest.raises(CurveError) as caught:
+        pf.Curve(value)
+    assert call in str(caught.value)
+    assert well_said(caught.value)
+    with pytest.raises(PlyfoldError):
+        pf.lift(value)
 
 
 @pytest.mark.parametrize("curves", [["examples/ramp.svg"], [SQUARE, "examples/ramp.svg"]])
@@ -105,23 +120,22 @@ def test_the_calls_that_are_named_work():
     assert len(pf.Curve(Outline.unit_circle().to_polygons()[0])) >= 16
     assert len(pf.Curve(list(iter(SQUARE)))) == 4
     assert len(pf.Curve(np.transpose([[0, 1, 1, 0], [0, 0, 1, 1]]))) == 4
-    assert pf.arrangement(pf.gallery.named_curve("milnor")).n_crossings == 6
-    assert pf.arrangement(pf.GaussCode.parse(TREFOIL)).n_crossings == 3
-    assert len(pf.curve.as_curve(shapely.from_wkt("POLYGON ((0 0, 1 0, 1 1, 0 0))"))) == 3
+    assert pf.arrange(pf.gallery.named_curve("milnor")).n_crossings == 6
+    assert pf.arrange(pf.GaussCode.parse(TREFOIL)).n_crossings == 3
+    assert len(as_curve(shapely.from_wkt("POLYGON ((0 0, 1 0, 1 1, 0 0))"))) == 3
 
 
 @pytest.mark.parametrize("text", ["1 2 3 1 2 3", "1,-2,3,-1,2,-3", "PD[X[1, 4, 2, 5], X[3, 6, 4, 1], X[5, 2, 6, 3]]"])
 def test_codes_that_are_not_signed(text):
-    for use in (pf.GaussCode.parse, pf.Curve.from_gauss):
-        with pytest.raises(GaussCodeError, match=NONE_YET) as caught:
-            use(text)
-        assert well_said(caught.value)
+    with pytest.raises(GaussCodeError, match=NONE_YET) as caught:
+        pf.GaussCode.parse(text)
+    assert well_said(caught.value)
 
 
 @pytest.mark.parametrize("code", [[1, 2, 3, 1, 2, 3], [1, -2, 3, -1, 2, -3], TREFOIL_PD])
 def test_lists_that_are_not_signed_codes(code):
-    with pytest.raises(GaussCodeError, match=NONE_YET) as caught:
-        pf.Curve.from_gauss(code)
+    with pytest.raises(CurveError, match=NONE_YET) as caught:
+        pf.Curve(code)
     assert well_said(caught.value)
 
 
@@ -176,13 +190,13 @@ def limits():
         "triangulate": lambda: pf.triangulate(eight),
         "unwrap": lambda: pf.unwrap(limacon),
         "no layering": lambda: pf.lift(pf.gallery.CURVES["seven-flaps"].curve),
-        "touching": lambda: pf.arrangement([(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)], general_position="raise"),
+        "touching": lambda: pf.arrange([(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)], general_position="raise"),
         "not finite": lambda: pf.Curve([(0, 0), (1, np.nan), (1, 1)]),
         "huge": lambda: pf.Curve([(0, 0), (1, 1e200), (1, 1)]),
         "on a line": lambda: pf.Curve([(0, 0), (1, 1), (2, 2)]),
         "gap": lambda: pf.Curve.from_strokes([[(0, 0), (4, 0)], [(0, 3), (0, 2)]]),
         "no stroke": lambda: pf.Curve.from_strokes([]),
-        "hole": lambda: pf.arrangement(shapely.box(0, 0, 9, 9).difference(shapely.box(1, 1, 2, 2))),
+        "hole": lambda: pf.arrange(shapely.box(0, 0, 9, 9).difference(shapely.box(1, 1, 2, 2))),
         "ending": lambda: pf.lift(SQUARE, triangles=50).export("out.xyz"),
         "time": lambda: pf.lift(pf.gallery.CURVES["milnor"].curve, time_limit=0),
         "pins": lambda: pf.lift(SQUARE, triangles=50, pins={(9, 9): 1.0}),
@@ -195,6 +209,6 @@ def limits():
 
 @pytest.mark.parametrize("name", limits())
 def test_what_is_raised_is_well_said(name):
-    with pytest.raises(PlyfoldError) as caught:
+    with pytest.raises(InputError) as caught:
         limits()[name]()
     assert well_said(caught.value)

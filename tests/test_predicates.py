@@ -8,11 +8,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from plyfold.predicates import (
-    compare_along_edge,
     counted_cross_sign,
     cross_sign,
     crossing_bounds,
     exact_crossings,
+    exact_parameter,
     orient,
 )
 from reference.crossings import exact, meetings
@@ -59,13 +59,12 @@ def test_a_million_easy_signs_need_no_fractions(monkeypatch):
 
 
 def test_order_along_an_edge_of_crossings_closer_than_rounding():
-    edge = [[0.0, 0.0], [3.0, 0.0]]
+    edge = np.array([[0.0, 0.0], [3.0, 0.0]])
     third = 1.0  # the edges pass through (1, 0) and, one unit in the last place of a far end later, just beyond it
-    first = [[third, -1.0], [third, 1.0]]
-    second = [[third, -1.0], [np.nextafter(third, 2), 1e-9]]
-    assert compare_along_edge(edge, first, second) == -1
-    assert compare_along_edge(edge, second, first) == 1
-    assert compare_along_edge(edge, first, first[::-1]) == 0
+    first = np.array([[third, -1.0], [third, 1.0]])
+    second = np.array([[third, -1.0], [np.nextafter(third, 2), 1e-9]])
+    assert exact_parameter(*edge, *first) < exact_parameter(*edge, *second)
+    assert exact_parameter(*edge, *first) == exact_parameter(*edge, *first[::-1])
 
 
 @given(

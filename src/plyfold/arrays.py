@@ -2,15 +2,45 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Bools", "Complexes", "Floats", "Ints", "Signs"]
+__all__ = ["Bools", "Complexes", "Floats", "Ints", "Signs", "freeze", "read_only"]
+
+Scalar = TypeVar("Scalar", bound=np.generic)
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int64]
 Bools: TypeAlias = npt.NDArray[np.bool_]
 Signs: TypeAlias = npt.NDArray[np.int8]
 Complexes: TypeAlias = npt.NDArray[np.complex128]
+
+
+def read_only(array: npt.NDArray[Scalar]) -> npt.NDArray[Scalar]:
+    """Return an array that cannot be written to as it is, and a view of another one, which stays as it was."""
+    if not array.flags.writeable:
+        return array
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+def freeze(value: object) -> None:
+    """Make the arrays of a new value read-only, also those in tuples; whoever gave them keeps them as they were.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> given = np.zeros(2)
+    >>> value = SimpleNamespace(array=given)
+    >>> freeze(value)
+    >>> value.array.flags.writeable, given.flags.writeable
+    (False, True)
+    """
+    for name, member in vars(value).items():
+        if isinstance(member, np.ndarray):
+            object.__setattr__(value, name, read_only(member))
+        elif isinstance(member, tuple) and any(isinstance(part, np.ndarray) for part in member):
+            object.__setattr__(value, name, tuple(map(read_only, member)))

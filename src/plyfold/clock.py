@@ -11,7 +11,7 @@ from typing import NoReturn, TypeAlias, TypeVar
 
 from plyfold.errors import InputError, TimeLimitError
 
-__all__ = ["NO_LIMIT", "UNWATCHED", "Clock", "Progress", "Watch"]
+__all__ = ["NO_LIMIT", "UNWATCHED", "Clock", "Progress", "Watch", "make_call"]
 
 Progress: TypeAlias = Callable[[str, float], None]
 _Answer = TypeVar("_Answer")
@@ -146,7 +146,7 @@ class Watch:
             return call()
         outcome: list[Callable[[], _Answer]] = []
         done = Event()
-        Thread(target=_make, args=(call, outcome, done)).start()
+        Thread(target=make_call, args=(call, outcome, done)).start()
         if not done.wait(self.clock.left):
             raise self._late()
         return outcome[0]()
@@ -156,8 +156,8 @@ class Watch:
         return TimeLimitError(sentence, hint="allow more time", stage=self.stage)
 
 
-def _make(call: Callable[[], _Answer], outcome: list[Callable[[], _Answer]], done: Event) -> None:
-    """Make a call, and put a function that returns its answer, or raises its error."""
+def make_call(call: Callable[[], _Answer], outcome: list[Callable[[], _Answer]], done: Event) -> None:
+    """Make a call for another thread, which waits: leave a function that returns its answer, or raises its error."""
     try:
         answer = call()
         outcome.append(lambda: answer)

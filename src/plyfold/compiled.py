@@ -67,6 +67,8 @@ def called_from_loops(function: _Function) -> _Function:
 def run_loop(loop: _Loop[_Results], steps: int, given: tuple[_Group, ...], results: _Results) -> _Results:
     """Run a loop on groups of arrays, in plain Python or in machine code; the outcome is the same.
 
+    Arrays of other numbers than those of machines, such as fractions, make it plain Python.
+
     Parameters
     ----------
     loop : callable
@@ -83,14 +85,15 @@ def run_loop(loop: _Loop[_Results], steps: int, given: tuple[_Group, ...], resul
     NamedTuple of ndarray
         The results.
     """
-    if _machine_code_pays(steps) and (translated := _machine_code(loop, given, results)):
+    plain = any(array.dtype == object for group in given for array in group)
+    if not plain and _machine_code_pays(steps) and (translated := _machine_code(loop, given, results)):
         translated(given, results)
         return results
     return run_in_python(loop, given, results)
 
 
 def run_in_python(loop: _Loop[_Results], given: tuple[_Group, ...], results: _Results) -> _Results:
-    """Run a loop in plain Python, which can calculate with any kind of number; otherwise as :func:`run_loop`."""
+    """Run a loop in plain Python; otherwise as :func:`run_loop`."""
     found = _listed(results)
     loop(tuple(_listed(group) for group in given), found)
     arrays = (np.array(values, dtype=array.dtype) for values, array in zip(found, results, strict=True))

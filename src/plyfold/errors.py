@@ -11,6 +11,7 @@
     ├── GeneralPositionError  touching or overlapping strands, and perturbing was not allowed or did not help
     ├── NotImmersibleError    a disk was asked for, and the curve bounds none (carries the obstruction)
     ├── NotEmbeddableError    a layered surface was asked for, and there is none (carries the obstruction)
+    ├── CertificateError      a check of a mesh fails (:mod:`plyfold.certify`)
     ├── PrecisionError        double precision cannot hold the mesh (the decision itself is exact)
     ├── TimeLimitError        a step was stopped before it had an answer
     └── MemoryLimitError      an answer, or a step on the way to it, does not fit into memory
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from plyfold.obstruction import Obstruction
 
 __all__ = [
+    "CertificateError",
     "CurveError",
     "FileFormatError",
     "GaussCodeError",
@@ -116,6 +118,10 @@ class NotImmersibleError(_ObstructedError):
 
 class NotEmbeddableError(_ObstructedError):
     """No immersion of the curve can be layered without cutting itself."""
+
+
+class CertificateError(PlyfoldError):
+    """A checked mesh breaks a condition; the message names the condition and the place."""
 
 
 class PrecisionError(PlyfoldError):

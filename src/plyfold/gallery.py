@@ -3,24 +3,27 @@
 >>> from plyfold import gallery
 >>> ramp = gallery.CURVES["exit-ramp"]
 >>> len(ramp.curve), ramp.crossings, ramp.immersions
-(98, 4, 1)
+(482, 4, 1)
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.curve import Curve, as_curve
 from plyfold.errors import InputError
+from plyfold.outline.curve import Curve, as_curve
 
 __all__ = ["CURVES", "NamedCurve", "chain", "named_curve", "ribbon", "rounded"]
 
 Points = npt.NDArray[np.float64]
+
+POINTS_A_TURN = 200
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,8 +34,8 @@ class NamedCurve:
     ----------
     name, title : str
         A short name for the command line, and what the curve shows.
-    draw : callable
-        Returns the points, shape (n, 2).
+    sample : callable
+        Returns the points, shape (n, 2), for a number of points on a full turn; polygons have their corners.
     crossings : int
         Number of crossings, k.
     turning_number : int
@@ -41,11 +44,16 @@ class NamedCurve:
         In how many ways the curve bounds an immersed disk.
     embeddable : int
         How many of these can be layered.
+
+    Examples
+    --------
+    >>> CURVES["milnor"]
+    <NamedCurve milnor: 6 crossings, 2 immersions>
     """
 
     name: str
     title: str
-    draw: Callable[[], Points]
+    sample: Callable[[int], Points]
     crossings: int
     turning_number: int
     immersions: int
@@ -54,15 +62,29 @@ class NamedCurve:
     def __repr__(self) -> str:
         return f"<NamedCurve {self.name}: {self.crossings} crossings, {self.immersions} immersions>"
 
-    def _repr_svg_(self) -> str:
-        from plyfold.arrangement import arrangement
+    def _repr_svg_(self) -> str | None:
+        from plyfold.arrangement.arrangement import arrange
 
-        return arrangement(self.curve)._repr_svg_()
+        return arrange(self.curve)._repr_svg_()
 
     @cached_property
     def curve(self) -> Curve:
-        """The curve itself."""
+        """The curve itself, so fine that it looks smooth."""
         return Curve(self.draw())
+
+    def draw(self, a_turn: int = POINTS_A_TURN) -> Points:
+        """Return the points, with so many on a full turn; polygons have their corners."""
+        return self.sample(a_turn)
+
+    def coarse(self, a_turn: int = 40) -> NamedCurve:
+        """Return the same with fewer points, for what takes long with many.
+
+        Examples
+        --------
+        >>> len(CURVES["circle"].curve), len(CURVES["circle"].coarse().curve)
+        (200, 40)
+        """
+        return replace(self, sample=lambda _: self.sample(a_turn))
 
 
 def ribbon(centre: npt.ArrayLike, width: float) -> Points:
@@ -97,7 +119,7 @@ def rounded(corners: npt.ArrayLike, rounds: int = 3) -> Points:
     Parameters
     ----------
     corners : array_like, shape (n, 2)
-    rounds : int
+    rounds : int, optional
 
     Returns
     -------
@@ -156,83 +178,94 @@ def _polar(radius: npt.ArrayLike, angle: npt.NDArray[np.float64]) -> Points:
     return np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
 
 
-def _turns(number: float, points: int, start: float = 0.1) -> npt.NDArray[np.float64]:
+def _turns(number: float, a_turn: int, start: float = 0.1) -> npt.NDArray[np.float64]:
     """Return angles over a number of full turns, the end left out; the start keeps samples off the crossings."""
+    points = round(number * a_turn)
     return start + 2 * np.pi * number * np.arange(points) / points
 
 
-def _circle() -> Points:
-    return _polar(1.0, _turns(1, 64))
+def _circle(a_turn: int) -> Points:
+    return _polar(1.0, _turns(1, a_turn))
 
 
-def _figure_eight() -> Points:
-    t = _turns(1, 80)
+def _figure_eight(a_turn: int) -> Points:
+    t = _turns(1, 2 * a_turn)
     return np.stack([np.sin(t), 0.8 * np.sin(t) * np.cos(t)], axis=1)
 
 
-def _limacon() -> Points:
-    t = _turns(1, 80)
+def _limacon(a_turn: int) -> Points:
+    t = _turns(1, 2 * a_turn)
     return _polar(0.6 + np.cos(t), t)
 
 
-def _doubled_circle() -> Points:
-    t = _turns(2, 120)
+def _doubled_circle(a_turn: int) -> Points:
+    t = _turns(2, a_turn)
     return _polar(1 + 0.12 * np.sin(t / 2), t)
 
 
-def _kinked_circle() -> Points:
+def _finely_rounded(corners: Sequence[tuple[float, float]], a_turn: int) -> Points:
+    """Round a polygon in three rounds for 40 points on a turn, and in one more for each doubling."""
+    return rounded(corners, 3 + max(0, round(math.log2(a_turn / 40))))
+
+
+def _kinked_circle(a_turn: int) -> Points:
     corners = [(3, 0), (5, 2.5), (6.5, 1), (3.5, 1.2), (3, 4), (-2, 4.5), (-2, 1), (1, 1), (1, 3), (-4, 3), (-4, -2)]
-    return rounded(corners)
+    return _finely_rounded(corners, 2 * a_turn)
 
 
-def _exit_ramp() -> Points:
-    t = np.linspace(-2.15, 2.15, 49)
+def _along(start: float, end: float, turns: float, a_turn: int) -> npt.NDArray[np.float64]:
+    """Return parameters of a line that turns so many times from start to end."""
+    return np.linspace(start, end, round(turns * a_turn))
+
+
+def _exit_ramp(a_turn: int) -> Points:
+    t = np.linspace(-2.15, 2.15, round(1.2 * a_turn) + 1)
     return ribbon(np.stack([t**3 - 3 * t, 2.2 * t**2], axis=1), 1.6)
 
 
-def _spiral(turns: float, pitch: float, start_radius: float, width: float) -> Points:
-    t = np.linspace(0, 2 * np.pi * turns, int(40 * turns) + 1)
+def _spiral(turns: float, pitch: float, start_radius: float, width: float, a_turn: int) -> Points:
+    t = np.linspace(0, 2 * np.pi * turns, int(a_turn * turns) + 1)
     return ribbon(_polar(start_radius + pitch * t / (2 * np.pi), t), width)
 
 
-def _horseshoe() -> Points:
-    return _spiral(1.08, 0.4, 2.0, 1.0)
+def _horseshoe(a_turn: int) -> Points:
+    return _spiral(1.08, 0.4, 2.0, 1.0, a_turn)
 
 
-def _two_turn_spiral() -> Points:
-    return _spiral(2.0, 0.75, 2.0, 1.0)
+def _two_turn_spiral(a_turn: int) -> Points:
+    return _spiral(2.0, 0.75, 2.0, 1.0, a_turn)
 
 
-def _stacked_spiral() -> Points:
-    return _spiral(3.2, 0.45, 2.0, 1.2)
+def _stacked_spiral(a_turn: int) -> Points:
+    return _spiral(3.2, 0.45, 2.0, 1.2, a_turn)
 
 
-def _knotted_ribbon() -> Points:
-    t = np.linspace(0.15, 2 * np.pi - 0.15, 100)
+def _knotted_ribbon(a_turn: int) -> Points:
+    t = _along(0.15, 2 * np.pi - 0.15, 2.5, a_turn)
     return ribbon(np.stack([np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t)], axis=1), 0.6)
 
 
-def _two_loops() -> Points:
-    t = np.linspace(-np.pi, 3 * np.pi, 80)
+def _two_loops(a_turn: int) -> Points:
+    t = _along(-np.pi, 3 * np.pi, 2, a_turn)
     return ribbon(np.stack([1.4 * t - 3 * np.sin(t), -3 * np.cos(t)], axis=1), 0.8)
 
 
-def _pretzel() -> Points:
-    t = np.linspace(0.05, 2 * np.pi - 0.35, 130)
+def _pretzel(a_turn: int) -> Points:
+    t = _along(0.05, 2 * np.pi - 0.35, 3.25, a_turn)
     return ribbon(np.stack([4 * np.cos(2 * t + 0.6), 3 * np.sin(3 * t)], axis=1), 0.5)
 
 
-def _pentagram() -> Points:
-    t = np.linspace(0.1, 2 * np.pi - 0.1, 130)
+def _pentagram(a_turn: int) -> Points:
+    t = _along(0.1, 2 * np.pi - 0.1, 3.25, a_turn)
     return ribbon(_polar(3 + 1.1 * np.cos(5 * t), 2 * t), 0.5)
 
 
-def _milnor() -> Points:
+def _milnor(_: int) -> Points:
     half = [(88, 39), (62, 102), (-17, -15), (-17, -13), (44, -7), (-75, 180)]
     return _with_half_turn(half)
 
 
-def _ten_gon() -> Points:
+def _ten_gon(_: int) -> Points:
     return _with_half_turn([(-12, 53), (3, 21), (-134, -108), (149, -92), (-78, 180)])
 
 
@@ -240,13 +273,13 @@ def _with_half_turn(half: Sequence[tuple[float, float]]) -> Points:
     return np.concatenate([np.array(half, dtype=np.float64), -np.array(half, dtype=np.float64)])
 
 
-def _bennequin() -> Points:
+def _bennequin(_: int) -> Points:
     right = [(-18, -81), (62, -52), (19, 31), (34, 30), (-175, 9), (59, -176), (79, 25), (14, 80), (-36, 1)]
     left = [(-43, 14), (80, -156), (124, 139), (-61, 56), (-76, -28), (17, -32), (9, -44), (95, 147), (-182, 37)]
     return np.array(right + left, dtype=np.float64)
 
 
-def _smallest_unliftable() -> Points:
+def _smallest_unliftable(a_turn: int) -> Points:
     corners = [
         (-24, 32), (-68, 30), (-87, 5), (-59, -43), (-14, -66), (42, -47), (85, 4), (91, 41), (45, 67),
         (-28, 72), (-81, 48), (-100, 2), (-82, -46), (-29, -72), (33, -62), (91, -21), (98, 7), (53, 51),
@@ -254,11 +287,11 @@ def _smallest_unliftable() -> Points:
         (49, -28), (65, 9), (47, 46), (0, 56), (-36, 29), (-50, -25), (-23, -56), (18, -50), (36, -12),
         (42, 24), (54, 24), (52, 10), (24, 4), (8, 30), (16, 49), (27, 45), (21, 31),
     ]  # fmt: skip
-    return rounded(corners)
+    return _finely_rounded(corners, a_turn)
 
 
-def _seven_flaps() -> Points:
-    from plyfold.hard import PALEY, flap_disk
+def _seven_flaps(_: int) -> Points:
+    from plyfold.hard.flaps import PALEY, flap_disk
 
     curve = flap_disk(7, PALEY).immersion.arrangement.curve
     return curve.points if curve is not None else np.empty((0, 2))
@@ -294,6 +327,15 @@ CURVES: Mapping[str, NamedCurve] = {
 
 def named_curve(name: str) -> NamedCurve:
     """Return a curve of the gallery.
+
+    Parameters
+    ----------
+    name : str
+        As ``plyfold gallery`` lists it.
+
+    Returns
+    -------
+    NamedCurve
 
     Raises
     ------

@@ -6,12 +6,15 @@ import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement.core import Arrangement
 from plyfold.arrays import Ints
 from plyfold.errors import MemoryLimitError
+
+if TYPE_CHECKING:
+    from plyfold.arrangement.arrangement import Arrangement
 
 __all__ = ["available_memory", "number_of_tuples", "require_memory"]
 
@@ -47,7 +50,7 @@ def require_memory(size: int, what: str, arrangement: Arrangement | None, hint: 
     if available is not None and size > available:
         raise MemoryLimitError(
             f"{what} would take {_written(size)} of memory, and {_written(available)} can be had",
-            where=() if arrangement is None or arrangement.curve is None else [_most_covered(arrangement)],
+            where=() if arrangement is None or not arrangement.curves else [_most_covered(arrangement)],
             hint=hint,
         )
 

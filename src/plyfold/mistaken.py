@@ -25,10 +25,14 @@ _LONGEST_CODE = 100_000
 _WKT = re.compile(r"\s*(SRID=\d+;\s*)?(POINT|LINE|POLYGON|MULTI|GEOMETRY|CURVE)", re.IGNORECASE)
 _SIGNED_CODE = re.compile(r"/\s*outer\b")
 _PD_CODE = re.compile(r"\s*(PD\b|X\s*[\[(]\s*\d)|[\s\[(]*(\d+\s*,\s*){3}\d+\s*[\])]", re.IGNORECASE)
+_CODE_WITHOUT_OUTER = re.compile(r"\s*([^\W_]+\s*[-+−]\s*[,;]?\s*){2,}")
 _KNOT_CODE = re.compile(r"\s*([OU]\d+[-+]?[\s,;]*)+", re.IGNORECASE)
 _VISIT = re.compile(r"[-+]?(\d+|[^\W\d_])")
 
 _SIGNED = Mistake("it is a signed Gauss code", "pf.GaussCode.parse(text) reads it")
+_WITHOUT_OUTER = Mistake(
+    "it is a signed Gauss code without its unbounded cell", "pf.GaussCode.parse reads '1+ 1- / outer 1'"
+)
 _PD = Mistake("it is a PD code", "no call takes PD codes yet; pf.GaussCode.parse reads signed Gauss codes")
 _UNSIGNED = Mistake(
     "it is a Gauss code that does not say which way the strands cross",
@@ -52,6 +56,8 @@ def _code_in_text(text: str) -> Mistake | None:
         return None
     if _SIGNED_CODE.search(text):
         return _SIGNED
+    if _CODE_WITHOUT_OUTER.fullmatch(text):
+        return _WITHOUT_OUTER
     if _PD_CODE.match(text):
         return _PD
     return _UNSIGNED if _names_crossings_twice(text) or _KNOT_CODE.fullmatch(text) else None
@@ -100,7 +106,7 @@ def _mistaken_object(value: object) -> Mistake | None:
         return Mistake("a Path is not a list of points", hint)
     name, kind = type(value).__name__, getattr(value, "geom_type", "")
     if hasattr(value, "points") or (isinstance(kind, str) and kind):
-        hint = "it can be given as it is wherever a curve can, as in pf.arrangement"
+        hint = "it can be given as it is wherever a curve can, as in pf.arrange"
         return Mistake(f"a {name} is not a list of points", hint)
     if hasattr(value, "geom_type"):
         return Mistake(f"a {name} holds several geometries", "give one of them, like series.geometry.iloc[0]")

@@ -1,21 +1,25 @@
-"""Exact signs: on which side of a line a point lies, and in which order crossings follow along an edge.
+"""Exact signs: on which side of a line a point lies; and exact places of crossings.
 
 Coordinates are doubles, and doubles are rational numbers, so every sign below has an exact value. It is computed in
 floating point with a bound on the rounding error; where the bound does not decide, it is computed again without
 rounding, in pairs of doubles or with :class:`fractions.Fraction`. Nothing here depends on the scale of the drawing.
+What :func:`orient` tells of many points at once, :func:`turn` tells of three, to loops.
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrays import Bools, Floats, Signs
+from plyfold.compiled import called_from_loops
 
 __all__ = [
-    "compare_along_edge",
+    "Coordinates",
+    "as_coordinates",
     "counted_cross_sign",
     "cross_sign",
     "crossing_bounds",
@@ -23,6 +27,7 @@ __all__ = [
     "exact_parameter",
     "orient",
     "parameter_along_edge",
+    "turn",
 ]
 
 
@@ -32,7 +37,7 @@ _ORIENT_ERROR = 6.7e-16
 _UNDERFLOW = 1e-290
 # Between these sizes nothing in Dekker's product of two doubles under- or overflows.
 _SMALL_PRODUCT, _LARGE_PRODUCT = 1e-250, 1e250
-_SPLITTER = 2.0**27 + 1
+_SPLITTER = 2**27 + 1
 # The parameter of a crossing is a quotient of two sums, each within 8 u of its magnitude.
 _PARAMETER_ERROR = 4e-15
 # A place on an edge takes a difference, a product and a sum more, and its bounds one each; these are some 9 u.
@@ -157,20 +162,12 @@ def _exact_product(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, 
     """
     first, second = b - a, d - c
     product = first * second
-    (high, low), (other_high, other_low) = _halves(first), _halves(second)
-    rest = low * other_low - (((product - high * other_high) - low * other_high) - high * other_low)
+    rest = _rest_of_product(first, second, product)
     zero = (first == 0) | (second == 0)
     size = np.abs(product)
     safe = (size > _SMALL_PRODUCT) & (size < _LARGE_PRODUCT) & np.isfinite(rest)
     exact = zero | (safe & _is_exact_difference(a, b, first) & _is_exact_difference(c, d, second))
     return np.where(zero, 0.0, product), np.where(zero, 0.0, rest), exact
-
-
-def _halves(number: Floats) -> tuple[Floats, Floats]:
-    """Split doubles into two of 26 bits each, whose products are exact (Veltkamp)."""
-    shifted = _SPLITTER * number
-    high = shifted - (shifted - number)
-    return high, number - high
 
 
 def _is_exact_difference(a: Floats, b: Floats, difference: Floats) -> Bools:
@@ -258,24 +255,84 @@ def _whole(numbers: Floats) -> tuple[npt.NDArray[np.object_], Fraction]:
     return whole << (exponent - least).astype(object), Fraction(2) ** (least - 53)
 
 
-def compare_along_edge(edge: npt.ArrayLike, first: npt.ArrayLike, second: npt.ArrayLike) -> int:
-    """Tell which of two edges crosses a given edge first.
+# ---- one turn at a time, for loops -----------------------------------------------------------------------------------
 
-    Parameters
+# Between these sizes no product of two coordinates over- or underflows, nor what rounding takes off it.
+_LEAST, _LARGEST = 1e-130, 1e140
+
+
+class Coordinates(NamedTuple):
+    """Coordinates of points, as arrays or lists, and room for twelve numbers to calculate with."""
+
+    x: Any
+    y: Any
+    scratch: Any
+
+
+def as_coordinates(points: Floats) -> Coordinates:
+    """Return points for :func:`turn`, as arrays of doubles if it is exact for those, of fractions otherwise."""
+    size = np.abs(points)
+    if size.max() < _LARGEST and ((size > _LEAST) | (size == 0)).all():
+        x, y = np.ascontiguousarray(points.T)
+        return Coordinates(x, y, np.zeros(12))
+    largest = Fraction(float(size.max()))
+    exact = [[Fraction(number) / largest for number in column] for column in points.T.tolist()]
+    return Coordinates(np.array(exact[0]), np.array(exact[1]), np.zeros(12, dtype=object))
+
+
+@called_from_loops
+def turn(points: Coordinates, a: int, b: int, c: int) -> int:
+    """Return the sign of the turn at b from a to c: 1 if counter-clockwise, −1 if clockwise, 0 if straight. Exact."""
+    x, y = points.x, points.y
+    left, right = (x[b] - x[a]) * (y[c] - y[a]), (y[b] - y[a]) * (x[c] - x[a])
+    bound = _ORIENT_ERROR * (abs(left) + abs(right)) + _UNDERFLOW
+    if left - right > bound:
+        return 1
+    if right - left > bound:
+        return -1
+    return _exact_turn(points, a, b, c)
+
+
+@called_from_loops
+def _exact_turn(points: Coordinates, a: int, b: int, c: int) -> int:
+    """Add up the six products of the determinant without rounding, as numbers that do not overlap [She97]_.
+
+    References
     ----------
-    edge, first, second : array_like, shape (2, 2)
-        Start and end of each edge; ``first`` and ``second`` both cross ``edge``.
-
-    Returns
-    -------
-    int
-        −1 if ``first`` crosses ``edge`` nearer to its start, +1 if ``second`` does, 0 if all three meet in one
-        point. Exact.
-
-    Examples
-    --------
-    >>> compare_along_edge([[0, 0], [9, 0]], [[2, -1], [2, 1]], [[4, 1], [4, -1]])
-    -1
+    .. [She97] J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates",
+       Discrete & Computational Geometry 18, 1997.
     """
-    (a, b), (c, d), (e, f) = (np.asarray(pair, dtype=np.float64) for pair in (edge, first, second))
-    return _sign(exact_parameter(a, b, c, d) - exact_parameter(a, b, e, f))
+    x, y, total = points
+    size = 0
+    for one, other in ((x[a], y[b]), (-y[a], x[b]), (x[b], y[c]), (-y[b], x[c]), (x[c], y[a]), (-y[c], x[a])):
+        product = one * other
+        size = _add_exactly(total, size, _rest_of_product(one, other, product))
+        size = _add_exactly(total, size, product)
+    for place in range(11, -1, -1):
+        if total[place] != 0:
+            return 1 if total[place] > 0 else -1
+    return 0
+
+
+@called_from_loops
+def _rest_of_product(one: Any, other: Any, product: Any) -> Any:
+    """Return what rounding took off a product, of numbers or of arrays (Dekker).
+
+    Both are split into two of 26 bits each, whose products are exact (Veltkamp).
+    """
+    shifted, other_shifted = _SPLITTER * one, _SPLITTER * other
+    high, other_high = shifted - (shifted - one), other_shifted - (other_shifted - other)
+    low, other_low = one - high, other - other_high
+    return low * other_low - (((product - high * other_high) - low * other_high) - high * other_low)
+
+
+@called_from_loops
+def _add_exactly(total: Any, size: int, number: float) -> int:
+    """Add a number to a sum of ``size`` numbers that do not overlap, the smallest first; return the new size."""
+    for place in range(size):
+        rounded = number + total[place]
+        part = rounded - number
+        total[place] = (number - (rounded - part)) + (total[place] - part)
+        number = rounded
+    total[size] = number
+    return size + 1

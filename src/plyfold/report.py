@@ -1,20 +1,75 @@
-"""The verdict on a curve with its figures, as plain data and as text; the command line prints it."""
+"""The verdict on a curve: in words, which the command line and the page show, and with all figures as plain data."""
 
 from __future__ import annotations
 
+import math
 from collections import Counter
+from dataclasses import dataclass
 from typing import Any
 
-from plyfold.arrangement import Arrangement
-from plyfold.curve import Curve
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.errors import TimeLimitError
-from plyfold.immersion import count_immersions, find_immersion, immersions
-from plyfold.layering import first_layering
+from plyfold.immersion.solve import count_immersions, find_immersion, immersions
+from plyfold.layering.orders.search import first_layering
 from plyfold.obstruction import Obstruction
+from plyfold.outline.curve import Curve
 
-__all__ = ["describe", "verdict"]
+__all__ = ["Words", "describe", "in_words", "verdict", "words"]
 
 _SHOWN_REPAIRS = 5
+_LONGEST_NUMBER = 12
+_UNDECIDED = "Whether it can be lifted was not decided in time."
+
+
+@dataclass(frozen=True)
+class Words:
+    """The verdict for people: a headline, and a sentence that says more."""
+
+    headline: str
+    sentence: str
+
+
+def words(immersions: int, obstruction: str = "", decided: bool = True) -> Words:
+    """Return the verdict on a curve in words.
+
+    Parameters
+    ----------
+    immersions : int
+        In how many ways it bounds a disk.
+    obstruction : str
+        The sentence that says why it bounds none, or why the one that is looked at cannot be lifted.
+    decided : bool
+        Whether it is known if that one can be lifted.
+
+    Examples
+    --------
+    >>> words(2).headline, words(2).sentence
+    ('A disk of cloth, in 2 ways', 'This is the outline of a disk of cloth, which can lie in 2 ways.')
+    >>> words(0, "The curve turns 2 times, and the outline of a disk turns once.").headline
+    'No disk'
+    """
+    if immersions == 0:
+        return Words("No disk", obstruction)
+    headline = "A disk of cloth" if immersions == 1 else f"A disk of cloth, in {in_words(immersions)} ways"
+    if obstruction:
+        return Words(f"{headline}; this one cannot be lifted", obstruction)
+    ways = "in one way" if immersions == 1 else f"in {in_words(immersions)} ways"
+    return Words(headline, f"This is the outline of a disk of cloth, which can lie {ways}." if decided else _UNDECIDED)
+
+
+def in_words(count: int) -> str:
+    """Return a count as people read it; from a million million on, only how large it is.
+
+    Examples
+    --------
+    >>> in_words(12345), in_words(2**400)
+    ('12,345', 'about 2.58 · 10^120')
+    """
+    if len(str(count)) <= _LONGEST_NUMBER:
+        return f"{count:,}"
+    exponent = len(str(count)) - 1
+    leading = math.floor(count // 10 ** (exponent - 3) / 10) / 100
+    return f"about {leading:.2f} · 10^{exponent}"
 
 
 def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[str, Any]:
@@ -35,8 +90,8 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
 
     Examples
     --------
-    >>> from plyfold.arrangement import arrangement
-    >>> found = verdict(arrangement([(0, 0), (2, 2), (2, 0), (0, 2)]))
+    >>> from plyfold import arrange
+    >>> found = verdict(arrange([(0, 0), (2, 2), (2, 0), (0, 2)]))
     >>> found["immersible"], found["reason"], found["cells"]
     (False, 'turning number', {-1: 1, 0: 1, 1: 1})
     """
@@ -80,7 +135,7 @@ def _layerable(arrangement: Arrangement, time_limit: float | None) -> dict[str, 
 def describe(figures: dict[str, Any]) -> str:
     """Return the verdict as text: a sentence, and the figures one on a line."""
     cells = ", ".join(f"{count} with {winding}" for winding, count in figures["cells"].items())
-    turned = " (the curve ran clockwise and was turned round)" if figures["reversed"] else ""
+    turned = " (the curve was turned round, so that it can have the surface on its left)" if figures["reversed"] else ""
     rows = {
         "points": f"{figures['points']:,}",
         "crossings": f"{figures['crossings']:,}",
@@ -97,14 +152,15 @@ def describe(figures: dict[str, Any]) -> str:
 
 def _headline(figures: dict[str, Any]) -> str:
     if figures["immersible"]:
-        return "Yes: the curve is the outline of a disk of cloth laid flat on a table."
+        return f"Yes. {words(figures['immersions']).sentence}"
+    said = words(0, figures["sentence"])
     places = "".join(f"\n  at ({x:.6g}, {y:.6g})" for x, y in figures["where"])
-    return f"No, the curve bounds no disk. {figures['sentence']}{places}"
+    return f"{said.headline}. {said.sentence}{places}"
 
 
 def _layering_sentence(figures: dict[str, Any]) -> str:
     if figures["layerable"] is None:
-        return "unknown: the time limit ended the search"
+        return f"unknown. {_UNDECIDED}"
     if figures["layerable"]:
         which = f"immersion {figures['examined']} of {figures['immersions']:,}"
         return f"yes, on {figures['levels']} level(s), found for {which}"

@@ -115,7 +115,7 @@ def test_code_of_a_drawing():
     drawn = crossings(ribbon).code
     assert planar_maps.turning_number(drawn) == 1
     assert as_reference(GaussCode.of(ribbon)) == planar_maps.with_smallest_outer_dart(drawn)
-    assert GaussCode.of(pf.Curve(ribbon)) == GaussCode.of(pf.arrangement(ribbon)) == GaussCode.of(GaussCode.of(ribbon))
+    assert GaussCode.of(pf.Curve(ribbon)) == GaussCode.of(pf.arrange(ribbon)) == GaussCode.of(GaussCode.of(ribbon))
 
 
 def test_another_cell_may_be_unbounded():
@@ -199,11 +199,11 @@ def test_form_of_a_large_curve_does_not_depend_on_the_start():
 def test_a_code_stands_for_a_curve_where_no_drawing_is_needed():
     code = GaussCode.of(BENNEQUIN_LIKE)
     assert pf.count_immersions(code) == 5
-    assert GaussCode.of(pf.arrangement(code)) == code
+    assert GaussCode.of(pf.arrange(code)) == code
 
 
 def test_text_is_drawn_and_what_is_no_text_is_refused():
-    assert GaussCode.of(pf.Curve.from_gauss(TREFOIL)) == GaussCode.parse(TREFOIL)
+    assert GaussCode.of(GaussCode.parse(TREFOIL).to_curve()) == GaussCode.parse(TREFOIL)
     with pytest.raises(GaussCodeError, match="no text"):
         GaussCode.parse(None)
 

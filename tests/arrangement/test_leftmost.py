@@ -12,7 +12,7 @@ from reference import crossings as reference
 def both(points):
     """The base visit that is found, and the one in fractions, of a curve in general position."""
     try:
-        drawn = pf.arrangement(points, general_position="raise")
+        drawn = pf.arrange(points, general_position="raise")
     except pf.errors.PlyfoldError:
         assume(False)
     return drawn.base_visit, reference.base_visit(drawn.curve.points)

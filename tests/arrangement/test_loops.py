@@ -22,7 +22,7 @@ def loops_as_polygons(polygon):
 
 
 def check(polygon):
-    drawn = pf.arrangement(polygon, "raise")
+    drawn = pf.arrange(polygon, "raise")
     walked = [tuple(point) for point in drawn.curve.points.tolist()]
     expected = [[turning_number(loop) for loop in pair] for pair in loops_as_polygons(walked)]
     found = loop_turning_numbers(drawn)
@@ -47,7 +47,7 @@ def test_ribbon():
 
 
 def test_code_without_a_drawing():
-    drawn = pf.arrangement(ribbon_outline(np.random.default_rng(3), 60))
+    drawn = pf.arrange(ribbon_outline(np.random.default_rng(3), 60))
     code = pf.Arrangement.from_gauss(*drawn.gauss_code())
     assert np.array_equal(loop_turning_numbers(code), loop_turning_numbers(drawn))
 

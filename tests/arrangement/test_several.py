@@ -3,12 +3,19 @@
 import numpy as np
 import pytest
 
-from plyfold.arrangement import arrangement
-from plyfold.arrangement.several import arrange_loops
-from plyfold.errors import CurveError, GeneralPositionError, InputError
+import plyfold as pf
+from plyfold.arrangement.arrangement import arrange
+from plyfold.arrangement.polylines import winding_number
+from plyfold.errors import CurveError, GeneralPositionError, InputError, PlyfoldError
 from reference.crossings import DegenerateError
 from reference.loops import loop_borders
 from reference.random_curves import random_polygon, without_repeats
+
+NUMBERS = [
+    "partner", "ccw", "outer", "first_visit", "next_dart", "cell_of_dart", "cell_start", "cell_darts", "winding",
+    "turning_numbers", "crossing_of_visit", "bridges", "crossings", "visit_edge", "reversed", "border_before",
+    "border_after", "next_border", "start_visit", "loop_of_border", "cycle_start",
+]  # fmt: skip
 
 
 def random_loops(rng, size):
@@ -20,15 +27,37 @@ def random_loops(rng, size):
         yield without_repeats([(x + int(shift[0]), y + int(shift[1])) for x, y in polygon])
 
 
+def as_in_reference(found):
+    """The borders in the order of the reference, where those of loops without crossings come last."""
+    alone = found.start_visit < 0
+    return np.concatenate([np.flatnonzero(~alone), np.flatnonzero(alone)])
+
+
 def assert_as_in_fractions(polygons):
-    expected = loop_borders(polygons)
-    found = arrange_loops(polygons)
-    assert tuple(found.winding[found.left_cell].tolist()) == expected.left_winding
-    assert tuple((found.winding[found.right_cell] + 1).tolist()) == expected.left_winding
-    before = found.border_before
-    four = np.stack([before[found.first], found.first, found.second, before[found.second]], axis=1)
-    assert set(map(tuple, four.tolist())) == set(expected.crossings)
+    given = loop_borders(polygons)
+    turned = max(given.left_winding) <= 0
+    expected = loop_borders([polygon[:1] + polygon[:0:-1] for polygon in polygons]) if turned else given
+    found = arrange(polygons)
+    if len(polygons) == 1:
+        assert_same(found, arrange(polygons[0]))
+        expected = loop_borders([found.curve.points.tolist()])
+    else:
+        assert found.reversed == turned
+    found.check()
+    order = as_in_reference(found)
+    assert tuple(found.winding[found.left_cell][order].tolist()) == expected.left_winding
+    assert tuple((found.winding[found.right_cell] + 1)[order].tolist()) == expected.left_winding
+    first = np.flatnonzero(found.ccw)
+    second, before, after = found.partner[first], found.border_before, found.border_after
+    four = np.stack([before[first], after[first], after[second], before[second]], axis=1)
+    assert set(map(tuple, order.argsort()[four].tolist())) == set(expected.crossings)
     return found
+
+
+def assert_same(first, second):
+    """All numbers of two arrangements are the same."""
+    for name in NUMBERS:
+        assert np.array_equal(getattr(first, name), getattr(second, name)), name
 
 
 @pytest.mark.parametrize(("size", "seed"), [(1000, 1), (9, 2), (6, 3)])
@@ -44,45 +73,76 @@ def test_random_loops(size, seed):
         except DegenerateError:
             degenerate += 1
             with pytest.raises(GeneralPositionError) as caught:
-                arrange_loops(polygons)
+                arrange(polygons, general_position="raise")
             assert caught.value.where
         else:
             outside = found.cell_of_dart.reshape(-1, 2).min(axis=1) == 0
             nested += len(set(found.loop_of_border.tolist()) - set(found.loop_of_border[outside].tolist()))
             assert len(found.winding) == 1 + euler_cells(found)
+            assert_cells_are_walked_round(found)
     assert nested >= 2, "some loops lie inside others"
     assert size > 100 or degenerate > 10
 
 
-def euler_cells(loops):
+def euler_cells(found):
     """Bounded cells, by Euler's formula: V − E + F = 1 + C, where loops without crossings count with one vertex."""
-    groups = list(range(len(loops.curves)))
-    for visits in zip(loops.first.tolist(), loops.second.tolist(), strict=True):
-        a, b = (groups[loops.loop_of_border[visit]] for visit in visits)
+    groups = list(range(found.n_loops))
+    for visit, partner in enumerate(found.partner.tolist()):
+        a, b = (groups[found.loop_of_border[found.border_after[v]]] for v in (visit, partner))
         groups = [a if group == b else group for group in groups]
-    return len(loops.crossings) + len(set(groups))
+    return found.n_crossings + len(set(groups))
+
+
+def assert_cells_are_walked_round(found):
+    """Cycles follow each other by their lowest darts, cells too; bridges join all cycles of bounded cells."""
+    bridges = found.bridges.tolist()
+    assert found.n_cells == found.n_crossings + 1 + len(bridges) + len(free_groups(found))
+    lowest = []
+    for cell, darts in enumerate(found.cells):
+        assert {found.cell_of_dart[dart] for dart in darts} == {cell}
+        cycles = cycles_of(found, cell)
+        assert [dart for cycle in cycles for dart in cycle] == list(darts)
+        assert [cycle[0] for cycle in cycles] == sorted(min(cycle) for cycle in cycles)
+        lowest.append(cycles[0][0])
+        here = [pair for pair in bridges if found.cell_of_dart[pair[0]] == cell]
+        assert all(found.cell_of_dart[other] == cell for _, other in here)
+        assert cell == 0 or len(here) == len(cycles) - 1
+        assert len(found.cell_outlines(cell)) == len(cycles)
+    assert lowest[1:] == sorted(lowest[1:])
+
+
+def cycles_of(found, cell):
+    """The boundary cycles of a cell, by walking."""
+    left, cycles = set(found.cells[cell]), []
+    while left:
+        cycle = [min(left)]
+        while (following := int(found.next_dart[cycle[-1]])) != cycle[0]:
+            cycle.append(following)
+        cycles.append(cycle)
+        left -= set(cycle)
+    return cycles
+
+
+def free_groups(found):
+    """The groups of loops with nothing on their left."""
+    met = {int(found.group_of_loop[found.loop_of_border[dart // 2]]) for dart, _ in found.bridges.tolist()}
+    return set(found.group_of_loop.tolist()) - met
 
 
 def is_curve(polygon):
     try:
-        arrangement(polygon)
+        arrange(polygon)
     except (CurveError, GeneralPositionError):
         return False
     return True
 
 
-def test_one_loop_is_the_arrangement_of_the_curve():
+def test_a_list_of_one_curve_is_that_curve():
     rng = np.random.default_rng(6)
     for _ in range(20):
         polygon = random_polygon(rng, 9)
-        alone = arrangement(polygon)
-        if not alone.reversed:
-            loops = arrange_loops([polygon])
-            assert loops.crossings.tolist() == alone.crossings.tolist()
-            assert loops.crossing_of_visit.tolist() == alone.crossing_of_visit.tolist()
-            expected = alone.winding[alone.cell_of_dart]
-            assert loops.winding[loops.cell_of_dart].tolist() == expected.tolist()
-            assert loops.turning_number.tolist() == [alone.turning_number]
+        assert_same(arrange([polygon]), arrange(polygon))
+        assert arrange([pf.Curve(polygon)]).curve.points.tolist() == arrange(polygon).curve.points.tolist()
 
 
 def diamond(radius):
@@ -90,7 +150,10 @@ def diamond(radius):
 
 
 def test_diamonds_inside_each_other_have_their_corners_at_one_height():
-    found = arrange_loops([diamond(radius) for radius in (3, 1, 5, 2, 4)])
+    found = arrange([diamond(radius) for radius in (3, 1, 5, 2, 4)])
+    found.check()
+    assert sorted(found.cell_of_dart[found.bridges[:, 0]].tolist()) == sorted(found.right_cell[[0, 1, 3, 4]].tolist())
+    assert [found.winding[found.cell_of_dart[dart]] for dart, _ in found.bridges.tolist()] == [1, 2, 3, 4]
     assert sorted(found.winding.tolist()) == [0, 1, 2, 3, 4, 5]
     assert found.winding[found.left_cell].tolist() == [3, 5, 1, 4, 2]
 
@@ -108,9 +171,71 @@ def test_a_crossing_at_the_height_of_a_loop_inside():
 def test_copies_and_touching_loops_are_refused():
     for other in (diamond(4), [(4, 0), (9, 0), (9, 9)], [(2, 2), (9, 9), (9, 0)]):
         with pytest.raises(GeneralPositionError, match="vertices on other edges"):
-            arrange_loops([diamond(4), other])
+            arrange([diamond(4), other])
     with pytest.raises(GeneralPositionError, match=r"three edges: [1-9]") as caught:
-        arrange_loops([[(-2, 0), (2, 0), (0, 5)], [(-1, -1), (1, 1), (0, 3)], [(-1, 1), (1, -1), (9, -5), (9, 9)]])
+        arrange([[(-2, 0), (2, 0), (0, 5)], [(-1, -1), (1, 1), (0, 3)], [(-1, 1), (1, -1), (9, -5), (9, 9)]])
     assert (0, 0) in caught.value.where
-    with pytest.raises(InputError, match="no curve"):
-        arrange_loops([])
+    with pytest.raises(InputError):
+        arrange([])
+
+
+OUTER = [(0, 0), (9, 0), (9, 9), (0, 9)]
+HOLE = [(1, 2), (1, 4), (3, 4), (3, 2)]
+EIGHT = [(20, 0), (22, 2), (22, 0), (20, 2)]
+
+
+def test_numbers_of_several_loops():
+    """Visits and borders loop by loop; a loop without crossings has one border, in its place."""
+    found = arrange([HOLE, EIGHT, OUTER])
+    assert found.first_visit.tolist() == [0, 0, 2, 2]
+    assert found.loop_of_border.tolist() == [0, 1, 1, 2]
+    assert found.start_visit.tolist() == [-1, 0, 1, -1]
+    assert found.next_border.tolist() == [0, 2, 1, 3]
+    assert (found.border_before.tolist(), found.border_after.tolist()) == ([2, 1], [1, 2])
+    assert found.visit_edge.tolist() == [0, 2]
+    assert found.turning_numbers == (-1, 0, 1)
+    assert found.turning_number == 0
+    assert found.n_cells == 1 + 3 + 1
+    ring = found.cell_of_dart[6]
+    assert found.cells[ring] == (0, 6)
+    assert [len(outline) for outline in found.cell_outlines(ring)] == [4, 4]
+    assert found.bridges.tolist() == [[0, 6], [int(found.bridges[1, 0]), 7]]
+    assert len(found.cell_outlines(0)) == 2
+    with pytest.raises(PlyfoldError, match="2 boundary polygons"):
+        found.cell_outline(ring)
+
+
+@pytest.mark.parametrize("loops", [[OUTER, HOLE], [OUTER, [*OUTER[:1], (9, 1), (8, 9)]], [HOLE, EIGHT, OUTER]])
+def test_points_of_cells_lie_in_them(loops):
+    moved = [[(x + 0.1 * i, y + 0.2 * i) for x, y in loop] for i, loop in enumerate(loops)]
+    found = arrange(moved)
+    for cell in range(found.n_cells):
+        around = sum(winding_number(curve.points, found.cell_point(cell)) for curve in found.curves)
+        assert around == found.winding[cell]
+
+
+OUTER_FLOATS, EIGHT_FLOATS = np.array(OUTER, float).tolist(), np.array(EIGHT, float).tolist()
+
+
+def test_outlines_are_turned_round_together_or_not_at_all():
+    """All loops turn if no winding number is positive; with both signs, nothing turns."""
+    kept, turned = arrange([OUTER, HOLE]), arrange([OUTER[::-1], HOLE[::-1]])
+    assert (kept.reversed, turned.reversed) == (False, True)
+    assert sorted(turned.winding.tolist()) == sorted(kept.winding.tolist()) == [0, 0, 1]
+    assert turned.curves[0].points[0].tolist() == [0, 9]
+    assert [loop.points.tolist() for loop in arrange([OUTER, EIGHT]).curves] == [OUTER_FLOATS, EIGHT_FLOATS]
+    assert not arrange([OUTER[::-1], EIGHT]).reversed
+
+
+def test_what_is_there_for_one_curve_alone_says_so():
+    several = [OUTER, HOLE]
+    for ask in (
+        pf.find_immersion, pf.bounds_disk, pf.count_immersions, pf.lift, pf.triangulate, pf.coverage, pf.unwrap,
+        pf.blank_word, pf.GaussCode.of, pf.loop_turning_numbers, pf.decompose, pf.irreducible_kernels,
+    ):  # fmt: skip
+        with pytest.raises(InputError, match="for one curve alone so far, and here are 2"):
+            ask(several)
+    with pytest.raises(InputError, match="one curve alone"):
+        _ = arrange(several).curve
+    assert arrange(several)._repr_svg_() is None
+    assert repr(arrange(several)) == "<Arrangement of 2 curves: 0 crossings, turning number 0>"

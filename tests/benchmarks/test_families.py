@@ -51,19 +51,19 @@ class TestRibbons:
             assert left_turn(strip[0], strip[2], strip[3])
 
     def test_coil_has_the_same_crossings_at_every_size(self):
-        assert {pf.arrangement(families.coil(n)).n_crossings for n in (400, 1_600, 10_000)} == {48}
+        assert {pf.arrange(families.coil(n)).n_crossings for n in (400, 1_600, 10_000)} == {48}
 
     def test_chain_has_four_crossings_per_loop(self):
         for count in (5, 50, 200):
-            assert abs(pf.arrangement(families.chain(48 * count)).n_crossings - 4 * count) <= 4
+            assert abs(pf.arrange(families.chain(48 * count)).n_crossings - 4 * count) <= 4
 
     def test_winding_of_a_spiral_grows_as_the_root_of_its_size(self):
-        highest = [int(pf.arrangement(families.spiral(100 * turns**2)).winding.max()) for turns in (5, 10, 20)]
+        highest = [int(pf.arrange(families.spiral(100 * turns**2)).winding.max()) for turns in (5, 10, 20)]
         assert all(0 <= winding - turns <= 2 for winding, turns in zip(highest, (5, 10, 20), strict=True))
 
     @pytest.mark.parametrize("turns", [2, 6, 24])
     def test_band_has_two_crossings_for_each_turn(self, turns):
-        drawn = pf.arrangement(families.band(120 * turns))
+        drawn = pf.arrange(families.band(120 * turns))
         assert drawn.n_crossings == 2 * turns - 2
         assert drawn.winding.max() == turns
 
@@ -75,8 +75,8 @@ class TestGluedDisks:
         assert gluings.keys(*found.code)
 
     def test_windings_pile_up(self):
-        assert pf.arrangement(families.glued_disk(2_000)).winding.max() >= 20
-        piled = pf.arrangement(families.glued_disk(800, pull=0.8))
+        assert pf.arrange(families.glued_disk(2_000)).winding.max() >= 20
+        piled = pf.arrange(families.glued_disk(800, pull=0.8))
         assert piled.winding.max() >= 40
         assert piled.n_crossings >= 10_000
 

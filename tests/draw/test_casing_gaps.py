@@ -3,11 +3,11 @@ import pytest
 import shapely
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold import draw
 from plyfold.draw.casing_gaps import cased_strands
-from plyfold.draw.places import Frame
+from plyfold.draw.placement import Frame
 from plyfold.errors import InputError
-from plyfold.gallery import CURVES
 
 GAP = 0.002
 NAMES = ["exit-ramp", "stacked-spiral", "smallest-unliftable", "knotted-ribbon"]

@@ -3,9 +3,9 @@ import pytest
 import shapely
 from matplotlib.colors import to_hex
 
-from plyfold import arrangement, find_layering, immersions
+from plyfold import arrange, find_layering, immersions
+from plyfold.colours import INK, OBSTRUCTION, sheet_colour
 from plyfold.draw import plot_collapsed_graph, plot_marked_cell
-from plyfold.draw.colours import INK, OBSTRUCTION, sheet_colour
 from plyfold.errors import InputError
 from reference.random_curves import BENNEQUIN_LIKE
 
@@ -14,7 +14,7 @@ RAMP = [(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1)
 
 @pytest.fixture(params=range(5))
 def immersion(request):
-    return list(immersions(arrangement(BENNEQUIN_LIKE)))[request.param]
+    return list(immersions(arrange(BENNEQUIN_LIKE)))[request.param]
 
 
 def deepest(immersion):
@@ -63,14 +63,14 @@ def test_own_borders_stand_round_it(immersion):
 
 
 def test_levels_of_a_layering():
-    immersion = next(i for i in immersions(arrangement(BENNEQUIN_LIKE)) if find_layering(i))
+    immersion = next(i for i in immersions(arrange(BENNEQUIN_LIKE)) if find_layering(i))
     ax = plot_collapsed_graph(immersion, deepest(immersion), layering=find_layering(immersion))
     inside = [text.get_text() for text in ax.texts if np.hypot(*text.get_position()) < 1]
     assert sorted(inside) == ["1", "2", "3", "4"]
 
 
 def test_tree_is_heavy_and_other_edges_are_pale():
-    (ramp,) = immersions(arrangement(RAMP))
+    (ramp,) = immersions(arrange(RAMP))
     ax = plot_collapsed_graph(ramp, deepest(ramp), tree=[(0, 1)])
     assert [line.get_linewidth() for line in ax.lines if to_hex(line.get_color()) == INK] == [4.0]
     pale = plot_collapsed_graph(ramp, deepest(ramp), tree=[(7, 8)])
@@ -78,14 +78,14 @@ def test_tree_is_heavy_and_other_edges_are_pale():
 
 
 def test_no_such_cell():
-    (ramp,) = immersions(arrangement(RAMP))
+    (ramp,) = immersions(arrange(RAMP))
     with pytest.raises(InputError, match="no cell 17"):
         plot_collapsed_graph(ramp, 17)
 
 
 def test_marked_cell_is_red():
     """The cell with winding number 2 is the unit square from (3, 0) to (4, 1), in a drawing 9 units wide and high."""
-    arranged = arrangement(RAMP)
+    arranged = arrange(RAMP)
     ax = plot_marked_cell(arranged, int(arranged.winding.argmax()))
     (red,) = [patch for patch in ax.patches if to_hex(patch.get_facecolor()) == OBSTRUCTION]
     drawn = shapely.Polygon(red.get_xy() * 9 + (4.5, 1.5))

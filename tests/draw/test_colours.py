@@ -3,7 +3,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from plyfold.draw.colours import INK, PAPER, SHEETS, layer_colour, rgb, sheet_colour, text_colour, winding_colour
+from plyfold.colours import INK, PAPER, SHEETS, layer_colour, rgb, sheet_colour, text_colour, winding_colour
 
 # Full loss of one cone type, in linear RGB: Machado, Oliveira, Fernandes, "A Physiologically-based Model for
 # Simulation of Color Vision Deficiency", 2009, table 1, severity 1.0.

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from plyfold import arrangement, find_immersion, find_layering, lift
+from plyfold import arrange, find_immersion, find_layering, lift
 from plyfold.draw import plot_collapsed_graphs, plot_immersions
 from plyfold.draw.figures import overview, save, summary
 from plyfold.draw.viewer import frame
@@ -18,7 +18,7 @@ def titles(figure):
 
 def test_overview_shows_every_stage_so_far():
     immersion = find_immersion(RAMP)
-    assert len(titles(overview(arrangement(RAMP)))) == 1
+    assert len(titles(overview(arrange(RAMP)))) == 1
     assert titles(overview(immersion))[1:] == ["The disk layout"]
     assert titles(overview(find_layering(immersion)))[1:] == ["The disk layout", "The layers"]
     assert len(titles(overview(lift(RAMP)))) == 5
@@ -26,7 +26,7 @@ def test_overview_shows_every_stage_so_far():
 
 def test_overview_of_a_refused_curve_says_why():
     why = find_immersion(EIGHT)
-    (ax,) = overview(arrangement(EIGHT), why).axes
+    (ax,) = overview(arrange(EIGHT), why).axes
     assert str(why) in [" ".join(text.get_text().split()) for text in ax.texts]
 
 

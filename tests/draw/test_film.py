@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from coarse import CURVES
 from plyfold import lift
 from plyfold.draw import film
 from plyfold.errors import InputError, PlyfoldError
-from plyfold.gallery import CURVES
 
 
 @pytest.fixture

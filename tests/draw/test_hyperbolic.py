@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 from plyfold import find_immersion, immersions
-from plyfold.draw.hyperbolic import BorderCircle, geodesic
+from plyfold.draw.placement import BorderCircle, geodesic
 
 BENNEQUIN = [
     (-18, -81), (62, -52), (19, 31), (34, 30), (-175, 9), (59, -176), (79, 25), (14, 80), (-36, 1), (-43, 14),

@@ -6,11 +6,11 @@ import shapely
 from matplotlib.colors import to_hex
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold import draw
-from plyfold.draw.colours import INK, PAPER, mix, sheet_colour
-from plyfold.draw.layout_svg import layout_svg
+from plyfold.colours import INK, PAPER, mix, sheet_colour
+from plyfold.draw.svg import layout_svg
 from plyfold.errors import NotImmersibleError
-from plyfold.gallery import CURVES
 
 SVG = "{http://www.w3.org/2000/svg}"
 RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], float)
@@ -112,7 +112,7 @@ def test_notebooks_show_the_layout_in_the_colours_of_the_sheets():
 
 
 def test_layout_needs_no_drawing_and_layers_do():
-    code = pf.arrangement(RAMP).gauss_code()
+    code = pf.arrange(RAMP).gauss_code()
     immersion = pf.find_immersion(pf.Arrangement.from_gauss(*code))
     assert immersion._repr_svg_().startswith("<svg")
     layering = pf.find_layering(immersion)

@@ -3,8 +3,8 @@
 import pytest
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold import draw
-from plyfold.gallery import CURVES
 
 RAMP = CURVES["exit-ramp"].curve
 EIGHT = [(0, 0), (2, 2), (2, 0), (0, 2)]

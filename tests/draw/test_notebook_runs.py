@@ -39,7 +39,7 @@ def test_a_picture_is_shown_once(before):
     cells = [
         before + "from plyfold import draw\neight = [(0, 0), (2, 2), (2, 0), (0, 2)]",
         "draw.plot_arrangement(eight)",
-        "import plyfold as pf\ndraw.overview(pf.arrangement(eight))",
+        "import plyfold as pf\ndraw.overview(pf.arrange(eight))",
         "draw.plot_arrangement(eight).figure",
     ]
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(source) for source in cells])

@@ -8,11 +8,11 @@ from matplotlib.colors import to_hex
 from matplotlib.patches import FancyArrowPatch, Polygon
 
 import plyfold as pf
+from coarse import CURVES
+from plyfold.colours import OBSTRUCTION, sheet_colour
 from plyfold.draw import plot_obstruction
-from plyfold.draw.colours import OBSTRUCTION, sheet_colour
 from plyfold.errors import InputError
-from plyfold.gallery import CURVES
-from plyfold.layering import embed_cased
+from plyfold.layering.levels.casing import embed_cased
 from plyfold.obstruction import Obstruction
 
 
@@ -101,7 +101,7 @@ def test_triples_and_fixed_orders_are_shown():
 
 
 def test_other_obstructions_have_their_places():
-    kinked = pf.arrangement(CURVES["kinked-circle"].curve)
+    kinked = pf.arrange(CURVES["kinked-circle"].curve)
     ax = plot_obstruction(kinked, pf.find_immersion(kinked))
     (negative,) = [p for p in ax.patches if to_hex(p.get_edgecolor()) == OBSTRUCTION]
     (cell,) = np.flatnonzero(kinked.winding < 0)

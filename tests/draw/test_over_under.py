@@ -11,16 +11,14 @@ import pytest
 import shapely
 from PIL import Image
 
+from coarse import CURVES
 from plyfold import find_immersion, find_layering, immersions, layerings
 from plyfold.draw.over_under import over_under
-from plyfold.draw.over_under_files import save_over_under
-from plyfold.draw.over_under_svg import over_under_svg
-from plyfold.draw.places import label_circle
-from plyfold.draw.tikz import over_under_tex, over_under_tikz
+from plyfold.draw.over_under_files import over_under_svg, over_under_tex, over_under_tikz, save_over_under
+from plyfold.draw.placement import label_circle
 from plyfold.errors import InputError, PlyfoldError
-from plyfold.gallery import CURVES
-from plyfold.layering.intersections import least_intersecting_layering
-from plyfold.surface import lift
+from plyfold.layering.orders.intersections import least_intersecting_layering
+from plyfold.surface.lift import lift
 from reference import random_curves
 
 SVG = "{http://www.w3.org/2000/svg}"

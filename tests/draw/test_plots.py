@@ -6,11 +6,11 @@ import pytest
 import shapely
 from matplotlib.colors import rgb_to_hsv, to_hex, to_rgb
 
-from plyfold import Arrangement, arrangement, find_immersion, find_layering, lift
+from coarse import CURVES
+from plyfold import Arrangement, arrange, find_immersion, find_layering, lift
+from plyfold.colours import INK, OBSTRUCTION, mix, sheet_colour, winding_colour
 from plyfold.draw import plot_arrangement, plot_layers, plot_layout, plot_surface
-from plyfold.draw.colours import INK, OBSTRUCTION, mix, sheet_colour, winding_colour
 from plyfold.errors import InputError, PlyfoldError
-from plyfold.gallery import CURVES
 from plyfold.obstruction import Obstruction
 
 RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], float)
@@ -36,7 +36,7 @@ def areas_by_colour(ax):
 
 
 def test_cells_are_filled_by_winding_number():
-    areas = areas_by_colour(plot_arrangement(arrangement(RAMP)))
+    areas = areas_by_colour(plot_arrangement(arrange(RAMP)))
     assert areas[winding_colour(2)] == pytest.approx(1 / 81)  # one unit square, drawn with 9 units as 1
     x, y = RAMP.T
     with_multiplicity = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2
@@ -45,8 +45,8 @@ def test_cells_are_filled_by_winding_number():
 
 
 def test_winding_numbers_are_written_in_their_cells():
-    ax = plot_arrangement(arrangement(RAMP))
-    drawn = arrangement(RAMP)
+    ax = plot_arrangement(arrange(RAMP))
+    drawn = arrange(RAMP)
     outlines = [shapely.Polygon((drawn.cell_outline(c) - (4.5, 1.5)) / 9) for c in range(drawn.n_cells)]
     assert len(ax.texts) == 5
     for text in ax.texts:
@@ -55,12 +55,12 @@ def test_winding_numbers_are_written_in_their_cells():
 
 
 def test_crossings_are_dots():
-    ax = plot_arrangement(arrangement(EIGHT))
+    ax = plot_arrangement(arrange(EIGHT))
     assert ax.collections[0].get_offsets().tolist() == [[0.0, 0.0]]
 
 
 def test_numbers_of_borders_keep_off_the_winding_numbers_of_small_loops():
-    drawn = arrangement(CURVES["smallest-unliftable"].curve)
+    drawn = arrange(CURVES["smallest-unliftable"].curve)
     texts = plot_arrangement(drawn, borders=True).texts
     places = np.array([text.get_position() for text in texts])
     apart = np.hypot(*(places[:, None] - places).T) + 9.0 * np.eye(len(places))
@@ -69,13 +69,13 @@ def test_numbers_of_borders_keep_off_the_winding_numbers_of_small_loops():
 
 
 def test_borders_are_numbered_on_request():
-    ax = plot_arrangement(arrangement(RAMP), borders=True)
+    ax = plot_arrangement(arrange(RAMP), borders=True)
     assert Counter(t.get_text() for t in ax.texts) >= Counter(str(i) for i in range(8))
 
 
 def test_obstruction_is_a_red_cross_and_a_sentence():
     why = Obstruction("negative winding", "One cell is wound backwards.", where=((0.25, 1.0),))
-    ax = plot_arrangement(arrangement(EIGHT), obstruction=why)
+    ax = plot_arrangement(arrange(EIGHT), obstruction=why)
     cross = ax.collections[-1]
     assert cross.get_offsets().tolist() == [[-0.375, 0.0]]
     assert to_hex(cross.get_edgecolor()[0]) == OBSTRUCTION
@@ -83,7 +83,7 @@ def test_obstruction_is_a_red_cross_and_a_sentence():
 
 
 def test_obstruction_without_a_place_is_a_sentence():
-    ax = plot_arrangement(arrangement(EIGHT), obstruction=find_immersion(EIGHT))
+    ax = plot_arrangement(arrange(EIGHT), obstruction=find_immersion(EIGHT))
     assert any("turn" in t.get_text() for t in ax.texts)
 
 
@@ -156,7 +156,7 @@ def test_intersections_are_red_lines():
 
 @pytest.mark.parametrize("scale", [1e-8, 1e8])
 def test_size_of_the_drawing_does_not_matter(scale):
-    small, plain = (plot_arrangement(arrangement(RAMP * s)) for s in (scale, 1.0))
+    small, plain = (plot_arrangement(arrange(RAMP * s)) for s in (scale, 1.0))
     for first, second in zip(small.patches, plain.patches, strict=True):
         assert first.get_xy() == pytest.approx(second.get_xy())
     surface = flat_surface()
@@ -170,9 +170,9 @@ def test_given_axes_are_used_and_pyplot_is_left_alone():
     from matplotlib.figure import Figure
 
     ax = Figure().subplots()
-    assert plot_arrangement(arrangement(RAMP), ax) is ax
+    assert plot_arrangement(arrange(RAMP), ax) is ax
     assert plot_layout(find_immersion(RAMP), ax) is ax
-    plot_arrangement(arrangement(RAMP))
+    plot_arrangement(arrange(RAMP))
     assert pyplot.get_fignums() == []
 
 

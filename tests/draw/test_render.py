@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import shapely
 
-from plyfold.draw.colours import BACK, CLOTH_HIGH, SHEETS, rgb
+from plyfold.colours import BACK, CLOTH_HIGH, SHEETS, rgb
 from plyfold.draw.depth_buffer import Pixels, View, look
 from plyfold.draw.render import Mesh, shade
 

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.draw.viewer import frame, mesh_data, page
 from plyfold.errors import PrecisionError
-from plyfold.gallery import CURVES
 
 
 def small_surface(scale=1.0, shift=0.0):

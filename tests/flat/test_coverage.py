@@ -7,9 +7,9 @@ import pytest
 import shapely
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.errors import PrecisionError
-from plyfold.flat import coverage
-from plyfold.gallery import CURVES
+from plyfold.flat.coverage import coverage
 from reference import random_curves
 
 
@@ -39,7 +39,7 @@ def curves():
 @pytest.mark.parametrize("points", list(curves()))
 def test_cells_of_geos(points):
     points = np.array(points, dtype=np.float64)
-    drawn = pf.arrangement(points)
+    drawn = pf.arrange(points)
     found = coverage(drawn)
     assert all(cell.polygon.is_valid and cell.polygon.exterior.is_ccw for cell in found)
     expected = by_geos(drawn.curve.points)
@@ -67,7 +67,7 @@ def test_loops_in_a_row_touch_from_inside():
     found = coverage(points)
     assert sorted((len(cell.polygon.interiors), cell.winding) for cell in found) == [(0, 2)] * 8 + [(8, 1)]
     rows = sorted((cell.polygon.area, cell.polygon.length, cell.winding) for cell in found)
-    np.testing.assert_allclose(rows, by_geos(pf.arrangement(points).curve.points), rtol=1e-6)
+    np.testing.assert_allclose(rows, by_geos(pf.arrange(points).curve.points), rtol=1e-6)
 
 
 def test_needles_are_named():

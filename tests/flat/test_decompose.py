@@ -8,9 +8,10 @@ import pytest
 import shapely
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.errors import NotImmersibleError, PrecisionError
-from plyfold.flat import decompose
-from plyfold.gallery import CURVES, ribbon
+from plyfold.flat.decompose import decompose
+from plyfold.gallery import ribbon
 from reference import random_curves
 
 # Found to be the least by hand: one more than the places where the ribbon must be cut, or what a deep cell needs.
@@ -40,7 +41,7 @@ def disks():
 
 @pytest.mark.parametrize("points", list(disks()))
 def test_covers_the_disk_once(points):
-    drawn = pf.arrangement(points)
+    drawn = pf.arrange(points)
     places = np.random.default_rng(1).uniform(points.min(axis=0), points.max(axis=0), (400, 2))
     for immersion in list(pf.immersions(drawn))[:3]:
         pieces = decompose(drawn, immersion)
@@ -63,7 +64,7 @@ def test_few_pieces(name):
 
 def test_never_fewer_than_the_depth_nor_as_many_as_triangles():
     for name in ("stacked-spiral", "milnor", "ten-gon", "bennequin"):
-        drawn = pf.arrangement(CURVES[name].curve)
+        drawn = pf.arrange(CURVES[name].curve)
         assert drawn.winding.max() <= len(decompose(drawn)) <= drawn.winding.max() + 2
 
 
@@ -84,7 +85,7 @@ def test_overlaps_that_no_crossing_sides_show(monkeypatch):
 def test_thousands_of_crossings():
     """A long ribbon, with crossings between far parts of it."""
     points = np.array(random_curves.ribbon_outline(np.random.default_rng(5), 3000, wildness=0.1), dtype=np.float64)
-    drawn = pf.arrangement(points)
+    drawn = pf.arrange(points)
     assert drawn.n_crossings > 1000
     pieces = decompose(drawn)
     assert all(piece.is_valid for piece in pieces)

@@ -6,13 +6,13 @@ import sys
 import numpy as np
 import pytest
 
+from coarse import CURVES
 from plyfold import compiled
 from plyfold.compiled import run_in_python
-from plyfold.flat.delaunay import delaunay_triangles, inner_edges
-from plyfold.flat.flips import flip_edges
+from plyfold.flat.delaunay import delaunay_triangles, flip_edges
 from plyfold.flat.sweep import sweep_triangles
-from plyfold.gallery import CURVES
-from plyfold.immersion import immersions
+from plyfold.halfedges import glued_pairs
+from plyfold.immersion.solve import immersions
 from plyfold.predicates import orient
 from reference import random_curves
 
@@ -25,7 +25,7 @@ def assert_same_disk(points, faces, found):
     """As many triangles, counter-clockwise, glued to a disk with the same boundary: all its corners lie on that."""
     assert found.shape == faces.shape
     assert (orient(*points[found].swapaxes(0, 1)) > 0).all()
-    assert len(inner_edges(found)) == len(found) - 1
+    assert len(glued_pairs(found)) == len(found) - 1
     sides = {(u, v) for a, b, c in found.tolist() for u, v in ((a, b), (b, c), (c, a))}
     n = len(points)
     assert {side for side in sides if side[::-1] not in sides} == {(i, (i + 1) % n) for i in range(n)}
@@ -37,7 +37,7 @@ def assert_locally_delaunay(points, found):
     corners = np.stack([found, np.roll(found, -1, axis=1), np.roll(found, -2, axis=1)], axis=2).reshape(-1, 3)
     start, end, apex = corners.T
     angle = np.abs(np.angle((z[start] - z[apex]) / (z[end] - z[apex])))
-    one, other = inner_edges(found).T
+    one, other = glued_pairs(found).T
     assert (angle[one] + angle[other]).max(initial=0) < math.pi + 1e-7
 
 

@@ -7,14 +7,13 @@ import numpy as np
 import pytest
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold import compiled
 from plyfold.certify import check_immersed_disk
 from plyfold.errors import GeneralPositionError
-from plyfold.flat.skip_list import empty_skip_list, link_above, unlink
 from plyfold.flat.sweep import sweep_triangles
-from plyfold.flat.sweep_order import sweep_order
-from plyfold.flat.turns import as_places, turn
-from plyfold.gallery import CURVES
+from plyfold.flat.sweep_line import empty_skip_list, link_above, sweep_order, unlink
+from plyfold.predicates import as_coordinates, turn
 from reference import random_curves
 
 
@@ -41,7 +40,7 @@ def cross(a, b, c):
 @pytest.mark.usefixtures("way")
 @pytest.mark.parametrize("name", [name for name, named in CURVES.items() if named.immersions])
 def test_gallery(name):
-    drawn = pf.arrangement(CURVES[name].curve)
+    drawn = pf.arrange(CURVES[name].curve)
     found = [certify(immersion) for immersion in pf.immersions(drawn)]
     assert len({frozenset(map(frozenset, faces.tolist())) for faces in found}) == CURVES[name].immersions
 
@@ -56,7 +55,7 @@ def test_random_disks(seed):
     turned = points @ [[0, 1], [-1, 0]]
     for places in (points, turned, np.round(points / 50), points / 3 + 0.1):
         try:
-            drawn = pf.arrangement(places, general_position="raise")
+            drawn = pf.arrange(places, general_position="raise")
         except GeneralPositionError:
             continue
         if (immersion := pf.find_immersion(drawn)) and len(immersion.arrangement.curve) > 3:
@@ -97,7 +96,7 @@ def test_order_is_exact():
     """Against fractions; on a grid along the direction of the line many places are reached together."""
     rng = np.random.default_rng(4)
     for scale in [1.0, 1e-9, 3.7] * 5:
-        drawn = pf.arrangement(scale * rng.permutation(24).reshape(12, 2))
+        drawn = pf.arrange(scale * rng.permutation(24).reshape(12, 2))
         places = [tuple(map(Fraction, place)) for place in drawn.curve.points.tolist()]
         reach = {vertex: (x + Fraction(0.3) * y, y) for vertex, (x, y) in enumerate(places)}
         n = len(places)
@@ -120,7 +119,7 @@ def test_turns_are_exact(kind):
         "tiny": rng.integers(-3, 4, (60, 2)) * 5e-324,
         "huge": rng.normal(size=(60, 2)) * 1e307,
     }[kind]
-    places = as_places(points)
+    places = as_coordinates(points)
     for a, b, c in rng.integers(0, 60, (400, 3)).tolist():
         exact = cross(*points[[a, b, c]].tolist())
         assert turn(places, a, b, c) == (exact > 0) - (exact < 0)

@@ -7,10 +7,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.certify import check_immersed_disk
 from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError, PlyfoldError
-from plyfold.flat import coverage, decompose, triangulate
-from plyfold.gallery import CURVES
+from plyfold.flat.coverage import coverage
+from plyfold.flat.decompose import decompose
+from plyfold.flat.triangulate import triangulate
 from reference import random_curves, shor_van_wyk
 
 RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], dtype=np.float64)
@@ -52,7 +54,7 @@ def times_covered(points, faces, places):
 @pytest.mark.parametrize("name", DISKS)
 def test_gallery(name):
     """Every immersion has triangles of its own."""
-    drawn = pf.arrangement(CURVES[name].curve)
+    drawn = pf.arrange(CURVES[name].curve)
     found = [triangulate(drawn, immersion) for immersion in pf.immersions(drawn)]
     for faces in found:
         certify(drawn.curve.points, faces)
@@ -84,7 +86,7 @@ def test_verdicts_of_the_dynamic_program():
     for polygon in random_polygons(seed=3, count=120):
         ordered = polygon if shor_van_wyk.turning_number(polygon) >= 0 else polygon[::-1]
         try:
-            pf.arrangement(ordered, general_position="raise")
+            pf.arrange(ordered, general_position="raise")
         except GeneralPositionError:
             continue
         expected = shor_van_wyk.triangulation(ordered)
@@ -110,7 +112,7 @@ def test_frames(seed, family, start):
     outline = random_curves.ribbon_outline if family == "ribbon" else random_curves.glued_disk
     points = np.array(outline(rng, 20), dtype=np.float64)
     try:
-        drawn = pf.arrangement(points, general_position="raise")
+        drawn = pf.arrange(points, general_position="raise")
     except GeneralPositionError:
         return
     faces = triangulate(drawn)
@@ -164,7 +166,7 @@ def test_no_disk():
 def test_what_stands_for_a_curve():
     expected = triangulate(RAMP).tolist()
     closed = np.concatenate([RAMP, RAMP[:1]])
-    for curve in (RAMP.tolist(), closed, shapely.LinearRing(RAMP), pf.Curve(RAMP), pf.arrangement(RAMP)):
+    for curve in (RAMP.tolist(), closed, shapely.LinearRing(RAMP), pf.Curve(RAMP), pf.arrange(RAMP)):
         assert triangulate(curve).tolist() == expected
     assert triangulate([(0, 0), (1, 0), (0, 1)]).tolist() in ([[0, 1, 2]], [[1, 2, 0]], [[2, 0, 1]])
 
@@ -172,7 +174,7 @@ def test_what_stands_for_a_curve():
 @pytest.mark.parametrize("make", [triangulate, decompose, coverage, lambda code: triangulate(code, refine=1.0)])
 def test_codes_have_no_triangles(make):
     with pytest.raises(PlyfoldError, match="Gauss code"):
-        make(pf.Arrangement.from_gauss(*pf.arrangement(RAMP).gauss_code()))
+        make(pf.Arrangement.from_gauss(*pf.arrange(RAMP).gauss_code()))
 
 
 def test_immersion_of_another_curve():
@@ -181,7 +183,7 @@ def test_immersion_of_another_curve():
     with pytest.raises(InputError, match="another curve"):
         triangulate(CURVES["circle"].curve, immersion)
     with pytest.raises(InputError, match="another curve"):
-        triangulate(pf.arrangement(RAMP[::-1]), immersion)
+        triangulate(pf.arrange(RAMP[::-1]), immersion)
     with pytest.raises(InputError, match="another curve"):
         triangulate(np.roll(RAMP, 1, axis=0), immersion)
     assert len(triangulate(RAMP[::-1], pf.find_immersion(RAMP[::-1]))) == 8
@@ -189,7 +191,7 @@ def test_immersion_of_another_curve():
 
 def test_immersion_of_an_equal_arrangement():
     immersion = pf.find_immersion(RAMP)
-    assert np.array_equal(triangulate(pf.arrangement(RAMP), immersion), triangulate(RAMP, immersion))
+    assert np.array_equal(triangulate(pf.arrange(RAMP), immersion), triangulate(RAMP, immersion))
 
 
 @pytest.mark.parametrize("ring", [np.array, shapely.LinearRing], ids=["array", "shapely"])
@@ -207,13 +209,13 @@ def test_touching_strands_give_triangles_or_an_error():
     touching = np.array([(1, -3), (3, -1), (3, 2), (1, -3), (-3, 1)], dtype=float)
     with pytest.raises(GeneralPositionError, match="no area"):
         triangulate(touching)
-    moved = pf.arrangement(touching)
+    moved = pf.arrange(touching)
     assert len(triangulate(moved)) == 3
 
 
 def test_touching_strands_whose_triangles_hold():
     slit = np.array([(0, 0), (4, 0), (4, 2), (2, 2), (4, 2), (4, 4), (0, 4)], dtype=float)
-    moved = pf.arrangement(slit)
+    moved = pf.arrange(slit)
     assert moved.curve.repairs
     faces = triangulate(slit)
     assert (double_areas(slit, faces) > 0).all()
@@ -227,7 +229,7 @@ def test_needles(exponent, turned):
     strip[8:, 1] = 10.0**-exponent
     cosine, sine = np.cos(turned), np.sin(turned)
     strip = strip @ np.array([[cosine, sine], [-sine, cosine]])
-    drawn = pf.arrangement(strip)
+    drawn = pf.arrange(strip)
     certify(drawn.curve.points, triangulate(strip))
 
 
@@ -242,7 +244,7 @@ def test_moved_into_general_position():
     points = RAMP.copy()
     points[5] = (4, 0)
     points[4] = (3, -3)
-    drawn = pf.arrangement(points)
+    drawn = pf.arrange(points)
     assert drawn.curve.repairs
     certify(drawn.curve.points, triangulate(points))
     assert triangulate(points, pf.find_immersion(drawn)).tolist() == triangulate(points).tolist()

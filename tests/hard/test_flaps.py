@@ -7,7 +7,7 @@ import pytest
 
 import plyfold as pf
 from plyfold.errors import InputError
-from plyfold.hard import PALEY, flap_disk
+from plyfold.hard.flaps import PALEY, flap_disk
 from reference import crossings, gluings, layerings
 
 BOTH_WAYS = list(permutations(range(3), 2))
@@ -68,7 +68,7 @@ def test_paley_has_one_immersion_and_no_embedding():
 
 def test_three_flaps_in_a_circle_may_not_all_be_on_one_side():
     disk = flap_disk(3, [(0, 1), (1, 2), (2, 0)])
-    sides = {disk.sides(layering) for layering in pf.layering.layerings(disk.immersion)}
+    sides = {disk.sides(layering) for layering in pf.layerings(disk.immersion)}
     assert sides == set(product([False, True], repeat=3)) - {(False,) * 3, (True,) * 3}
 
 
@@ -80,7 +80,7 @@ def test_layerings_say_the_definition(arcs):
     own, rows = immersion.own_sheet.tolist(), [tuple(row) for row in immersion.gluing.tolist()]
     assert code == gluings.gauss_code(*immersion.arrangement.gauss_code())
     assert gluings.key_of(*code, own, rows) in gluings.keys(*code)
-    assert len(layerings.layerings(*code, own, rows)) == pf.layering.count_layerings(immersion)
+    assert len(layerings.layerings(*code, own, rows)) == pf.count_layerings(immersion)
 
 
 def test_reversed_pair_is_confirmed_by_trying_all_orders():

@@ -7,7 +7,7 @@ import pytest
 
 import plyfold as pf
 from plyfold.errors import InputError
-from plyfold.hard import formula_disk
+from plyfold.hard.formulas import formula_disk
 
 FANO = [(1, 2, 3), (1, 4, 5), (1, 6, 7), (2, 4, 6), (2, 5, 7), (3, 4, 7), (3, 5, 6)]
 CLAUSES = [(1, *(sign * v for sign, v in zip(signs, (2, 3), strict=True))) for signs in product([1, -1], repeat=2)]

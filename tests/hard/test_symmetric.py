@@ -5,7 +5,7 @@ import pytest
 
 import plyfold as pf
 from plyfold.errors import InputError
-from plyfold.hard import search_symmetric
+from plyfold.hard.symmetric import search_symmetric
 from reference import layerings
 
 
@@ -16,7 +16,7 @@ def smallest():
 
 def test_finds_the_bennequin_curve():
     curve, immersion, _ = smallest()
-    bennequin = pf.arrangement(pf.gallery.CURVES["bennequin"].curve)
+    bennequin = pf.arrange(pf.gallery.CURVES["bennequin"].curve)
     codes = [pf.GaussCode(*arranged.gauss_code()) for arranged in (immersion.arrangement, bennequin)]
     assert codes[0].canonical() == codes[1].canonical()
     assert pf.count_immersions(curve) == 5

@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 import plyfold as pf
 from plyfold.errors import InputError, NotImmersibleError
 from plyfold.gallery import chain
-from plyfold.immersion import changed_borders, flip_distance, irreducible_kernels, nth_immersion
-from plyfold.immersion.compare import _partition_distance
+from plyfold.immersion.compare import _partition_distance, changed_borders, flip_distance
+from plyfold.immersion.cutting import irreducible_kernels
+from plyfold.immersion.solve import nth_immersion
 from reference import random_curves
 from reference.planar_maps import census, may_bound_disk, oriented
 from reference.random_curves import BENNEQUIN_LIKE, MILNOR_LIKE, SEVERAL_IMMERSIONS, TEN_GON
@@ -49,7 +50,7 @@ def test_huge_families_are_listed_lazily_and_without_repeats():
     [MILNOR_LIKE, TEN_GON, BENNEQUIN_LIKE, chain(MILNOR_LIKE, 4), chain(BENNEQUIN_LIKE, 2), [(0, 0), (1, 0), (0, 1)]],
 )
 def test_immersions_by_number_are_those_in_the_list(curve):
-    arranged = pf.arrangement(curve)
+    arranged = pf.arrange(curve)
     listed = list(pf.immersions(arranged))
     for number, immersion in enumerate(listed):
         assert nth_immersion(arranged, number).own_sheet.tolist() == immersion.own_sheet.tolist()
@@ -59,13 +60,13 @@ def test_immersions_by_number_are_those_in_the_list(curve):
 
 
 def test_the_last_of_very_many_immersions_is_made_at_once():
-    arranged = pf.arrangement(chain(MILNOR_LIKE, 60))
+    arranged = pf.arrange(chain(MILNOR_LIKE, 60))
     nth_immersion(arranged, 2**60 - 1).check()
 
 
 @pytest.mark.parametrize(("curve", "count"), [(BENNEQUIN_LIKE, 5), (chain(MILNOR_LIKE, 3), 8)])
 def test_samples_are_uniform(curve, count):
-    arranged = pf.arrangement(curve)
+    arranged = pf.arrange(curve)
     rng = np.random.default_rng(7)
     draws = 120 * count
     seen = Counter(frozenset(layout(pf.sample_immersion(arranged, rng))) for _ in range(draws))
@@ -76,7 +77,7 @@ def test_samples_are_uniform(curve, count):
 
 
 def test_samples_of_a_huge_family_differ():
-    arranged = pf.arrangement(chain(MILNOR_LIKE, 100))
+    arranged = pf.arrange(chain(MILNOR_LIKE, 100))
     rng = np.random.default_rng(1)
     assert len({pf.sample_immersion(arranged, rng).own_sheet.tobytes() for _ in range(10)}) == 10
 
@@ -87,7 +88,7 @@ def test_no_immersion_to_sample_or_to_choose():
 
 
 def test_the_best_immersion_has_the_smallest_key():
-    arranged = pf.arrangement(BENNEQUIN_LIKE)
+    arranged = pf.arrange(BENNEQUIN_LIKE)
     all_of_them = list(pf.immersions(arranged))
     for wanted in all_of_them:
         best = pf.best_immersion(arranged, key=lambda found, wanted=wanted: layout(found) != layout(wanted))
@@ -154,7 +155,7 @@ def test_kernels_of_all_curves(crossings):
 
 @pytest.mark.parametrize("seed", range(40))
 def test_kernels_of_dense_disks(seed):
-    assert_kernels(pf.arrangement(random_curves.glued_disk(np.random.default_rng(seed), 70)))
+    assert_kernels(pf.arrange(random_curves.glued_disk(np.random.default_rng(seed), 70)))
 
 
 def assert_kernels(arranged):

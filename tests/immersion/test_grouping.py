@@ -72,7 +72,7 @@ def test_words_of_all_curves(crossings):
 @pytest.mark.parametrize("seed", range(30))
 def test_words_of_dense_disks_have_blocks(seed):
     """Dense disks, where arcs run one behind the other; as many labels as all choices can be tried for."""
-    arranged = pf.arrangement(random_curves.glued_disk(np.random.default_rng(seed), 60))
+    arranged = pf.arrange(random_curves.glued_disk(np.random.default_rng(seed), 60))
     tree = grow_dual_tree(arranged)
     cells, choices = [], 1
     for cell, partners in zip((word := write_word(tree)).cells, word.partners, strict=True):

@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
-from plyfold.gallery import CURVES, chain
+from coarse import CURVES
+from plyfold.gallery import chain
 from plyfold.immersion.dual_tree import grow_dual_tree
-from plyfold.immersion.parts import independent_parts
-from plyfold.immersion.propagation import narrow
+from plyfold.immersion.propagation import independent_parts, narrow
 from plyfold.immersion.word import Word, write_word
 from reference import parts as reference
 from reference import random_curves
@@ -50,7 +50,7 @@ def test_any_word(word):
 @pytest.mark.parametrize("seed", range(10))
 def test_words_of_curves(seed):
     points = random_curves.glued_disk(np.random.default_rng(seed), 40)
-    assert_parts_as_defined(write_word(grow_dual_tree(pf.arrangement(points))))
+    assert_parts_as_defined(write_word(grow_dual_tree(pf.arrange(points))))
 
 
 def test_some_labels_alone():
@@ -66,7 +66,7 @@ def test_long_chains_are_walked_over_link_by_link(links, monkeypatch):
     module = sys.modules["plyfold.immersion.propagation"]
     walk, walked = module._smaller_side, []
     monkeypatch.setattr(module, "_smaller_side", lambda *given: walked.append(walk(*given)) or walked[-1])
-    word = write_word(grow_dual_tree(pf.arrangement(chain(CURVES["milnor"], links))))
+    word = write_word(grow_dual_tree(pf.arrange(chain(CURVES["milnor"], links))))
     narrowed = narrow(word)
     assert [len(region) for region in narrowed.regions] == [6] * links
     assert sum(len(side) for side, _ in walked) <= 6 * links

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import plyfold as pf
-from plyfold.cli import main
-from plyfold.gallery import CURVES
-from plyfold.sketch.look import look
+from coarse import CURVES
+from plyfold.cli.commands import main
+from plyfold.sketch.look import look_at
 from plyfold.sketch.schema import Look, Stroke
 from reference import crossings
 from reference.random_curves import random_polygon, ribbon_outline
@@ -58,7 +58,7 @@ def test_python_the_command_line_and_the_page_name_the_same_place(name, capsys):
     places = [list(place) for place in pf.find_immersion(curve).where]
     assert places
     stroke = Stroke(tuple((float(x), float(y)) for x, y in curve.points), closed=True)
-    assert look(Look((stroke,)))["verdict"]["where"] == places
+    assert look_at(Look((stroke,)))["verdict"]["where"] == places
     assert main(["check", f"gallery:{name}", "--json"]) == 1
     assert json.loads(capsys.readouterr().out)["where"] == places
     assert main(["check", f"gallery:{name}"]) == 1

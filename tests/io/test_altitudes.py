@@ -74,7 +74,7 @@ def test_npy(kind, tmp_path):
     ],
 )
 def test_arrays_and_geometries(value):
-    curve = pf.arrangement(value).curve
+    curve = pf.arrange(value).curve
     assert [str(repair) for repair in curve.repairs] == SAID
     assert curve.points.tolist() == FLAT
 
@@ -101,11 +101,11 @@ def test_measures(words, tmp_path):
 
 def test_nothing_is_said_of_what_has_no_third_coordinate():
     assert pf.Curve(FLAT).repairs == ()
-    assert pf.arrangement(shapely.Polygon(FLAT)).curve.repairs == ()
+    assert pf.arrange(shapely.Polygon(FLAT)).curve.repairs == ()
 
 
 def test_the_command_line_says_it(tmp_path, capsys):
-    from plyfold.cli import main
+    from plyfold.cli.commands import main
 
     (tmp_path / "high.csv").write_text(FILES["commas.csv"])
     assert main(["check", str(tmp_path / "high.csv")]) == 0

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import shapely
 
-from plyfold import arrangement, bounds_disk, count_immersions
+from plyfold import arrange, bounds_disk, count_immersions
 from plyfold.errors import CurveError, FileFormatError
 from plyfold.gallery import CURVES
 from plyfold.io import reading
@@ -152,7 +152,7 @@ def test_the_examples_cross_themselves_as_often_as_drawn(name, crossings, tolera
 
 def test_the_milnor_example_is_the_curve_of_the_gallery():
     """Its code, read from one of its visits on, is that of the gallery's; and it is smooth where that has corners."""
-    drawn, known = arrangement(read(EXAMPLES / "milnor.svg")), arrangement(CURVES["milnor"].curve)
+    drawn, known = arrange(read(EXAMPLES / "milnor.svg")), arrange(CURVES["milnor"].curve)
     assert code_from(known, 0) in [code_from(drawn, visit) for visit in range(12)]
     assert count_immersions(drawn) == 2
     edges = np.diff(drawn.curve.points, axis=0, append=drawn.curve.points[:1]) @ (1, 1j)

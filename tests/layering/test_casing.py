@@ -8,9 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.errors import InputError
-from plyfold.gallery import CURVES, chain
-from plyfold.layering import embed_cased, layerings
+from plyfold.gallery import chain
+from plyfold.layering.levels.casing import embed_cased
+from plyfold.layering.orders.listing import layerings
 from reference import layerings as reference
 from reference.planar_maps import gauss_code, windings
 from reference.random_curves import MILNOR_LIKE, glued_disk, ribbon_outline
@@ -23,7 +25,7 @@ def small_disk(seed):
     """A disk of random triangles with few layers, so that trying all levels ends."""
     rng = np.random.default_rng(seed)
     while True:
-        arranged = pf.arrangement(glued_disk(rng, int(rng.integers(3, 14))))
+        arranged = pf.arrange(glued_disk(rng, int(rng.integers(3, 14))))
         code = gauss_code(arranged.partner, arranged.ccw, arranged.outer)
         if 0 < arranged.n_crossings <= 12 and max(windings(code)) <= 4:
             return arranged, frozenset(reference.level_solutions(code))

@@ -9,15 +9,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.clock import Clock
 from plyfold.errors import InputError
-from plyfold.gallery import CURVES, chain
-from plyfold.layering import count_layerings, layerings, nicest_layering
-from plyfold.layering.counting import count_solutions
-from plyfold.layering.listing import solutions
-from plyfold.layering.orders import order_problem
-from plyfold.layering.search import solve_orders
+from plyfold.gallery import chain
+from plyfold.layering.orders.counting import count_layerings, count_orders
+from plyfold.layering.orders.listing import layerings, solutions
+from plyfold.layering.orders.nicest import nicest_layering
+from plyfold.layering.orders.search import order_problem, solve_orders
 from plyfold.obstruction import Unknown
+from plyfold.paper import layering as paper
 from reference.random_curves import MILNOR_LIKE, glued_disk
 
 # The lines of the Fano plane: however seven points get two colours, one of the seven lines has only one.
@@ -49,7 +50,7 @@ def all_solutions(cycles):
 @given(cycles_up_to)
 def test_counted_and_listed_as_by_trying_all(cycles):
     expected = set(all_solutions(cycles))
-    assert count_solutions(demanding(cycles), Clock(None)) == len(expected)
+    assert count_orders(demanding(cycles), Clock(None)) == len(expected)
     n = max((abs(x) for cycle in cycles for x in cycle), default=0)
     clauses = [frozenset(sign * x for x in cycle) for cycle in cycles for sign in (1, -1)]
     listed = [frozenset(true) for true in solutions(range(1, n + 1), clauses)]
@@ -69,8 +70,8 @@ def test_orders_in_a_circle_are_named_by_cell_and_sheets():
 def test_a_table_that_would_be_too_large_is_not_made(monkeypatch):
     immersion = pf.find_immersion(glued_disk(np.random.default_rng(3), 400))
     assert count_layerings(immersion) == 10355447604451182452428586876928
-    monkeypatch.setitem(count_layerings.__globals__, "_MOST_ROWS", 100)
-    monkeypatch.setitem(count_layerings.__globals__, "_ROWS_AT_A_TIME", 10)
+    monkeypatch.setattr("plyfold.layering.tables._MOST_ROWS", 100)
+    monkeypatch.setattr("plyfold.layering.tables._ROWS_AT_A_TIME", 10)
     unknown = count_layerings(immersion)
     assert isinstance(unknown, Unknown)
     assert unknown.reason == "size"
@@ -138,8 +139,8 @@ class TestFixedOrders:
 
 @pytest.mark.parametrize("options", [{"fix": {(1, 0, 1): "above"}}, {"time_limit": 1.0}])
 def test_the_papers_way_takes_no_fixed_orders_and_no_time_limit(options):
-    with pytest.raises(InputError, match="no fixed orders and no time limit"):
-        pf.find_layering(pf.find_immersion(RAMP), method="paper", **options)
+    with pytest.raises(TypeError, match="unexpected keyword"):
+        paper.find_layering(pf.find_immersion(RAMP), **options)
 
 
 def test_a_good_layering_and_a_bound_when_the_nicest_is_unknown(monkeypatch):

@@ -9,21 +9,22 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from plyfold.arrangement import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrange
+from plyfold.arrangement.gauss import GaussCode
 from plyfold.clock import Clock
-from plyfold.curve import Curve
 from plyfold.gallery import chain
-from plyfold.immersion import count_immersions, immersions
-from plyfold.layering import count_layerings, find_layering, layerings
+from plyfold.immersion.solve import count_immersions, immersions
 from plyfold.layering.embedding import count_embeddings, embeddings, find_embedding
-from plyfold.layering.level_clauses import LevelClauses, list_levels, solve_levels
-from plyfold.layering.level_counting import count_level_solutions
-from plyfold.layering.levels import level_equations
+from plyfold.layering.levels.counting import count_level_solutions
+from plyfold.layering.levels.equations import LevelClauses, level_equations, list_levels, solve_levels
+from plyfold.layering.orders.counting import count_layerings
+from plyfold.layering.orders.listing import layerings
+from plyfold.layering.orders.search import find_layering
 from plyfold.obstruction import Unknown
-from reference import gluings, random_curves
+from reference import gluings, loops, random_curves
 from reference.layerings import level_solutions, level_solutions_by_immersion, levels_agree
 from reference.level_subsets import ending_outside, joined, levels_fit
-from reference.planar_maps import census, corners, gauss_code, may_bound_disk
+from reference.planar_maps import census, corners, gauss_code, left_and_right, may_bound_disk, windings
 
 SMALLEST_WITHOUT_LAYERING = [
     ([9, 4, 3, 2, 1, 10, 7, 6, 11, 0, 5, 8, 13, 12, 15, 14], [1, 1, 1, 0, 0, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0], 5),
@@ -54,10 +55,16 @@ def straight_from(arranged):
     return LevelClauses(level_equations(arranged))
 
 
+def borders_of(code):
+    """The borders as the reference for several loops has them, which asks for no turning number."""
+    four = tuple((c.a_top, c.a_bottom, c.b_top, c.b_bottom) for c in corners(code))
+    return loops.LoopBorders(tuple(windings(code)[left] for left, _ in left_and_right(code)), four)
+
+
 def assert_all_found(arranged):
     """All three functions agree with brute force over levels; both ways of listing and counting do."""
     code = code_of(arranged)
-    expected = set(level_solutions(code))
+    expected = set(level_solutions(code) if may_bound_disk(code) else loops.level_solutions(borders_of(code)))
     found = list(embeddings(arranged))
     assert len(found) == len(expected)
     assert set(map(levels_of, found)) == expected
@@ -80,9 +87,22 @@ def test_every_curve(k):
         assert_all_found(Arrangement.from_gauss(*code))
 
 
+@pytest.mark.parametrize(
+    ("k", "curves", "embeddable"), [(2, 0, 0), (4, 1, 1), pytest.param(6, 37, 27, marks=pytest.mark.slow)]
+)
+def test_disks_with_a_handle(k, curves, embeddable):
+    """One loop that turns −1 times bounds a disk with a handle, or nothing."""
+    candidates = [Arrangement.from_gauss(*code) for code in census(k)]
+    handles = [arranged for arranged in candidates if arranged.turning_number == -1]
+    assert len(handles) == curves
+    found = [find_embedding(arranged) for arranged in handles]
+    assert sum(map(bool, found)) == embeddable
+    assert all(surface.genus == 1 for surface in found if surface)
+
+
 @pytest.mark.parametrize(("polygon", "_", "layering_counts"), random_curves.SEVERAL_IMMERSIONS)
 def test_known_answers(polygon, _, layering_counts):
-    arranged = arrangement(polygon)
+    arranged = arrange(polygon)
     by_immersion = {}
     for layering in assert_all_found(arranged):
         immersion = layering.immersion
@@ -109,7 +129,7 @@ def random_disks():
 
 def test_levels_of_random_disks_satisfy_the_rule_at_every_crossing():
     for polygon in random_disks():
-        arranged = arrangement(polygon)
+        arranged = arrange(polygon)
         for level in (
             solve_levels(straight_from(arranged), Clock(None)),
             find_embedding(arranged).border_level,
@@ -120,7 +140,7 @@ def test_levels_of_random_disks_satisfy_the_rule_at_every_crossing():
 
 def test_solutions_of_random_disks_are_as_many_as_layerings():
     for polygon in random_disks():
-        arranged = arrangement(polygon)
+        arranged = arrange(polygon)
         expected = sum(count_layerings(immersion) for immersion in immersions(arranged))
         assert count_embeddings(arranged) == expected
         if arranged.n_crossings < 150:
@@ -130,7 +150,7 @@ def test_solutions_of_random_disks_are_as_many_as_layerings():
 def test_chains_multiply():
     """Too many immersions to try: 2^100, 5^60 of which 3^60 lift, each of them in 2^60 ways."""
     for polygon, links, each in ((random_curves.MILNOR_LIKE, 100, 4), (random_curves.BENNEQUIN_LIKE, 60, 6)):
-        arranged = arrangement(chain(polygon, links))
+        arranged = arrange(chain(polygon, links))
         assert count_embeddings(arranged) == each**links
         assert find_embedding(arranged)
         listed = [levels_of(layering) for layering in islice(embeddings(arranged), 20)]
@@ -138,7 +158,7 @@ def test_chains_multiply():
 
 
 def test_all_embeddings_of_a_chain_are_listed_once():
-    arranged = arrangement(chain(random_curves.MILNOR_LIKE, 4))
+    arranged = arrange(chain(random_curves.MILNOR_LIKE, 4))
     assert count_immersions(arranged) == 16
     listed = [levels_of(layering) for layering in embeddings(arranged)]
     assert len(listed) == len(set(listed)) == 4**4
@@ -162,7 +182,7 @@ def test_crossings_that_allow_no_levels():
 
 
 def test_crossings_that_allow_no_levels_among_many_immersions():
-    milnor = ending_outside(code_of(arrangement(random_curves.MILNOR_LIKE)))
+    milnor = ending_outside(code_of(arrange(random_curves.MILNOR_LIKE)))
     code = ending_outside(WITHOUT_EMBEDDING)
     for _ in range(4):
         code = joined(code, milnor)
@@ -177,7 +197,7 @@ def test_crossings_that_allow_no_levels_among_many_immersions():
 
 
 def test_places_are_those_of_the_crossings():
-    arranged = arrangement(Curve.from_gauss(*WITHOUT_EMBEDDING))
+    arranged = arrange(GaussCode(*WITHOUT_EMBEDDING).to_curve())
     obstruction = find_embedding(arranged)
     assert obstruction.where == tuple(map(tuple, arranged.crossings[list(obstruction.value)].tolist()))
 

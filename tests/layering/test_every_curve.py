@@ -7,9 +7,12 @@ import numpy as np
 import pytest
 
 import plyfold as pf
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.gallery import chain
-from plyfold.layering import count_layerings, embed_cased, layerings, nicest_layering
+from plyfold.layering.levels.casing import embed_cased
+from plyfold.layering.orders.counting import count_layerings
+from plyfold.layering.orders.listing import layerings
+from plyfold.layering.orders.nicest import nicest_layering
 from plyfold.obstruction import Unknown
 from reference import layerings as reference
 from reference.gluings import key_of

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import plyfold as pf
-from plyfold.gallery import CURVES
+from coarse import CURVES
 from reference.random_curves import glued_disk
 from reference.triangles import meeting_pairs
 

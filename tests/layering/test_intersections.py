@@ -5,12 +5,13 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from plyfold.arrangement import Arrangement
+from coarse import CURVES
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.errors import PlyfoldError
-from plyfold.gallery import CURVES
-from plyfold.immersion import immersions
-from plyfold.layering import find_layering
-from plyfold.layering.intersections import IntersectingLayering, least_intersecting_layering
+from plyfold.immersion.solve import immersions
+from plyfold.layering.orders import intersections as module
+from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
+from plyfold.layering.orders.search import find_layering
 from reference import intersections as reference
 from reference.planar_maps import census, gauss_code, may_bound_disk
 from reference.random_curves import glued_disk
@@ -97,7 +98,7 @@ def test_length_rather_than_number(seed):
     weight = np.random.default_rng(seed).uniform(1, 20, 24)
     immersion = next(i for i in immersions(CURVES["bennequin"].curve) if not find_layering(i))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("plyfold.layering.intersections.border_lengths", lambda _: weight)
+        patch.setattr("plyfold.layering.orders.intersections.border_lengths", lambda _: weight)
         found = least_intersecting_layering(immersion)
         assert found.total_length == pytest.approx(reference.least_cost(*parts(immersion), weight), rel=1e-5)
 
@@ -122,11 +123,11 @@ def test_out_of_time():
 
 def test_greedy_search_alone_is_good(monkeypatch):
     """When the exact search does not end, gluings of long borders have been kept."""
-    monkeypatch.setattr("plyfold.layering.intersections.fewest_failures", lambda *_, **options: (None, 0))
+    monkeypatch.setattr("plyfold.layering.orders.intersections.fewest_failures", lambda *_, **options: (None, 0))
     for immersion in immersions(CURVES["bennequin"].curve):
         found = least_intersecting_layering(immersion, time_limit=60)
         assert_consistent(found)
-        assert not found.optimal
+        assert found.optimal == (not len(found.intersections))
         assert len(found.intersections) <= 2
         assert (found.total_length == 0) == bool(find_layering(immersion))
 
@@ -135,3 +136,11 @@ def test_wrong_levels_are_noticed():
     immersion = next(immersions(CURVES["exit-ramp"].curve))
     with pytest.raises(PlyfoldError, match="levels 1 to 2"):
         IntersectingLayering(immersion, np.ones(immersion.n_sheets, dtype=np.int64), optimal=False).check()
+
+
+def test_none_is_the_least_also_out_of_time(monkeypatch):
+    """Whether more could be proved in time does not matter to an answer without intersections."""
+    immersion = next(immersions(CURVES["exit-ramp"].curve))
+    monkeypatch.setattr(module, "_levels_in_time", lambda immersion, clock: (found.level, False))
+    found = find_layering(immersion)
+    assert least_intersecting_layering(immersion).optimal

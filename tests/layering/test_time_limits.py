@@ -10,8 +10,8 @@ import sys
 import pytest
 
 import plyfold as pf
-from plyfold.hard import formula_disk
-from plyfold.layering import intersections, search
+from plyfold.hard.formulas import formula_disk
+from plyfold.layering.orders import intersections, search
 from reference.random_curves import BENNEQUIN_LIKE
 
 # Two immersions that pose problems, and cores are minimised by asking the solver for ever.

@@ -38,11 +38,12 @@ def count(frame, event, what):
     calls += 1
     if calls == {moment}:
         signal.raise_signal(signal.SIGINT)
-sys.argv = ["plyfold", "lift", "gallery:exit-ramp", "--triangles", "500", "-o", {path!r}]
+sys.argv = {words}
 from plyfold_command import main
 sys.setprofile(count)
 main()
 """
+"""The command line with some words, interrupted at so many calls."""
 
 Work = Callable[[], Any]
 
@@ -104,12 +105,12 @@ def at_once(work: Work) -> list[Any]:
 def judge_here(rng: np.random.Generator) -> None:
     """Disturb answers in this process."""
     points = outline(rng)
-    expected = answers(pf.arrangement(points))
-    arranged = pf.arrangement(points)
+    expected = answers(pf.arrange(points))
+    arranged = pf.arrange(points)
     for moment in np.exp(rng.uniform(0, np.log(50_000), MOMENTS)).astype(int).tolist():
         is_broken_off(lambda: answers(arranged), moment)
         assert answers(arranged) == expected, f"interrupted after {moment} calls"
-    shared = pf.arrangement(points)
+    shared = pf.arrange(points)
     assert at_once(lambda: answers(shared)) == [expected] * THREADS, "in several threads"
 
 
@@ -143,7 +144,8 @@ def judge_new_process(seed: int) -> None:
 def judge_command(rng: np.random.Generator, folder: Path) -> None:
     """Interrupt the command line; it ends as it should, and leaves a whole file or none."""
     moment, path = int(np.exp(rng.uniform(np.log(200), np.log(1_000_000)))), folder / "a.glb"
-    program = COMMAND.format(moment=moment, path=str(path))
+    words = ["plyfold", "lift", "gallery:exit-ramp", "--triangles", "500", "-o", str(path)]
+    program = COMMAND.format(moment=moment, words=words)
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, check=False)
     where = f"interrupted after {moment} calls: {done.stderr.decode()}"
     assert (done.returncode, done.stderr) in ((130, SENTENCE), (0, b"")), where

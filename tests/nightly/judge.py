@@ -40,7 +40,7 @@ def judge(drawn: Drawn) -> None:
         MESHES[drawn.kind](drawn.points, np.random.default_rng(drawn.seed))
         return
     try:
-        arranged = pf.arrangement(drawn.points, general_position="raise")
+        arranged = pf.arrange(drawn.points, general_position="raise")
     except pf.errors.PlyfoldError:
         assert not in_general_position(drawn.points), "refused a curve in general position"
         return
@@ -54,7 +54,7 @@ def judge(drawn: Drawn) -> None:
         for code in turned_inside_out(gauss_code(arranged.partner, arranged.ccw, arranged.outer)):
             judge_immersions(pf.Arrangement.from_gauss(*code))
     for name, points in frames(np.array(drawn.points, dtype=np.float64)):
-        assert_same_answers(arranged, count, pf.arrangement(points, general_position="raise"), name)
+        assert_same_answers(arranged, count, pf.arrange(points, general_position="raise"), name)
 
 
 def assert_right_triangles(arranged: pf.Arrangement, points: list[tuple[int, int]], count: int) -> None:

@@ -38,9 +38,11 @@ def through_the_frame(rng: np.random.Generator) -> list[Polygon]:
     return [*nested(rng), triangle(rng, 900)]
 
 
-def levels(surface: pf.LayeredSurface) -> tuple[int, ...]:
-    """The levels of all borders."""
-    return tuple(surface.level.tolist())
+def levels(surface: pf.Layering) -> tuple[int, ...]:
+    """The levels of all borders in the order of the reference, where those of loops without crossings come last."""
+    alone = surface.immersion.arrangement.start_visit < 0
+    level = surface.border_level
+    return (*level[~alone].tolist(), *level[alone].tolist())
 
 
 def judge_list(loops: list[Polygon]) -> None:
@@ -68,7 +70,7 @@ def judge_list(loops: list[Polygon]) -> None:
 
 def judge_casing(loops: list[Polygon], over: tuple[bool, ...], expected: set[tuple[int, ...]]) -> None:
     """The surfaces with a casing are those expected; one alone is the answer, several are refused."""
-    listed = [levels(surface) for surface in pf.layered_surfaces(loops, over)]
+    listed = [levels(surface) for surface in pf.embeddings(loops, over)]
     assert len(listed) == len(expected)
     assert set(listed) == expected
     if len(expected) == 1:

@@ -3,7 +3,8 @@
 import numpy as np
 
 import plyfold as pf
-from plyfold.certify import CertificateError, check_immersed_disk
+from plyfold.certify import check_immersed_disk
+from plyfold.errors import CertificateError
 from reference.certificates import is_immersed_disk
 from reference.random_curves import Polygon, glued_disk
 
@@ -90,7 +91,7 @@ def passes(points: Polygon, mesh: tuple[FloatPolygon, list[list[int]], list[int]
 def judge_certificate(points: Polygon, rng: np.random.Generator) -> bool | None:
     """The checker agrees with rational numbers; return what they say, or None for a curve that bounds no disk."""
     try:
-        drawn = pf.arrangement(points, general_position="raise")
+        drawn = pf.arrange(points, general_position="raise")
     except pf.errors.PlyfoldError:
         return None
     if not pf.count_immersions(drawn):

@@ -17,9 +17,9 @@ import numpy as np
 from nightly.curves import LISTS, MIX, draw
 from plyfold.errors import PlyfoldError
 from plyfold.sketch.export import export
-from plyfold.sketch.look import look
+from plyfold.sketch.look import look_at
 from plyfold.sketch.opening import open_file
-from plyfold.sketch.schema import Document, Export, Look, Surface, document_data, read_document
+from plyfold.sketch.schema import Document, Export, Lift, Look, document_data, read_document
 
 NODE = shutil.which("node")
 PAGE = Path(__file__).with_name("through_page.mjs")
@@ -48,7 +48,7 @@ def scaled(seed: int) -> Scaled:
 def answers(document: Document) -> tuple[object, ...]:
     """What the page says of a drawing."""
     try:
-        told = look(Look(document.strokes))
+        told = look_at(Look(document.strokes))
     except PlyfoldError as error:
         return (type(error), error.message)
     return told["gauss"], told["turning_number"], told["verdict"]["immersions"]
@@ -67,7 +67,7 @@ def ways(document: Document, saved: dict[str, Any]) -> Iterator[tuple[str, Docum
     yield "link", read_document(saved["link"])
     yield "file of the page", open_file("drawing.json", saved["file"].encode())
     for kind in ("json", "svg"):
-        content, _ = export(Export(document, kind, Surface(document.strokes, 0, 0, None, 100)))
+        content, _ = export(Export(document, kind, Lift(document.strokes, 0, 0, None, 100)))
         yield f"{kind} of the server", open_file(f"drawing.{kind}", content)
 
 

@@ -18,7 +18,7 @@ def test_answers_after_interrupts_and_among_threads(capsys):
 
 
 def test_interrupts_happen():
-    arranged = pf.arrangement(pf.gallery.CURVES["exit-ramp"].curve)
+    arranged = pf.arrange(pf.gallery.CURVES["exit-ramp"].curve)
     assert disturbed.is_broken_off(lambda: disturbed.answers(arranged), 100)
     assert not disturbed.is_broken_off(lambda: disturbed.answers(arranged), 10**9)
 

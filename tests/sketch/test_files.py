@@ -17,19 +17,10 @@ from PIL import Image as Picture
 
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError
 from plyfold.gallery import CURVES
-from plyfold.sketch.embedding import png_document, png_with, svg_document, svg_with
 from plyfold.sketch.export import FORMATS, export
 from plyfold.sketch.opening import open_file, opened, start
-from plyfold.sketch.schema import (
-    MOST_BYTES,
-    Document,
-    Export,
-    Image,
-    Stroke,
-    Surface,
-    document_data,
-    read_document,
-)
+from plyfold.sketch.pictures import png_document, png_with, svg_document, svg_with
+from plyfold.sketch.schema import MOST_BYTES, Backdrop, Document, Export, Lift, Stroke, document_data, read_document
 
 RAMP = Stroke(tuple(map(tuple, CURVES["exit-ramp"].curve.points.tolist())), closed=True)
 UNFINISHED = Document((Stroke(((0.0, 0.0), (4.0, 0.1), (1e-300, 3.0))), Stroke(((7.0, 7.0),)), Stroke(())))
@@ -43,7 +34,7 @@ def picture(kind="PNG", size=(3, 2)):
     return file.getvalue()
 
 
-TRACING = Image("data:image/png;base64," + base64.b64encode(picture()).decode(), (1.0, 2.0, 3.5, 4.0), 0.25)
+TRACING = Backdrop("data:image/png;base64," + base64.b64encode(picture()).decode(), (1.0, 2.0, 3.5, 4.0), 0.25)
 DOCUMENTS = {
     "ramp": Document((RAMP,)),
     "empty": Document(()),
@@ -59,7 +50,7 @@ DOCUMENTS = {
 
 def order(document, kind, **options):
     chosen = {"immersion": 0, "layering": 0, "gap": None, "triangles": 300} | options
-    return Export(document, kind, Surface(document.strokes, **chosen))
+    return Export(document, kind, Lift(document.strokes, **chosen))
 
 
 def written(document, kind, **options):

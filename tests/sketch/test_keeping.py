@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from plyfold.sketch.look import look
+from plyfold.sketch.look import look_at
 from plyfold.sketch.opening import open_file
 from plyfold.sketch.schema import Look
 from sketch.by_hand import (
@@ -186,7 +186,7 @@ def test_a_page_with_work_that_is_not_kept_asks_before_it_closes(sketch):
 
 
 def answers(document):
-    told = look(Look(document.strokes))
+    told = look_at(Look(document.strokes))
     return told["gauss"], told["verdict"]["immersions"], told["turning_number"]
 
 

@@ -1,20 +1,19 @@
 """What the page is told of a loop, against the definitions."""
 
-import math
 from fractions import Fraction
 
 import numpy as np
 import pytest
 import shapely
 
-import plyfold as pf
+from coarse import CURVES
 from plyfold.errors import CurveError, StrokeError
-from plyfold.gallery import CURVES, chain
-from plyfold.sketch.kinks import find_kink
-from plyfold.sketch.look import in_words, look
+from plyfold.gallery import chain
+from plyfold.report import in_words
+from plyfold.sketch.look import look_at
 from plyfold.sketch.schema import Look, Stroke
-from reference import crossings, gluings
-from reference.random_curves import MILNOR_LIKE, random_polygon
+from reference import crossings
+from reference.random_curves import MILNOR_LIKE
 
 
 def closed(points):
@@ -22,20 +21,12 @@ def closed(points):
 
 
 def asked(points):
-    return look(Look(closed(points)))
+    return look_at(Look(closed(points)))
 
 
 def area(points):
     x, y = np.array(points, dtype=float).T
     return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
-
-
-def bounds_disk(points):
-    """Whether the polygon bounds an immersed disk, by gluing all sheets in all ways."""
-    if abs(crossings.turning_number(points)) != 1:
-        return False
-    upright = points if crossings.turning_number(points) == 1 else points[::-1]
-    return bool(gluings.immersions(*crossings.crossings(upright)[0]))
 
 
 @pytest.fixture(params=CURVES, scope="module")
@@ -103,13 +94,13 @@ def test_strokes_in_any_order_and_direction_make_one_loop():
     points = [tuple(map(float, p)) for p in MILNOR_LIKE]
     pieces = [points[0:4], points[3:8], points[7:12], [points[11], points[0]]]
     strokes = [pieces[2][::-1], pieces[0], pieces[3], pieces[1][::-1]]
-    answer = look(Look(tuple(Stroke(tuple(stroke)) for stroke in strokes)))
+    answer = look_at(Look(tuple(Stroke(tuple(stroke)) for stroke in strokes)))
     assert answer["verdict"]["immersions"] == "2"
     assert {tuple(p) for p in answer["points"]} == set(points)
 
 
 def test_bridged_gaps_are_told():
-    answer = look(Look((Stroke(((0, 0), (4, 0))), Stroke(((4, 0.25), (0, 3), (0, 0))))))
+    answer = look_at(Look((Stroke(((0, 0), (4, 0))), Stroke(((4, 0.25), (0, 3), (0, 0))))))
     assert answer["repairs"] == [{"kind": "gap bridged", "where": [4, 0.125], "size": 0.25}]
 
 
@@ -123,7 +114,7 @@ def test_bridged_gaps_are_told():
 )
 def test_what_is_not_one_loop_is_unfinished(strokes, words):
     with pytest.raises(StrokeError, match=words):
-        look(Look(strokes))
+        look_at(Look(strokes))
 
 
 def test_a_loop_that_crosses_itself_too_often_is_refused():
@@ -148,35 +139,6 @@ def test_counts_in_words_never_exceed_the_count(count):
 
 
 # ---- kinks -----------------------------------------------------------------------------------------------------------
-
-
-def loops_without(points):
-    """Each crossing's shorter loop, shortest first: (its length, the crossing, the rest of the loop)."""
-    found = []
-    for meeting in crossings.meetings(crossings.exact(points)):
-        where = tuple(map(float, meeting.point))
-        inner = [where, *points[meeting.first + 1 : meeting.second + 1]]
-        outer = [where, *points[meeting.second + 1 :], *points[: meeting.first + 1]]
-        lengths = [sum(map(math.dist, loop, loop[1:] + loop[:1])) for loop in (inner, outer)]
-        found.append((min(lengths), where, outer if lengths[0] <= lengths[1] else inner))
-    return sorted(found)
-
-
-@pytest.mark.parametrize("seed", range(60))
-def test_the_kink_is_the_shortest_loop_that_leaves_a_disk(seed):
-    points = random_polygon(np.random.default_rng(seed), 7)
-    arranged = pf.arrangement(points)
-    if pf.bounds_disk(arranged):
-        return
-    expected = next((loop for loop in loops_without(points) if bounds_disk(loop[2])), None)
-    kink = find_kink(arranged)
-    if expected is None:
-        assert kink is None or len(kink.loops) == 2
-    else:
-        assert kink.places == (pytest.approx(expected[1]),)
-        assert sorted(map(tuple, kink.rest.tolist())) == [pytest.approx(p) for p in sorted(expected[2])]
-    if kink is not None:
-        assert bounds_disk(kink.rest.tolist())
 
 
 @pytest.mark.parametrize("name", ["figure-eight", "limacon", "kinked-circle"])

@@ -59,7 +59,7 @@ def test_a_ramp_is_drawn_and_lifted(sketch):
     settled(sketch)
     assert sketch.locator("#surface.empty").count() == 0
     sketch.wait_for_function("() => document.querySelector('#surface canvas').width > 300")
-    points = gallery.CURVES["exit-ramp"].curve.points
+    points = gallery.CURVES["exit-ramp"].draw(40)
     x, y = ((points - points.min(axis=0)) * 380 / np.ptp(points, axis=0).max()).T
     doubled = abs(float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))) / 2
     # The cloth's area, less where it lies double.

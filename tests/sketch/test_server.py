@@ -13,7 +13,7 @@ from urllib.parse import urlsplit
 import numpy as np
 import pytest
 
-from plyfold.sketch.answers import json_answer
+from plyfold.sketch.answers import json_reply
 from plyfold.sketch.opening import start
 from plyfold.sketch.pages import _policy
 from plyfold.sketch.server import SketchServer
@@ -335,7 +335,7 @@ class Observed(Server):
 @pytest.fixture
 def observed():
     workers = Workers()
-    serving = SketchServer("127.0.0.1", 0, workers, json_answer(start(None)))
+    serving = SketchServer("127.0.0.1", 0, workers, json_reply(start(None)))
     thread = threading.Thread(target=serving.serve_forever)
     thread.start()
     yield Observed(serving.address, None, None, workers)
@@ -441,7 +441,7 @@ def test_a_file_to_begin_with(start_server, tmp_path):
 
 
 def test_a_port_that_is_taken_is_named(start_server, tmp_path, capsys):
-    from plyfold.cli import main
+    from plyfold.cli.commands import main
 
     with start_server() as server:
         port = urlsplit(server.url).port
@@ -451,7 +451,7 @@ def test_a_port_that_is_taken_is_named(start_server, tmp_path, capsys):
 
 @pytest.mark.parametrize("file", ["nowhere.svg", "gallery:nothing"])
 def test_what_cannot_be_opened_is_told_before_anything_is_served(file, capsys):
-    from plyfold.cli import main
+    from plyfold.cli.commands import main
 
     assert main(["sketch", "--no-browser", file]) == 2
     assert "Drawing at" not in capsys.readouterr().out

@@ -6,17 +6,17 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from plyfold.arrangement import arrangement
-from plyfold.certify import CertificateError, check_layered, check_surface
-from plyfold.curve import Curve
-from plyfold.errors import NotEmbeddableError
-from plyfold.flat.cells import triangulate_cells
-from plyfold.gallery import CURVES
-from plyfold.immersion import immersions
-from plyfold.layering import find_layering
-from plyfold.layering.intersections import IntersectingLayering, least_intersecting_layering
-from plyfold.surface import lift
+from coarse import CURVES
+from plyfold.arrangement.arrangement import arrange
+from plyfold.arrangement.gauss import GaussCode
+from plyfold.certify import check_layered, check_surface
+from plyfold.errors import CertificateError, NotEmbeddableError
+from plyfold.immersion.solve import immersions
+from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
+from plyfold.layering.orders.search import find_layering
+from plyfold.mesh.cells import triangulate_cells
 from plyfold.surface.chords import split_chords
+from plyfold.surface.lift import lift
 from reference.triangles import in_span, intersection, meeting_pairs
 
 SMALLEST = (
@@ -28,7 +28,7 @@ SMALLEST = (
 
 def failing(name):
     """The immersions that do not lift: of the Bennequin-like curve, or of one of the smallest curves that have some."""
-    curve = CURVES[name].curve if name in CURVES else Curve.from_gauss(*SMALLEST)
+    curve = CURVES[name].curve if name in CURVES else GaussCode(*SMALLEST).to_curve()
     return [immersion for immersion in immersions(curve) if not find_layering(immersion)]
 
 
@@ -139,7 +139,7 @@ def test_not_without_permission():
 
 def test_best_of_several_immersions(monkeypatch):
     candidates = failing("bennequin")
-    monkeypatch.setattr("plyfold.surface.surface.watched_immersions", lambda *_: iter(candidates))
+    monkeypatch.setattr("plyfold.surface.lift.watched_immersions", lambda *_: iter(candidates))
     surface = lift(CURVES["bennequin"].curve, allow_intersections=True, triangles=50)
     assert surface.layering.total_length == min(least_intersecting_layering(i).total_length for i in candidates)
 
@@ -201,7 +201,7 @@ class TestChecker:
 
 def test_no_chord_is_left():
     """Of every edge inside a cell one end is no point of the borders; area and outline are as they were."""
-    arranged = arrangement(CURVES["bennequin"].curve)
+    arranged = arrange(CURVES["bennequin"].curve)
     borders = np.arange(arranged.n_borders)
     for triangles in (0, 300):
         plain = triangulate_cells(arranged, triangles=triangles)

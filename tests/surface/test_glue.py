@@ -5,13 +5,14 @@ from collections import Counter
 import numpy as np
 import pytest
 
+from coarse import CURVES
 from plyfold import find_layering, immersions
-from plyfold.arrangement import arrangement
-from plyfold.certify import CertificateError, check_disk_mesh, check_immersed_disk, check_layered
-from plyfold.flat.cells import triangulate_cells
-from plyfold.gallery import CURVES
-from plyfold.layering import Layering
-from plyfold.surface.glue import glue_sheets
+from plyfold.arrangement.arrangement import arrange
+from plyfold.certify import check_disk_mesh, check_immersed_disk, check_layered
+from plyfold.errors import CertificateError
+from plyfold.layering.layering import Layering
+from plyfold.mesh.cells import triangulate_cells
+from plyfold.surface.glue import stack_sheets
 from reference import random_curves
 
 
@@ -40,7 +41,7 @@ def planar(request, layering):
 
 @pytest.fixture(scope="module")
 def lifted(layering, planar):
-    return glue_sheets(layering, planar)
+    return stack_sheets(layering, planar)
 
 
 def test_immersed_disk_over_the_curve(layering, planar, lifted):
@@ -94,7 +95,7 @@ def test_immersion_without_layering():
     for immersion in failing:
         planar = triangulate_cells(immersion.arrangement, triangles=100)
         any_order = np.arange(immersion.n_sheets) - immersion.first_sheet[immersion.sheet_cell] + 1
-        lifted = glue_sheets(Layering(immersion, any_order), planar)
+        lifted = stack_sheets(Layering(immersion, any_order), planar)
         places = planar.points[lifted.planar_vertex]
         check_disk_mesh(lifted.faces, len(places))
         check_immersed_disk(immersion.arrangement.curve.points, places, lifted.faces, lifted.boundary)
@@ -104,13 +105,13 @@ def test_immersion_without_layering():
 
 def test_wrong_levels_are_noticed():
     """Two sheets of one cell exchanged: the checker must see it where the cell borders on others of two sheets."""
-    layering = find_layering(next(immersions(arrangement(CURVES["stacked-spiral"].curve))))
+    layering = find_layering(next(immersions(arrange(CURVES["stacked-spiral"].curve))))
     immersion = layering.immersion
     cell = int(np.argmax(immersion.arrangement.winding))
     a, b = np.flatnonzero(immersion.sheet_cell == cell)[:2]
     level = layering.level.copy()
     level[[a, b]] = level[[b, a]]
     planar = triangulate_cells(immersion.arrangement, triangles=100)
-    lifted = glue_sheets(Layering(immersion, level), planar)
+    lifted = stack_sheets(Layering(immersion, level), planar)
     with pytest.raises(CertificateError, match="change their order"):
         check_layered(np.column_stack([planar.points[lifted.planar_vertex], lifted.level]), lifted.faces)

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from scipy.optimize import nnls
 
+from coarse import CURVES
 from plyfold import find_layering, immersions
 from plyfold.clock import Watch
-from plyfold.flat.cells import triangulate_cells
-from plyfold.gallery import CURVES
-from plyfold.surface import lift
+from plyfold.mesh.cells import triangulate_cells
 from plyfold.surface.energy import cloth_of
-from plyfold.surface.glue import glue_sheets
+from plyfold.surface.glue import stack_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, smooth_heights
+from plyfold.surface.lift import lift
 from reference import random_curves
 
 RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], dtype=np.float64)
@@ -20,7 +20,7 @@ RAMP = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5
 def glued(points, triangles=150):
     layering = next(filter(None, map(find_layering, immersions(points))))
     planar = triangulate_cells(layering.immersion.arrangement, triangles=triangles)
-    return planar.points, glue_sheets(layering, planar)
+    return planar.points, stack_sheets(layering, planar)
 
 
 def helix(turns, per_turn=60):

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import plyfold.surface.contact
+from coarse import CURVES
 from plyfold import find_layering, immersions, lift
 from plyfold.errors import InputError
-from plyfold.flat.cells import triangulate_cells
-from plyfold.gallery import CURVES
+from plyfold.mesh.cells import triangulate_cells
 from plyfold.surface.energy import cloth_of
-from plyfold.surface.glue import LiftedMesh, glue_sheets
+from plyfold.surface.glue import LiftedMesh, stack_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, smooth_heights
 from reference.contact import least_heights
 
@@ -19,7 +19,7 @@ RAMP = CURVES["exit-ramp"].curve
 def glued(name, triangles=400):
     layering = next(filter(None, map(find_layering, immersions(CURVES[name].curve))))
     planar = triangulate_cells(layering.immersion.arrangement, triangles=triangles)
-    return planar.points, glue_sheets(layering, planar)
+    return planar.points, stack_sheets(layering, planar)
 
 
 def kept_apart(z, mesh, gap):

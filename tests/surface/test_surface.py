@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
+from coarse import CURVES
 from plyfold import find_immersion, find_layering, immersions
 from plyfold.certify import check_surface
-from plyfold.curve import Curve
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, PrecisionError
-from plyfold.gallery import CURVES
-from plyfold.surface import lift
+from plyfold.outline.curve import Curve
+from plyfold.surface.lift import lift
 from reference import random_curves
 from reference.triangles import meeting_pairs
 
@@ -156,7 +156,7 @@ def test_no_layering(monkeypatch):
     curve = CURVES["bennequin"].curve
     failing = [immersion for immersion in immersions(curve) if not find_layering(immersion)]
     assert len(failing) == 2
-    monkeypatch.setattr("plyfold.surface.surface.watched_immersions", lambda *_: iter(failing))
+    monkeypatch.setattr("plyfold.surface.lift.watched_immersions", lambda *_: iter(failing))
     with pytest.raises(NotEmbeddableError) as caught:
         lift(curve)
     assert caught.value.obstruction.reason == "reversed pair"

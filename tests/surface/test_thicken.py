@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import trimesh
 
+from coarse import CURVES
 from plyfold import immersions, layerings
 from plyfold.errors import InputError, PrecisionError
-from plyfold.gallery import CURVES
-from plyfold.surface import lift
+from plyfold.surface.lift import lift
 from reference import random_curves
 from reference.triangles import meeting_pairs
 

@@ -7,8 +7,8 @@ import pytest
 
 import plyfold as pf
 from nightly.meshes import judge_spike, thin_spike
-from plyfold.flat.cells import triangulate_cells
-from plyfold.surface.glue import glue_sheets
+from plyfold.mesh.cells import triangulate_cells
+from plyfold.surface.glue import stack_sheets
 from plyfold.surface.heights import _require_order
 
 SPIKE = [
@@ -43,7 +43,7 @@ def test_random_spikes():
 def test_a_gap_that_is_lost_in_rounding():
     layering = pf.lift(RAMP, triangles=50).layering
     cells = triangulate_cells(layering.immersion.arrangement, triangles=50)
-    mesh = glue_sheets(layering, cells)
+    mesh = stack_sheets(layering, cells)
     _require_order(mesh.level * 1e-300, cells.points, mesh)
     with pytest.raises(pf.errors.PrecisionError, match="lost in rounding") as caught:
         _require_order(5.0 + mesh.level * 1e-300, cells.points, mesh)

@@ -7,22 +7,20 @@ import pytest
 from scipy.sparse import csr_array
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.arrangement.crossings import find_contacts
 from plyfold.arrangement.general_position import in_general_position
 from plyfold.clock import Clock, Watch
 from plyfold.errors import TimeLimitError
-from plyfold.flat.cells import triangulate_cells
-from plyfold.flat.constrained import constrained, outline_of
-from plyfold.flat.refine import refine, usual_area
-from plyfold.gallery import CURVES
 from plyfold.immersion.dual_tree import grow_dual_tree
 from plyfold.immersion.grouping import find_groupings, list_groupings
 from plyfold.immersion.word import write_word
-from plyfold.surface.contact import Distances, Problem, least_forces
+from plyfold.mesh.cells import triangulate_cells
+from plyfold.mesh.refine import constrained, noded_curve, refine, usual_area
+from plyfold.surface.contact import Distances, Problem, least_forces, sprung_heights
 from plyfold.surface.energy import cloth_of, held_response, response
-from plyfold.surface.glue import glue_sheets
+from plyfold.surface.glue import stack_sheets
 from plyfold.surface.heights import smooth_heights
-from plyfold.surface.springs import sprung_heights
 
 STAGES = [
     "finding the crossings",
@@ -86,7 +84,7 @@ def test_with_intersections(stage, monkeypatch):
 def glued():
     layering = pf.find_layering(pf.find_immersion(PRETZEL))
     cells = triangulate_cells(layering.immersion.arrangement, triangles=300)
-    return layering, cells, glue_sheets(layering, cells)
+    return layering, cells, stack_sheets(layering, cells)
 
 
 class TestNothingGoesOn:
@@ -101,14 +99,14 @@ class TestNothingGoesOn:
             in_general_position(PRETZEL, "perturb", self.late)
 
     def test_groupings(self):
-        word = write_word(grow_dual_tree(pf.arrangement(CURVES["milnor"].curve)))
+        word = write_word(grow_dual_tree(pf.arrange(CURVES["milnor"].curve)))
         with pytest.raises(TimeLimitError):
             find_groupings(word, self.late)
         with pytest.raises(TimeLimitError):
             list(list_groupings(find_groupings(word), self.late))
 
     def test_meshes(self):
-        outline = outline_of(pf.arrangement(PRETZEL))
+        outline = noded_curve(pf.arrange(PRETZEL))
         with pytest.raises(TimeLimitError):
             constrained(outline, self.late)
         library = constrained(outline)
@@ -122,7 +120,7 @@ class TestNothingGoesOn:
         with pytest.raises(TimeLimitError, match="triangulating"):
             triangulate_cells(layering.immersion.arrangement, triangles=triangles, watch=self.late)
         with pytest.raises(TimeLimitError, match="gluing"):
-            glue_sheets(layering, cells, self.late)
+            stack_sheets(layering, cells, self.late)
 
     def test_heights(self):
         _, cells, mesh = glued()

@@ -16,8 +16,8 @@ import numpy as np
 from plyfold.arrangement.crossings import Contacts, Visits, find_contacts, order_visits
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.curve import Curve, Repair
 from plyfold.errors import GeneralPositionError, InputError
+from plyfold.outline.curve import Curve, Repair
 from plyfold.predicates import orient
 
 __all__ = ["in_general_position", "touching_places"]
@@ -48,8 +48,8 @@ def in_general_position(
     Returns
     -------
     Curve
-        The same curve if it is in general position; else one with a :class:`~plyfold.curve.Repair` per moved vertex.
-        Which vertices move, and where to, does not depend on the starting point or the direction of the curve.
+        The same curve if it is in general position; else one with a :class:`~plyfold.outline.curve.Repair` per moved
+        vertex. Which vertices move, and where to, does not depend on the starting point or the direction of the curve.
     Visits
 
     Raises

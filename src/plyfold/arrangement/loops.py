@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from plyfold.arrangement.core import CurveLike, arrangement
+from plyfold.arrangement.arrangement import CurveLike, arrange, require_one_loop
 from plyfold.arrays import Ints
+from plyfold.graphs import spanning_tree
 
 __all__ = ["loop_turning_numbers"]
 
@@ -39,12 +40,13 @@ def loop_turning_numbers(curve: CurveLike) -> Ints:
 
     Examples
     --------
-    >>> from plyfold.arrangement import Arrangement
+    >>> from plyfold import Arrangement
     >>> limacon = Arrangement.from_gauss([1, 0], [True, False], outer=1)
     >>> loop_turning_numbers(limacon).tolist()
     [[1, 1]]
     """
-    drawn = arrangement(curve)
+    drawn = arrange(curve)
+    require_one_loop(drawn)
     first = np.flatnonzero(np.arange(len(drawn.partner)) < drawn.partner)
     second = drawn.partner[first]
     along = np.concatenate([[0], np.cumsum(_quarter_turns(drawn.left_cell, drawn.right_cell))])
@@ -59,8 +61,9 @@ def _quarter_turns(left: Ints, right: Ints) -> Ints:
     A cell with c corners lacks 4 − c quarters. What a cell and all cells behind it in the tree lack together, the
     border towards the root must turn.
     """
-    parent, border, order = _tree_of_cells(left, right)
-    corners = np.bincount(np.concatenate([left, right]), minlength=len(parent))
+    cells = int(max(left.max(), right.max())) + 1
+    parent, border, order = spanning_tree(cells, left, right)
+    corners = np.bincount(np.concatenate([left, right]), minlength=cells)
     lacking = 4 - corners
     for level in _levels(parent, order)[:0:-1]:
         np.add.at(lacking, parent[level], lacking[level])
@@ -79,19 +82,3 @@ def _levels(parent: Ints, order: Ints) -> list[Ints]:
     while starts[-1] < len(order):
         starts.append(1 + int(np.searchsorted(place_of_parent, starts[-1])))
     return np.split(order, starts[1:-1])
-
-
-def _tree_of_cells(left: Ints, right: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return each cell's parent, a border between the two, and all cells with parents before children."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import breadth_first_order
-
-    cells = int(max(left.max(), right.max())) + 1
-    graph = coo_array((np.ones(len(left), dtype=np.int8), (left, right)), shape=(cells, cells))
-    order, parent = breadth_first_order(graph.tocsr(), 0, directed=False)
-    between = np.zeros(cells, dtype=np.int64)
-    borders = np.arange(len(left))
-    for child, above in ((left, right), (right, left)):
-        in_tree = parent[child] == above
-        between[child[in_tree]] = borders[in_tree]
-    return parent.astype(np.int64), between, order.astype(np.int64)

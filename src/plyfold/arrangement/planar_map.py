@@ -1,7 +1,8 @@
-"""The planar map of a closed curve from its signed Gauss code alone: darts, cells, winding and turning numbers.
+"""Planar maps of closed curves from their crossings alone: darts, cells, winding and turning numbers.
 
-Geometry ends here. A code is ``partner`` (2k), ``ccw`` (2k) and one dart ``outer`` of the unbounded cell; see
-CONVENTIONS.md. The cells are the orbits of *turn left at every crossing*.
+Geometry ends here. The code of one curve is ``partner`` (2k), ``ccw`` (2k) and one dart ``outer`` of the unbounded
+cell; of several curves one must know, besides, where each begins, and which lies inside which. See CONVENTIONS.md. The
+boundaries of cells are the orbits of *turn left at every crossing*.
 """
 
 from __future__ import annotations
@@ -14,8 +15,20 @@ import numpy.typing as npt
 from plyfold.arrays import Bools, Ints
 from plyfold.compiled import run_loop
 from plyfold.errors import GaussCodeError
+from plyfold.graphs import components, spanning_tree
+from plyfold.ragged import count_each, starts_of
 
-__all__ = ["cell_boundaries", "checked_code", "left_windings", "next_darts", "reversed_code", "whitney_turning_number"]
+__all__ = [
+    "borders_at_visits",
+    "cell_boundaries",
+    "cell_windings",
+    "checked_code",
+    "joined_cells",
+    "left_windings",
+    "next_darts",
+    "reversed_code",
+    "whitney_turning_number",
+]
 
 
 def checked_code(partner: npt.ArrayLike, ccw: npt.ArrayLike, outer: int) -> tuple[Ints, Bools, int]:
@@ -54,25 +67,46 @@ def _whole_numbers(name: str, values: npt.ArrayLike) -> Ints:
     return array.astype(np.int64)
 
 
-def next_darts(partner: Ints, ccw: Bools) -> Ints:
-    """Return the dart that follows each dart around the cell on its left.
+def borders_at_visits(first_visit: Ints) -> tuple[Ints, Ints]:
+    """Return the borders that end and that start at each visit, given the first visit of each loop and their number.
+
+    Borders are numbered loop by loop. A loop without visits has one all the same.
+
+    Examples
+    --------
+    >>> [border.tolist() for border in borders_at_visits(np.array([0, 2, 2, 5]))]
+    [[1, 0, 5, 3, 4], [0, 1, 3, 4, 5]]
+    """
+    if len(first_visit) == 2:  # one loop: as below, in a fifth of the time
+        after = np.arange(first_visit[1])
+        return (after - 1) % max(len(after), 1), after
+    first, visits = first_visit[:-1], np.diff(first_visit)
+    after = np.arange(first_visit[-1]) + np.repeat(starts_of(np.maximum(visits, 1)) - first, visits)
+    before = after - 1
+    before[first[visits > 0]] += visits[visits > 0]
+    return before, after
+
+
+def next_darts(partner: Ints, ccw: Bools, first_visit: Ints | None = None) -> Ints:
+    """Return the dart that follows each dart around the cell on its left, of one loop or of several.
 
     On arrival at a visit, turn left: onto the other strand's outgoing border if that strand crosses ours from right
-    to left, back along its incoming border otherwise.
+    to left, back along its incoming border otherwise. A loop without visits follows itself.
     """
-    n = len(partner)
-    if n == 0:
-        return np.array([0, 1])
-    arrival = np.arange(n)
-    outgoing, incoming = 2 * partner, 2 * ((partner - 1) % n) + 1
-    following = np.empty(2 * n, dtype=np.int64)
-    following[2 * ((arrival - 1) % n)] = np.where(ccw, outgoing, incoming)
-    following[2 * arrival + 1] = np.where(ccw, incoming, outgoing)
+    first_visit = np.array([0, len(partner)]) if first_visit is None else first_visit
+    before, after = borders_at_visits(first_visit)
+    following = np.arange(2 * int(np.maximum(first_visit[1:] - first_visit[:-1], 1).sum()))
+    outgoing, incoming = 2 * after[partner], 2 * before[partner] + 1
+    following[2 * before] = np.where(ccw, outgoing, incoming)
+    following[2 * after + 1] = np.where(ccw, incoming, outgoing)
     return following
 
 
 def cell_boundaries(following: Ints, outer: int) -> tuple[Ints, Ints]:
-    """Return the boundaries of all cells, the unbounded one first, the others by their lowest darts.
+    """Return the orbits around all cells, that of the unbounded one first, the others by their lowest darts.
+
+    Where loops hang together they are the boundaries of the cells; otherwise cells have several, which
+    :func:`joined_cells` brings together.
 
     Parameters
     ----------
@@ -134,6 +168,41 @@ def _walked(given: tuple[_Map], cells: _Cells) -> int:
                 dart = following[dart]
     cells.counted[0] = count
     return count
+
+
+def joined_cells(cycle_start: Ints, cycle_darts: Ints, same_cell: Ints) -> tuple[Ints, Ints]:
+    """Return the boundaries of cells of which some have several, orbit after orbit, those by their lowest darts.
+
+    Parameters
+    ----------
+    cycle_start, cycle_darts
+        The orbits, as from :func:`cell_boundaries`.
+    same_cell : (m, 2) int
+        Pairs of darts on the boundary of the same cell.
+
+    Returns
+    -------
+    cell_start : (cells + 1,) int
+    cell_darts : (darts,) int
+        The unbounded cell first, the others by their lowest darts.
+    """
+    size = np.diff(cycle_start)
+    cycle_of_dart = np.empty_like(cycle_darts)
+    cycle_of_dart[cycle_darts] = np.repeat(np.arange(len(size)), size)
+    cell = components(len(size), *cycle_of_dart[same_cell].T)
+    order = np.lexsort((cycle_darts[cycle_start[:-1]], cell))
+    darts = cycle_darts[np.repeat(cycle_start[order], size[order]) + count_each(size[order])]
+    return np.append(0, np.cumsum(np.bincount(cell, weights=size).astype(np.int64))), darts
+
+
+def cell_windings(cell_of_dart: Ints) -> Ints:
+    """Return the winding numbers: none in cell 0, one more on the left of each border than on its right."""
+    left, right = cell_of_dart[0::2], cell_of_dart[1::2]
+    parent, border, order = spanning_tree(int(cell_of_dart.max()) + 1, left, right)
+    winding = np.zeros(len(order), dtype=np.int64)
+    for cell in order[1:].tolist():
+        winding[cell] = winding[parent[cell]] + (1 if left[border[cell]] == cell else -1)
+    return winding
 
 
 def left_windings(ccw: Bools, outer: int) -> Ints:

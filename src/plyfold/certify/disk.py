@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.certify.exact import CertificateError, Ints, as_faces
+from plyfold.certify.exact import Ints, as_faces
+from plyfold.errors import CertificateError
 
 __all__ = ["Sides", "check_ball_mesh", "check_disk_mesh", "disk_sides"]
 
@@ -38,7 +39,7 @@ def check_disk_mesh(faces: npt.ArrayLike, n_vertices: int) -> None:
     >>> check_disk_mesh([[0, 1, 2], [0, 2, 3]], n_vertices=4)
     >>> check_disk_mesh([[0, 1, 2], [0, 1, 3]], n_vertices=4)
     Traceback (most recent call last):
-    plyfold.certify.exact.CertificateError: two triangles lie on the same side of the edge from vertex 0 to vertex 1
+    plyfold.errors.CertificateError: two triangles lie on the same side of the edge from vertex 0 to vertex 1
     """
     disk_sides(faces, n_vertices)
 
@@ -63,7 +64,7 @@ def check_ball_mesh(faces: npt.ArrayLike, n_vertices: int) -> None:
     >>> check_ball_mesh([[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]], n_vertices=4)
     >>> check_ball_mesh([[0, 1, 2], [0, 2, 3], [0, 3, 1]], n_vertices=4)
     Traceback (most recent call last):
-    plyfold.certify.exact.CertificateError: the mesh is not closed: nothing is beyond the edge from vertex 1 to vertex 2
+    plyfold.errors.CertificateError: the mesh is not closed: nothing is beyond the edge from vertex 1 to vertex 2
     """
     sides = _connected_sides(faces, n_vertices)
     if len(rim := np.flatnonzero(sides.twin < 0)):

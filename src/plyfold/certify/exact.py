@@ -1,4 +1,4 @@
-"""What all checks share: their error, and reading of the input."""
+"""What all checks share: how they read what they are given."""
 
 from __future__ import annotations
 
@@ -7,17 +7,13 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.errors import PlyfoldError
+from plyfold.errors import CertificateError
 
-__all__ = ["Bools", "CertificateError", "Floats", "Ints", "as_faces", "different", "finite", "pair_keys"]
+__all__ = ["Bools", "Floats", "Ints", "as_faces", "different", "finite", "pair_keys"]
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int64]
 Bools: TypeAlias = npt.NDArray[np.bool_]
-
-
-class CertificateError(PlyfoldError):
-    """A checked mesh breaks a condition; the message names the condition and the place."""
 
 
 def finite(points: npt.ArrayLike, columns: int) -> Floats:

@@ -8,8 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.certify.disk import Sides, disk_sides
-from plyfold.certify.exact import Bools, CertificateError, Floats, Ints, different, finite
-from plyfold.certify.places import Places, on_edges, require_positive
+from plyfold.certify.exact import Bools, Floats, Ints, different, finite
+from plyfold.certify.places import ExactPlaces, on_edges, require_positive
+from plyfold.errors import CertificateError
 
 __all__ = [
     "Walk",
@@ -63,7 +64,7 @@ def check_immersed_disk(
     >>> check_immersed_disk(square, square, [[0, 1, 2], [0, 2, 3]], boundary=[0, 1, 2, 3])
     >>> check_immersed_disk(square, square, [[0, 1, 2], [0, 2, 3]], boundary=[1, 2, 3, 0])
     Traceback (most recent call last):
-    plyfold.certify.exact.CertificateError: the boundary does not start at the curve's first point, at (0, 0)
+    plyfold.errors.CertificateError: the boundary does not start at the curve's first point, at (0, 0)
     """
     sides, walk = walked(curve_points, vertices_xy, faces, boundary)
     require_immersed(sides, walk, on_edges(walk.near, walk.edges, walk.curve, walk.is_point))
@@ -123,7 +124,7 @@ def walk_along(points: Floats, near: Floats, loop: Ints) -> Walk:
     return Walk(points, near, loop, np.repeat(np.arange(len(at)), np.diff(np.append(at, len(loop)))), is_point)
 
 
-def common_places(walk: Walk) -> Places:
+def common_places(walk: Walk) -> ExactPlaces:
     """Return exact places on the curve's edges that are the same for all vertices given as the same doubles.
 
     Where there are vertices between the points of two edges, the place is where these edges cross.
@@ -143,7 +144,7 @@ def common_places(walk: Walk) -> Places:
     return places.of(place)
 
 
-def _require_on(places: Places, at: Ints, edge: Ints) -> None:
+def _require_on(places: ExactPlaces, at: Ints, edge: Ints) -> None:
     """Check that places are on edges that have not led to them, or perhaps not."""
     for one, other in zip(at.tolist(), edge.tolist(), strict=True):
         if not places.is_on(one, other):
@@ -153,7 +154,7 @@ def _require_on(places: Places, at: Ints, edge: Ints) -> None:
             )
 
 
-def require_immersed(sides: Sides, walk: Walk, places: Places) -> None:
+def require_immersed(sides: Sides, walk: Walk, places: ExactPlaces) -> None:
     """Check that with the vertices on the curve's edges the disk is immersed, with the curve as its boundary."""
     require_along_curve(walk, places)
     require_positive(places, sides.start.reshape(-1, 3))
@@ -172,7 +173,7 @@ def _require_boundary_loop(sides: Sides, loop: Ints, places: Floats) -> None:
         raise CertificateError("the given boundary leaves the boundary of the mesh", where=places[loop[wrong[:1]]])
 
 
-def require_along_curve(walk: Walk, places: Places) -> None:
+def require_along_curve(walk: Walk, places: ExactPlaces) -> None:
     """Check that a walk advances along every edge of the curve.
 
     Of points on one line, the order along it is that of their coordinates.
@@ -200,7 +201,7 @@ def _positions_of(points: Floats, walk: Floats) -> Ints:
     return np.array(at)
 
 
-def _require_single_turns(sides: Sides, loop: Ints, places: Places) -> None:
+def _require_single_turns(sides: Sides, loop: Ints, places: ExactPlaces) -> None:
     """Check that the triangles turn once round each inner vertex, and less than once at each boundary vertex.
 
     Full turns are counted as passages through the direction of +x: from a direction in [π, 2π) to one in [0, π). The
@@ -222,7 +223,7 @@ def _require_single_turns(sides: Sides, loop: Ints, places: Places) -> None:
         raise CertificateError("the triangles at a vertex turn round it too often", where=places.near[wrong])
 
 
-def _upward(places: Places, start: Ints, end: Ints) -> Bools:
+def _upward(places: ExactPlaces, start: Ints, end: Ints) -> Bools:
     """Tell which directions have an angle in [0, π)."""
     upward: Bools = places.step_sign(start, end, np.ones_like(start)) > 0
     level = np.flatnonzero(~upward)

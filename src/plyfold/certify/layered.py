@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.certify.exact import Bools, CertificateError, Floats, Ints, as_faces, different, finite, pair_keys
-from plyfold.certify.places import Places, doubles, require_positive
+from plyfold.certify.exact import Bools, Floats, Ints, as_faces, different, finite, pair_keys
+from plyfold.certify.places import ExactPlaces, doubles, require_positive
+from plyfold.errors import CertificateError
 
 __all__ = ["check_layered", "require_gap", "require_layered", "require_no_overlap"]
 
@@ -60,7 +61,7 @@ def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.
     >>> two_sheets[3] = (0, 0, -1)
     >>> check_layered(two_sheets, [[0, 1, 2], [3, 4, 5]])
     Traceback (most recent call last):
-    plyfold.certify.exact.CertificateError: two triangles over one another change their order, at (0, 0), (1, 0), (0, 1)
+    plyfold.errors.CertificateError: two triangles over one another change their order, at (0, 0), (1, 0), (0, 1)
     """
     require_gap(gap)
     positions = finite(vertices, 3)
@@ -72,11 +73,11 @@ def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.
 
 def require_gap(gap: float) -> None:
     """Check that the gap is a distance."""
-    if not 0 <= gap < np.inf:
-        raise CertificateError(f"the gap must be a number from 0 on, not {gap}")
+    if isinstance(gap, bool) or not isinstance(gap, int | float | np.number) or not 0 <= gap < np.inf:
+        raise CertificateError(f"the gap must be a number from 0 on, not {gap!r}")
 
 
-def require_layered(positions: Floats, triangles: Ints, exact: Places, gap: float, passing: npt.ArrayLike) -> None:
+def require_layered(positions: Floats, triangles: Ints, exact: ExactPlaces, gap: float, passing: npt.ArrayLike) -> None:
     """Check that positive triangles are stacked, both as they are given and with their vertices at exact places.
 
     Vertices at one place as they are given have one exact place.
@@ -187,7 +188,7 @@ def _different_edges(below: Ints, triangles: Ints) -> Ints:
     return np.unique(ends, axis=0)
 
 
-def require_no_overlap(triangles: Ints, places: Places) -> None:
+def require_no_overlap(triangles: Ints, places: ExactPlaces) -> None:
     """Check that flat triangles meet at most in common corners and edges, and as well if their corners are doubles."""
     corners, off = places.near[triangles], places.off[triangles].max(axis=1)
     low, high = corners.min(axis=1) - off[:, None], corners.max(axis=1) + off[:, None]
@@ -198,7 +199,7 @@ def require_no_overlap(triangles: Ints, places: Places) -> None:
         _require_apart(triangles[first[again]], triangles[second[again]], as_given)
 
 
-def _require_apart(a: Ints, b: Ints, places: Places) -> Bools:
+def _require_apart(a: Ints, b: Ints, places: ExactPlaces) -> Bools:
     """Check that the triangles of each pair meet at most in common corners and edges; return where doubles may not.
 
     Two convex polygons without common inner points are separated by the line of a side of one of them. If moreover
@@ -228,7 +229,7 @@ def _pairs_with_common_boxes(low: Floats, high: Floats) -> Iterator[tuple[Ints, 
         yield order[first[meet]], order[second[meet]]
 
 
-def _separated(a: Ints, b: Ints, places: Places) -> tuple[Bools, Bools, Bools]:
+def _separated(a: Ints, b: Ints, places: ExactPlaces) -> tuple[Bools, Bools, Bools]:
     """Tell whether a side of triangle a has all of b on its right, and whether a corner of b alone lies in a.
 
     And where this may be otherwise for the doubles near by.

@@ -14,9 +14,10 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.certify.exact import Bools, CertificateError, Floats, Ints
+from plyfold.certify.exact import Bools, Floats, Ints
+from plyfold.errors import CertificateError
 
-__all__ = ["Places", "doubles", "on_edges", "require_positive"]
+__all__ = ["ExactPlaces", "doubles", "on_edges", "require_positive"]
 
 Point: TypeAlias = tuple[Fraction, Fraction]
 Signs: TypeAlias = npt.NDArray[np.int8]
@@ -29,7 +30,7 @@ _MORE = 1.000001
 
 
 @dataclass(frozen=True, eq=False)
-class Places:
+class ExactPlaces:
     """The places of vertices, named by their numbers.
 
     Parameters
@@ -50,9 +51,9 @@ class Places:
     off: Floats
     curve: Floats
 
-    def of(self, vertices: Ints) -> Places:
+    def of(self, vertices: Ints) -> ExactPlaces:
         """Return the places of some vertices, numbered anew."""
-        return Places(self.near[vertices], self.edges[vertices], self.off[vertices], self.curve)
+        return ExactPlaces(self.near[vertices], self.edges[vertices], self.off[vertices], self.curve)
 
     def turn(self, triangles: Ints) -> Signs:
         """Return the signs of triangles, shape (m, 3): +1 if counter-clockwise, 0 if flat."""
@@ -119,13 +120,13 @@ class Places:
         return _sign(_cross(p, q, r, s))
 
 
-def doubles(points: Floats) -> Places:
+def doubles(points: Floats) -> ExactPlaces:
     """Return places that are doubles."""
     nothing = np.full((len(points), 2), -1)
-    return Places(points, nothing, np.zeros(len(points)), points[:0])
+    return ExactPlaces(points, nothing, np.zeros(len(points)), points[:0])
 
 
-def on_edges(near: Floats, edges: Ints, curve: Floats, given: Bools) -> Places:
+def on_edges(near: Floats, edges: Ints, curve: Floats, given: Bools) -> ExactPlaces:
     """Return places on edges of the curve; those that are given are doubles, whatever edges they are on."""
     off = np.zeros(len(near))
     moved = np.flatnonzero((edges[:, 0] >= 0) & ~given)
@@ -138,7 +139,7 @@ def on_edges(near: Floats, edges: Ints, curve: Floats, given: Bools) -> Places:
         both = off[crossing] + _distance(near[crossing], second, curve)
         off[crossing] = _MORE * both / _sine(first, second, curve)
     off[np.isnan(off)] = np.inf
-    return Places(near, edges, off, curve)
+    return ExactPlaces(near, edges, off, curve)
 
 
 def _directions(edge: Ints, curve: Floats) -> Floats:
@@ -178,7 +179,7 @@ def _scaled(directions: Floats) -> tuple[Floats, Floats]:
     return directions.T * scale, scale
 
 
-def require_positive(places: Places, triangles: Ints) -> None:
+def require_positive(places: ExactPlaces, triangles: Ints) -> None:
     """Check that all triangles are strictly counter-clockwise, also with the doubles that are near their corners."""
     a, b, c = triangles.T
     sign, doubt = places.cross_sign_and_doubt(a, b, a, c)

@@ -8,9 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.certify.disk import check_ball_mesh
-from plyfold.certify.exact import CertificateError, Floats, Ints, as_faces, finite, pair_keys
+from plyfold.certify.exact import Floats, Ints, as_faces, finite, pair_keys
 from plyfold.certify.layered import check_layered
 from plyfold.certify.places import doubles
+from plyfold.errors import CertificateError
 
 __all__ = ["check_solid"]
 
@@ -55,7 +56,7 @@ def check_solid(vertices: npt.ArrayLike, faces: npt.ArrayLike, thickness: float)
     >>> check_solid(top + bottom, [(0, 1, 2), (5, 4, 3), *walls], thickness=1.0)
     >>> check_solid(top + bottom, [(0, 1, 2), (5, 4, 3), *walls], thickness=0.5)
     Traceback (most recent call last):
-    plyfold.certify.exact.CertificateError: top and bottom are not 0.5 apart, at (0, 0)
+    plyfold.errors.CertificateError: top and bottom are not 0.5 apart, at (0, 0)
     """
     positions = finite(vertices, 3)
     triangles = as_faces(faces, len(positions))
@@ -91,8 +92,8 @@ def _tops(positions: Floats, upper: Ints, lower: Ints) -> Ints:
 
 def _require_thickness(positions: Floats, top: Ints, thickness: float) -> None:
     """Check that each vertex and the one above it are the roundings of numbers that are exactly the thickness apart."""
-    if not np.isfinite(thickness):
-        raise CertificateError(f"the thickness must be finite, not {thickness}")
+    if isinstance(thickness, bool) or not isinstance(thickness, int | float | np.number) or not np.isfinite(thickness):
+        raise CertificateError(f"the thickness must be a finite number, not {thickness!r}")
     bottom = np.flatnonzero(top >= 0)
     low, high = positions[bottom, 2], positions[top[bottom], 2]
     with np.errstate(over="ignore", invalid="ignore"):

@@ -1,5 +1,1 @@
 """The command line: a room for each subcommand. The library does the work; only these modules print."""
-
-from plyfold.cli.commands import main
-
-__all__ = ["main"]

@@ -16,7 +16,7 @@ _JSON_GUIDE = """\
 the object that --json prints:
   points, crossings         how many
   cells                     object: winding number -> how many cells have it
-  turning_number, reversed  of the curve after it was turned counter-clockwise, if it was
+  turning_number, reversed  of the curve after it was turned round, if it was
   repairs                   list of {kind, where: [x, y], size}: what was changed in the input
   immersible, immersions    whether the curve bounds a disk, and in how many ways
   sheets                    of each immersion (if immersible)

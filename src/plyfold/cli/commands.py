@@ -16,10 +16,11 @@ from plyfold.cli.progress import clear_progress
 from plyfold.cli.sketch import add_sketch_command
 from plyfold.cli.streams import complain, is_of_a_stream, over_any_streams
 from plyfold.errors import NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
+from plyfold_command import INTERRUPTED, INTERRUPTED_SENTENCE
 
 __all__ = ["main"]
 
-BAD_INPUT, UNKNOWN, INTERRUPTED = 2, 3, 130
+BAD_INPUT, UNKNOWN = 2, 3
 
 _COMMANDS = (
     add_check_command,
@@ -85,7 +86,7 @@ def main(arguments: list[str] | None = None) -> int:
         return _complain(options, error, BAD_INPUT)
     except KeyboardInterrupt:
         clear_progress()
-        complain("plyfold: interrupted; nothing was left half-written")
+        complain(INTERRUPTED_SENTENCE)
         return INTERRUPTED
 
 

@@ -13,7 +13,7 @@ from plyfold.cli.streams import complain
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError
 
 if TYPE_CHECKING:
-    from plyfold.arrangement import Arrangement
+    from plyfold.arrangement.arrangement import Arrangement
 
 __all__ = ["add_draw_command"]
 
@@ -66,7 +66,7 @@ def _draw(options: argparse.Namespace) -> int:
 def _draw_over_under(options: argparse.Namespace) -> int:
     from plyfold.clock import Clock, Watch
     from plyfold.draw.over_under_files import OVER_UNDER_WRITERS
-    from plyfold.surface.surface import layering_of
+    from plyfold.surface.lift import layering_of
 
     watch = Stopwatch()
     arranged = prepare(options, tuple(OVER_UNDER_WRITERS), watch)
@@ -79,8 +79,8 @@ def _draw_over_under(options: argparse.Namespace) -> int:
 
 def _furthest(arranged: Arrangement, options: argparse.Namespace, watch: Stopwatch) -> tuple[Any, Any]:
     """Return the furthest stage that the curve reaches, and the obstruction that ended it."""
-    from plyfold.immersion import find_immersion
-    from plyfold.surface import lift
+    from plyfold.immersion.solve import find_immersion
+    from plyfold.surface.lift import lift
 
     try:
         return lift(arranged, time_limit=options.time_limit, progress=watch), None

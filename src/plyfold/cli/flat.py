@@ -11,7 +11,7 @@ from plyfold.cli.progress import Stopwatch
 from plyfold.loading import FOR_MESHES, load_libraries
 
 if TYPE_CHECKING:
-    from plyfold.arrangement import Arrangement
+    from plyfold.arrangement.arrangement import Arrangement
 
 __all__ = ["add_flat_commands"]
 
@@ -42,7 +42,8 @@ def add_flat_commands(commands: Any) -> None:
 
 
 def _split(options: argparse.Namespace) -> int:
-    from plyfold.flat import coverage, decompose
+    from plyfold.flat.coverage import coverage
+    from plyfold.flat.decompose import decompose
     from plyfold.io.pieces import POLYGON_WRITERS
 
     watch = Stopwatch()
@@ -70,9 +71,9 @@ def _direction(arranged: Arrangement) -> str:
 
 
 def _triangulate(options: argparse.Namespace) -> int:
-    from plyfold.curve import as_curve
-    from plyfold.flat import triangulate
+    from plyfold.flat.triangulate import triangulate
     from plyfold.io.pieces import TRIANGLE_WRITERS
+    from plyfold.outline.curve import as_curve
 
     watch = Stopwatch()
     arranged = prepare(options, tuple(TRIANGLE_WRITERS), watch)
@@ -87,8 +88,9 @@ def _triangulate(options: argparse.Namespace) -> int:
 
 
 def _unwrap(options: argparse.Namespace) -> int:
-    from plyfold.immersion import find_immersion, nth_immersion
-    from plyfold.surface.unwrap import DISK_ENDINGS, unwrap
+    from plyfold.disk.unwrap import DISK_ENDINGS, unwrap
+    from plyfold.immersion.immersion import Immersion
+    from plyfold.immersion.solve import find_immersion, nth_immersion
 
     watch = Stopwatch()
     arranged = prepare(options, DISK_ENDINGS, watch)
@@ -98,7 +100,7 @@ def _unwrap(options: argparse.Namespace) -> int:
         found = nth_immersion(arranged, options.immersion)
     load_libraries(FOR_MESHES, watch)
     watch("unwinding")
-    unwound = unwrap(found or arranged, triangles=options.triangles)
+    unwound = unwrap(found if isinstance(found, Immersion) else arranged, triangles=options.triangles)
     watch("writing")
     for path in options.output:
         unwound.export(path, options.force)
@@ -112,7 +114,7 @@ def _unwrap(options: argparse.Namespace) -> int:
 def _word(options: argparse.Namespace) -> int:
     from itertools import islice
 
-    from plyfold.immersion import blank_word
+    from plyfold.immersion.blank_word import blank_word
 
     word = blank_word(read_arrangement(options, watch := Stopwatch()))
     watch.stop()

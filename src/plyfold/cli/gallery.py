@@ -87,11 +87,8 @@ def _as_json(points: list[list[float]]) -> str:
 
 
 def _as_svg(points: list[list[float]]) -> str:
-    """Return an SVG in the curve's own units, y down, with a margin."""
-    xs, ys = [x for x, _ in points], [-y for _, y in points]
-    size = max(max(xs) - min(xs), max(ys) - min(ys))
-    margin = 0.05 * size
-    box = f"{min(xs) - margin} {min(ys) - margin} {max(xs) - min(xs) + 2 * margin} {max(ys) - min(ys) + 2 * margin}"
-    corners = " ".join(f"{x!r},{y!r}" for x, y in zip(xs, ys, strict=True))
-    style = f'fill="none" stroke="#1d2638" stroke-width="{size / 200}" stroke-linejoin="round"'
-    return f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}">\n<polygon {style} points="{corners}"/>\n</svg>\n'
+    import numpy as np
+
+    from plyfold.io.svg_writing import polylines_svg
+
+    return polylines_svg([np.array([*points, points[0]])])

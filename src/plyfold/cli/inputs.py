@@ -18,7 +18,7 @@ from plyfold.io.saving import refuse_output, save_bytes
 from plyfold.loading import FOR_CROSSINGS, load_libraries
 
 if TYPE_CHECKING:
-    from plyfold.arrangement import Arrangement
+    from plyfold.arrangement.arrangement import Arrangement
 
 __all__ = [
     "DISK",
@@ -74,8 +74,8 @@ def add_outputs(command: argparse.ArgumentParser, endings: str) -> None:
 
 def read_arrangement(options: argparse.Namespace, watch: Stopwatch, clock: Clock | None = None) -> Arrangement:
     """Return the arrangement of the drawing that is named."""
-    from plyfold.arrangement.core import watched_arrangement
-    from plyfold.io import read
+    from plyfold.arrangement.arrangement import watched_arrangement
+    from plyfold.io.reading import read
 
     watch("reading")
     if options.file.startswith("gallery:"):

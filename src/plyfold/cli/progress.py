@@ -5,9 +5,10 @@ from __future__ import annotations
 import sys
 import time
 
+from plyfold_command import CLEAR_LINE
+
 __all__ = ["Stopwatch", "clear_progress", "timing"]
 
-_CLEAR_LINE = "\r\x1b[K"
 # Before so much of a stage is done, and so many seconds of it are over, what is left is a mere guess.
 _LEAST_SHARE, _LEAST_SECONDS = 0.05, 2.0
 
@@ -19,7 +20,7 @@ def _progress_is_seen() -> bool:
 def clear_progress() -> None:
     """Wipe the line of progress, so that the next words begin a line of their own."""
     if _progress_is_seen():
-        print(_CLEAR_LINE, end="", file=sys.stderr, flush=True)
+        print(CLEAR_LINE, end="", file=sys.stderr, flush=True)
 
 
 class Stopwatch:
@@ -36,7 +37,7 @@ class Stopwatch:
             self._stage = stage
         if stage and _progress_is_seen():
             told = f"{stage} {done:.0%}{_left(time.perf_counter() - self._since, done)}" if done else stage
-            print(f"{_CLEAR_LINE}{told}", end="", file=sys.stderr, flush=True)
+            print(f"{CLEAR_LINE}{told}", end="", file=sys.stderr, flush=True)
 
     def stop(self) -> None:
         """End the current stage and clear the line."""

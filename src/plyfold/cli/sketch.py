@@ -41,11 +41,11 @@ def add_sketch_command(commands: Any) -> None:
 
 
 def _sketch(options: argparse.Namespace) -> int:
-    from plyfold.sketch.answers import json_answer
+    from plyfold.sketch.answers import json_reply
     from plyfold.sketch.opening import start
     from plyfold.sketch.workers import Workers
 
-    beginning = json_answer(start(options.file))
+    beginning = json_reply(start(options.file))
     workers = Workers()
     try:
         raise_interrupts()

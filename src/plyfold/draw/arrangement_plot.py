@@ -7,24 +7,32 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
-from plyfold.arrangement import arrangement as arrangement_of
-from plyfold.arrangement.core import CurveLike
+from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrangement.arrangement import arrange as arrangement_of
 from plyfold.arrays import Floats
-from plyfold.draw.canvas import blank, closed, dots, line, note_below, polygon, write, write_below
-from plyfold.draw.colours import ACCENT, INK, OBSTRUCTION, mix, text_colour, winding_colour
-from plyfold.draw.places import Frame, arrows, border_middle, label_circle, line_weight
+from plyfold.colours import ACCENT, INK, OBSTRUCTION, PAPER, mix, text_colour, winding_colour
+from plyfold.draw.canvas import blank, dots, line, note_below, polygon, write, write_below
+from plyfold.draw.placement import (
+    MOST_NUMBERS,
+    Frame,
+    arrows,
+    border_middle,
+    closed,
+    drawn_points,
+    label_circle,
+    line_weight,
+)
+from plyfold.outline.curve import CurveLike
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from plyfold.obstruction import Obstruction
 
-__all__ = ["drawn_points", "plot_arrangement"]
+__all__ = ["plot_arrangement"]
 
-Places = tuple[tuple[float, float], ...]
+_Marked = tuple[tuple[float, float], ...]
 
-MOST_NUMBERS = 60
 # How far a border's number is from it, and how much room there must be up to another number; the drawing has size 1.
 _BESIDE = 0.026
 _ROOM = 0.04
@@ -46,7 +54,7 @@ def plot_arrangement(
         Where to draw; by default on a new figure.
     obstruction : Obstruction, optional
         Mark its places by red crosses and put its sentence below.
-    borders : bool
+    borders : bool, optional
         Number the borders, up to 60 of them; a note says if there are more.
 
     Returns
@@ -67,7 +75,7 @@ def plot_arrangement(
     weight = line_weight(arrangement.n_crossings)
     line(axes, closed(frame(points)), INK, 1.6 * weight)
     _arrowheads(axes, arrangement, frame)
-    rim = {"edgecolors": "white", "linewidths": 0.6 * weight, "zorder": 4}
+    rim = {"edgecolors": PAPER, "linewidths": 0.6 * weight, "zorder": 4}
     dots(axes, frame(arrangement.crossings), ACCENT, 16 * weight**2, **rim)
     _winding_numbers(axes, arrangement, frame, () if obstruction is None else obstruction.where)
     if borders:
@@ -75,11 +83,6 @@ def plot_arrangement(
     if obstruction is not None:
         _mark(axes, obstruction, frame)
     return axes
-
-
-def drawn_points(arrangement: Arrangement) -> Floats:
-    """Return the points of the curve; raises the arrangement's own error if there is no drawing."""
-    return arrangement.border_points(0) if arrangement.curve is None else arrangement.curve.points
 
 
 def _fill_cells(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
@@ -96,7 +99,7 @@ def _arrowheads(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
         polygon(axes, tip + head, INK, zorder=3)
 
 
-def _winding_numbers(axes: Axes, arrangement: Arrangement, frame: Frame, marked: Places) -> None:
+def _winding_numbers(axes: Axes, arrangement: Arrangement, frame: Frame, marked: _Marked) -> None:
     """Write the winding number into every cell that has room for it, unless a marked place takes the room."""
     for cell in range(1, arrangement.n_cells):
         x, y, radius = label_circle(arrangement, cell)
@@ -116,7 +119,7 @@ def _border_numbers(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
         right, left = (frame(place)[0] + side * np.array([dy, -dx]) for side in (_BESIDE, -_BESIDE))
         x, y = left if _room(left, taken) > _room(right, taken) < _ROOM else right
         taken.append((x, y))
-        write(axes, (x, y), str(border), 6.5, color=mix(INK, "#ffffff", 0.25))
+        write(axes, (x, y), str(border), 6.5, color=mix(INK, PAPER, 0.25))
 
 
 def _room(place: Floats, taken: Iterable[tuple[float, float]]) -> float:
@@ -126,6 +129,6 @@ def _room(place: Floats, taken: Iterable[tuple[float, float]]) -> float:
 
 def _mark(axes: Axes, obstruction: Obstruction, frame: Frame) -> None:
     places = frame(obstruction.where)
-    for width, colour in ((5.5, "white"), (2.6, OBSTRUCTION)):
+    for width, colour in ((5.5, PAPER), (2.6, OBSTRUCTION)):
         dots(axes, places, colour, 130, marker="x", linewidths=width, zorder=6)
     write_below(axes, str(obstruction))

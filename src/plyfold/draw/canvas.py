@@ -1,46 +1,75 @@
 """The canvas of all pictures with matplotlib: empty axes, lines, fills, dots, words, and small axes inside large ones.
 
-New figures are not registered with pyplot: nothing pops up, and nothing has to be closed. A notebook shows them.
+New figures are not registered with pyplot: nothing pops up, and nothing has to be closed. A notebook shows them as the
+last line of a cell: Jupyter asks a value for ``_repr_png_``, and matplotlib's figures have none unless its inline
+backend is on. That one shows the figures that pyplot knows; it does not know those made here, so none is shown twice.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from io import BytesIO
 from textwrap import fill
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any
 
-import numpy as np
-import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from plyfold.arrays import Floats
-from plyfold.draw.colours import INK, OBSTRUCTION
+from plyfold.colours import INK, OBSTRUCTION, PAPER
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+__all__ = [
+    "ShownFigure",
+    "blank",
+    "dots",
+    "grid",
+    "line",
+    "new_axes",
+    "note_below",
+    "polygon",
+    "write",
+    "write_below",
+]
 
-__all__ = ["blank", "closed", "dots", "grid", "line", "note_below", "polygon", "write", "write_below"]
-
-T = TypeVar("T", bound=np.generic)
 
 # The width of a letter, as a fraction of its size; and so many letters are in a line at least.
 _LETTER = 0.53
 _SHORTEST_LINE = 24
+_DOTS_PER_INCH = 80
+
+
+class ShownFigure(Figure):
+    """A figure that a notebook shows."""
+
+    def _repr_png_(self) -> bytes:
+        drawn = BytesIO()
+        self.savefig(drawn, format="png", dpi=_DOTS_PER_INCH, facecolor=PAPER)
+        return drawn.getvalue()
+
+
+class ShownAxes(Axes):
+    """Axes for which a notebook shows their figure."""
+
+    def _repr_png_(self) -> bytes:
+        assert isinstance(self.figure, ShownFigure)
+        return self.figure._repr_png_()
+
+
+def new_axes(size: tuple[float, float]) -> ShownAxes:
+    """Return the axes of a new figure of some size in inches."""
+    figure = ShownFigure(figsize=size, layout="constrained")
+    axes = figure.subplots(subplot_kw={"axes_class": ShownAxes})
+    assert isinstance(axes, ShownAxes)
+    return axes
 
 
 def blank(ax: Axes | None, size: tuple[float, float] = (5.0, 5.0)) -> Axes:
     """Return empty axes of equal scale without a frame: the given ones, or those of a new figure of some size."""
     if ax is None:
-        from plyfold.draw.notebook import new_axes
-
         ax = new_axes(size)
     ax.set_aspect("equal", adjustable="datalim")
     ax.set_axis_off()
     return ax
-
-
-def closed(points: npt.NDArray[T]) -> npt.NDArray[T]:
-    """Return points with the first one repeated at the end."""
-    return np.concatenate([points, points[:1]])
 
 
 def polygon(axes: Axes, points: Floats, colour: str, **style: Any) -> None:

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Floats
-from plyfold.draw.places import Frame
+from plyfold.draw.placement import Frame
 
 if TYPE_CHECKING:
-    from plyfold.layering import Layering
+    from plyfold.layering.layering import Layering
 
 __all__ = ["cased_strands", "cut_strands", "strand_with_gaps"]
 

@@ -8,26 +8,25 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plyfold.arrays import Floats
-from plyfold.draw.arrangement_plot import drawn_points, plot_arrangement
+from plyfold.colours import INK, OBSTRUCTION, PAPER, mix, sheet_colour, text_colour
+from plyfold.draw.arrangement_plot import plot_arrangement
 from plyfold.draw.canvas import blank, dots, grid, line, note_below, polygon, write
-from plyfold.draw.colours import INK, OBSTRUCTION, PAPER, mix, sheet_colour, text_colour
-from plyfold.draw.hyperbolic import BorderCircle
-from plyfold.draw.places import Frame
-from plyfold.layering.collapsed import (
+from plyfold.draw.placement import BorderCircle, Frame, drawn_points
+from plyfold.options import refuse_unless_count
+from plyfold.paper.collapsed import (
     CollapsedGraph,
     Edge,
     edge_collapsed_graph,
     edge_collapsed_graphs,
     linear_spanning_subtrees,
 )
-from plyfold.options import refuse_unless_count
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from plyfold.arrangement import Arrangement
-    from plyfold.immersion import Immersion
-    from plyfold.layering import Layering
+    from plyfold.arrangement.arrangement import Arrangement
+    from plyfold.immersion.immersion import Immersion
+    from plyfold.layering.layering import Layering
 
 __all__ = ["plot_collapsed_graph", "plot_collapsed_graphs", "plot_marked_cell"]
 
@@ -53,7 +52,7 @@ def plot_collapsed_graph(
         Where to draw; by default on a new figure.
     layering : Layering, optional
         Write the levels into the nodes instead of the sheets' numbers, as in the paper's figure 11.
-    tree : collection of (int, int)
+    tree : collection of (int, int), optional
         Edges to draw heavy: a spanning tree.
 
     Returns
@@ -105,7 +104,7 @@ def plot_collapsed_graphs(
         Where to draw; by default on a new figure. Each picture gets axes of its own inside these (``ax.child_axes``).
     layering : Layering, optional
         Write the levels into the nodes instead of the sheets' numbers.
-    most : int
+    most : int, optional
         How many cells to draw; if more have a graph, a note says so.
 
     Returns
@@ -151,8 +150,8 @@ def plot_marked_cell(arrangement: Arrangement, cell: int, ax: Axes | None = None
 
     Examples
     --------
-    >>> from plyfold import arrangement
-    >>> ax = plot_marked_cell(arrangement([(0, 0), (2, 2), (2, 0), (0, 2)]), cell=1)
+    >>> from plyfold import arrange
+    >>> ax = plot_marked_cell(arrange([(0, 0), (2, 2), (2, 0), (0, 2)]), cell=1)
     >>> len(ax.patches) > 0
     True
     """

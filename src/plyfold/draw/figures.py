@@ -8,18 +8,18 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
+from plyfold.colours import INK, PAPER
 from plyfold.draw.arrangement_plot import plot_arrangement
-from plyfold.draw.colours import INK
 from plyfold.draw.layers_plot import plot_layers
 from plyfold.draw.layout_plot import plot_layout
 from plyfold.draw.surface_plot import plot_surface
 from plyfold.errors import InputError
-from plyfold.immersion import Immersion
+from plyfold.immersion.immersion import Immersion
 from plyfold.io.saving import refuse_existing, save_bytes
-from plyfold.layering import Layering
-from plyfold.layering.intersections import IntersectingLayering
-from plyfold.surface import Surface
+from plyfold.layering.layering import Layering
+from plyfold.layering.orders.intersections import IntersectingLayering
+from plyfold.surface.lift import Surface
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 Panels: TypeAlias = list[tuple[str, Callable[..., object]]]
 
-__all__ = ["overview", "save", "summary"]
+__all__ = ["overview", "picture_bytes", "save", "summary"]
 
 _PANEL = 3.7
 
@@ -56,7 +56,7 @@ def overview(value: Arrangement | Immersion | Layering | Surface, obstruction: O
     >>> len(overview(find_immersion([(0, 0), (1, 0), (0, 1)])).axes)
     2
     """
-    from plyfold.draw.notebook import ShownFigure
+    from plyfold.draw.canvas import ShownFigure
 
     if isinstance(value, Surface):
         flat, lifted = _panels(value.layering, obstruction), _views(value)
@@ -84,7 +84,7 @@ def save(figure: Figure, path: str | PathLike[str], force: bool = False) -> None
     figure : matplotlib Figure
     path : path
         The ending chooses the format: ``.png``, ``.svg`` or ``.pdf``.
-    force : bool
+    force : bool, optional
         Replace an existing file.
 
     Raises
@@ -93,14 +93,27 @@ def save(figure: Figure, path: str | PathLike[str], force: bool = False) -> None
         If matplotlib knows no format with this ending.
     FileExistsError
         If the file exists and ``force`` is not set.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> save(Figure(), "picture.txt")
+    Traceback (most recent call last):
+    plyfold.errors.InputError: picture.txt: a picture cannot be written so
+      hint: use .png, .svg or .pdf
     """
     kind = Path(path).suffix[1:].lower()
     if kind not in figure.canvas.get_supported_filetypes():
         raise InputError(f"{Path(path).name}: a picture cannot be written so", hint="use .png, .svg or .pdf")
     refuse_existing(path, force)
+    save_bytes(path, picture_bytes(figure, kind), force)
+
+
+def picture_bytes(figure: Figure, kind: str) -> bytes:
+    """Return a figure as a file of some kind, like ``"png"``."""
     drawn = BytesIO()
-    figure.savefig(drawn, format=kind, dpi=160, facecolor="white")
-    save_bytes(path, drawn.getvalue(), force)
+    figure.savefig(drawn, format=kind, dpi=160, facecolor=PAPER)
+    return drawn.getvalue()
 
 
 def _panels(

@@ -14,17 +14,17 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrays import Floats
-from plyfold.draw.colours import INK, PAPER, rgb, sheet_colour
+from plyfold.colours import INK, PAPER, rgb, sheet_colour
+from plyfold.disk.motion import Motion
 from plyfold.draw.depth_buffer import View
-from plyfold.draw.places import middle_and_size, natural_stretch
+from plyfold.draw.placement import middle_and_size, natural_stretch
 from plyfold.draw.render import Image, Mesh, shade
 from plyfold.errors import InputError, PlyfoldError
 from plyfold.io.saving import draft_in, refuse_existing, save_bytes
-from plyfold.surface.animation import Motion
 
 if TYPE_CHECKING:
-    from plyfold.layering import Progress
-    from plyfold.surface import Surface
+    from plyfold.clock import Progress
+    from plyfold.surface.lift import Surface
 
 __all__ = ["FILMS", "save_film"]
 

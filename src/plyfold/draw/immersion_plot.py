@@ -7,16 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement.core import CurveLike
 from plyfold.arrays import Floats
-from plyfold.draw.arrangement_plot import drawn_points
-from plyfold.draw.canvas import blank, closed, grid, line, note_below, polygon
-from plyfold.draw.colours import INK, PAPER, mix, sheet_colour
+from plyfold.colours import INK, PAPER, mix, sheet_colour
+from plyfold.draw.canvas import blank, grid, line, note_below, polygon
 from plyfold.draw.layout_plot import plot_layout
-from plyfold.draw.places import Frame, label_circle, line_weight
-from plyfold.immersion import Immersion, count_immersions, find_immersion, immersions
-from plyfold.immersion.immersion import require_immersion
+from plyfold.draw.placement import Frame, closed, drawn_points, label_circle, line_weight
+from plyfold.immersion.immersion import Immersion, require_immersion
+from plyfold.immersion.solve import count_immersions, find_immersion, immersions
 from plyfold.options import refuse_unless_count
+from plyfold.outline.curve import CurveLike
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -119,7 +118,7 @@ def plot_immersions(curve: CurveLike, ax: Axes | None = None, *, most: int = 4) 
     curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
     ax : matplotlib Axes, optional
         Where to draw; by default on a new figure. Each picture gets axes of its own inside these (``ax.child_axes``).
-    most : int
+    most : int, optional
         How many to draw; if there are more, a note says so.
 
     Returns

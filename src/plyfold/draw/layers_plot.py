@@ -7,18 +7,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from plyfold.arrays import Floats
-from plyfold.draw.arrangement_plot import drawn_points
-from plyfold.draw.canvas import blank, closed, line, polygon, write
+from plyfold.colours import INK, PAPER, mix, sheet_colour
+from plyfold.draw.canvas import blank, line, polygon, write
 from plyfold.draw.casing_gaps import cased_strands
-from plyfold.draw.colours import INK, PAPER, mix, sheet_colour
 from plyfold.draw.over_under import OverUnder, over_under
-from plyfold.draw.places import Frame, line_weight
+from plyfold.draw.placement import Frame, closed, drawn_points, line_weight
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from plyfold.layering import Layering
-    from plyfold.layering.intersections import IntersectingLayering
+    from plyfold.layering.layering import Layering
+    from plyfold.layering.orders.intersections import IntersectingLayering
 
 __all__ = ["plot_casing", "plot_layers"]
 
@@ -68,7 +67,7 @@ def _layer(axes: Axes, layering: Layering | IntersectingLayering, level: int, fr
     arrangement = immersion.arrangement
     for sheet in np.flatnonzero(layering.level == level).tolist():
         outline = frame(arrangement.cell_outline(int(immersion.sheet_cell[sheet]))) @ _SHEAR + lift
-        polygon(axes, outline, mix(sheet_colour(sheet), PAPER, 0.25), edgecolor="white", linewidth=0.7)
+        polygon(axes, outline, mix(sheet_colour(sheet), PAPER, 0.25), edgecolor=PAPER, linewidth=0.7)
     for border in np.flatnonzero(layering.level[immersion.own_sheet] == level).tolist():
         points = arrangement.border_points(border)
         flat = frame(closed(points) if arrangement.n_crossings == 0 else points) @ _SHEAR
@@ -84,7 +83,7 @@ def plot_casing(layering: Layering, ax: Axes | None = None, *, cloth: bool = Tru
         Of a drawing.
     ax : matplotlib Axes, optional
         Where to draw; by default on a new figure.
-    cloth : bool
+    cloth : bool, optional
         Fill the sheets from below to above, in the colours of :func:`plot_layout`; the curve is dashed where cloth
         hides it. Otherwise, draw the curve alone, as a knot is drawn.
 

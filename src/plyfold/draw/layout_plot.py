@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from plyfold.draw.arrangement_plot import MOST_NUMBERS
+from plyfold.colours import INK, PAPER, mix, sheet_colour, winding_colour
 from plyfold.draw.canvas import blank, line, note_below, polygon, write
-from plyfold.draw.colours import INK, PAPER, mix, sheet_colour, winding_colour
-from plyfold.draw.hyperbolic import BorderCircle
-from plyfold.draw.places import line_weight
+from plyfold.draw.placement import MOST_NUMBERS, BorderCircle, line_weight
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from plyfold.immersion import Group, Immersion
+    from plyfold.immersion.immersion import Group, Immersion
 
 __all__ = ["plot_layout"]
 

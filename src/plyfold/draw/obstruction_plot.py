@@ -9,18 +9,19 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
-from plyfold.arrangement import arrangement as arrangement_of
-from plyfold.arrangement.core import CurveLike
+from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrangement.arrangement import arrange as arrangement_of
 from plyfold.arrays import Floats
-from plyfold.draw.arrangement_plot import drawn_points, plot_arrangement
+from plyfold.colours import OBSTRUCTION, PAPER, mix, sheet_colour, text_colour, winding_colour
+from plyfold.draw.arrangement_plot import plot_arrangement
 from plyfold.draw.canvas import polygon, write, write_below
-from plyfold.draw.colours import OBSTRUCTION, PAPER, mix, sheet_colour, text_colour, winding_colour
-from plyfold.draw.places import Frame, border_middle, label_circle
+from plyfold.draw.placement import Frame, border_middle, drawn_points, label_circle
 from plyfold.errors import InputError
-from plyfold.immersion import Immersion, find_immersion
-from plyfold.layering import find_layering
+from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.solve import find_immersion
+from plyfold.layering.orders.search import find_layering
 from plyfold.obstruction import Obstruction
+from plyfold.outline.curve import CurveLike
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

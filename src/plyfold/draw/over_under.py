@@ -14,15 +14,15 @@ from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Floats, Ints
+from plyfold.colours import CLOTH_HIGH, PAPER, layer_colour, mix, sheet_colour
 from plyfold.draw.casing_gaps import cut_strands, strand_with_gaps
-from plyfold.draw.colours import CLOTH_HIGH, PAPER, layer_colour, mix, sheet_colour
-from plyfold.draw.places import Frame, line_weight
+from plyfold.draw.placement import Frame, line_weight
 from plyfold.errors import InputError
-from plyfold.layering import Layering
+from plyfold.layering.layering import Layering
 
-__all__ = ["ClothColours", "Hidden", "OverUnder", "Piece", "Strand", "over_under"]
+__all__ = ["ClothColours", "ClothPiece", "Hidden", "OverUnder", "Strand", "over_under"]
 
 ClothColours: TypeAlias = Literal["cloth", "layers", "sheets"]
 Hidden: TypeAlias = Literal["removed", "dashed"]
@@ -33,7 +33,7 @@ _GAP = 2.0
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
+class ClothPiece:
     """A connected piece of cloth on one level.
 
     Parameters
@@ -73,7 +73,7 @@ class OverUnder:
 
     Parameters
     ----------
-    pieces : tuple of Piece
+    pieces : tuple of ClothPiece
         From back to front.
     strands : tuple of Strand
         Before all pieces; hidden ones first.
@@ -83,13 +83,13 @@ class OverUnder:
         How wide lines should be.
     """
 
-    pieces: tuple[Piece, ...]
+    pieces: tuple[ClothPiece, ...]
     strands: tuple[Strand, ...]
     half: Floats
     stroke: float
 
     @property
-    def layers(self) -> tuple[tuple[Piece, ...], ...]:
+    def layers(self) -> tuple[tuple[ClothPiece, ...], ...]:
         """The pieces of each level, from below."""
         return tuple(tuple(pieces) for _, pieces in groupby(self.pieces, key=lambda piece: piece.level))
 
@@ -152,7 +152,7 @@ def _refuse_options(layering: Layering, colours: str, hidden: str) -> None:
 # ---- pieces --------------------------------------------------------------------------------------------------------
 
 
-def _pieces(layering: Layering, frame: Frame, colours: ClothColours) -> Iterator[Piece]:
+def _pieces(layering: Layering, frame: Frame, colours: ClothColours) -> Iterator[ClothPiece]:
     """Yield the pieces, from the lowest level on."""
     arrangement, cell = layering.immersion.arrangement, layering.immersion.sheet_cell
     part = np.arange(len(layering.level)) if colours == "sheets" else _glued_on_one_level(layering)
@@ -169,7 +169,7 @@ def _pieces(layering: Layering, frame: Frame, colours: ClothColours) -> Iterator
             rings.setdefault(piece, []).append(frame(ring))
         for piece, members in sheets.items():
             colour = _colour(colours, members[0], level, levels)
-            yield Piece(level, tuple(members), tuple(rings[piece]), colour)
+            yield ClothPiece(level, tuple(members), tuple(rings[piece]), colour)
 
 
 def _colour(colours: ClothColours, sheet: int, level: int, levels: int) -> str:

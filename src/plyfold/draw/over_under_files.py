@@ -1,24 +1,37 @@
-"""Files with the layered drawing: SVG, TikZ, and TeX documents."""
+"""Files with the layered drawing: SVG with a group for each layer and piece, and TikZ for documents in LaTeX."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from plyfold.draw.over_under_svg import over_under_svg
-from plyfold.draw.tikz import over_under_tex, over_under_tikz
+import numpy as np
+
+from plyfold.arrays import Floats
+from plyfold.colours import INK
+from plyfold.draw.over_under import OverUnder, Strand, over_under
+from plyfold.draw.svg import SvgPicture
+from plyfold.errors import InputError
 from plyfold.io.saving import refuse_output, save_bytes
-from plyfold.layering import Layering
+from plyfold.layering.layering import Layering
+from plyfold.options import refuse_unless_number
 
-__all__ = ["OVER_UNDER_WRITERS", "save_over_under"]
+__all__ = ["OVER_UNDER_WRITERS", "over_under_svg", "over_under_tex", "over_under_tikz", "save_over_under"]
 
-OVER_UNDER_WRITERS: Mapping[str, Callable[..., str]] = {
-    ".svg": over_under_svg,
-    ".tikz": over_under_tikz,
-    ".tex": over_under_tex,
-}
+_PIXELS = 848.0
+_MARGIN = 24.0
+# Vector editors show such groups as layers.
+_NAMESPACES = " xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape'"
+
+_POINTS_PER_CENTIMETRE = 72.27 / 2.54
+# TeX cannot hold lengths of six metres.
+_WIDEST = 500.0
+
+# Pieces overlap by so much, so that no light shines through between them.
+_SEAM_PIXELS = 0.6
+_SEAM_POINTS = 0.15
 
 
 def save_over_under(layering: Layering, path: str | os.PathLike[str], force: bool = False, **options: Any) -> None:
@@ -45,3 +58,151 @@ def save_over_under(layering: Layering, path: str | os.PathLike[str], force: boo
     """
     refuse_output(str(path), tuple(OVER_UNDER_WRITERS), force)
     save_bytes(path, OVER_UNDER_WRITERS[Path(path).suffix.lower()](layering, **options).encode(), force)
+
+
+# ---- SVG -------------------------------------------------------------------------------------------------------------
+
+
+def over_under_svg(layering: Layering, **options: Any) -> str:
+    """Return a picture of a layered surface from above as SVG.
+
+    Parameters
+    ----------
+    layering : Layering
+        Of a drawing.
+    **options
+        ``colours`` and ``hidden``, see :func:`plyfold.draw.over_under.over_under`.
+
+    Returns
+    -------
+    str
+        Back to front: a group for each layer with a group for each piece in it, named after its sheets, then the
+        hidden strands, if they are drawn, and the visible ones.
+
+    Raises
+    ------
+    InputError
+        If it is no layering, or an option is unknown.
+
+    Examples
+    --------
+    >>> from plyfold import find_immersion, find_layering
+    >>> picture = over_under_svg(find_layering(find_immersion([(0, 0), (1, 0), (0, 1)])))
+    >>> picture.startswith("<svg"), picture.count("<path")
+    (True, 2)
+    """
+    drawn = over_under(layering, **options)
+    picture = SvgPicture(np.stack([-drawn.half, drawn.half]), _PIXELS, _MARGIN)
+    visible, hidden = ([strand for strand in drawn.strands if strand.hidden == kind] for kind in (False, True))
+    width = drawn.stroke * picture.scale
+    parts = [*_layers(picture, drawn), *_strands(picture, "hidden", hidden, width)]
+    parts += _strands(picture, "visible", visible, width)
+    return picture.element(["<title>Over and under</title>", *parts], _NAMESPACES) + "\n"
+
+
+def _layers(picture: SvgPicture, drawn: OverUnder) -> Iterator[str]:
+    for number, pieces in enumerate(drawn.layers, start=1):
+        yield f'<g id="layer-{number}" inkscape:groupmode="layer" inkscape:label="layer {number}">'
+        for piece in pieces:
+            name = f'id="layer-{number}-sheet-{piece.sheets[0]}" inkscape:label="{piece.name}"'
+            style = f'fill="{piece.colour}" stroke="{piece.colour}" stroke-width="{_SEAM_PIXELS}"'
+            outline = "".join(picture.path(ring) for ring in piece.rings)
+            title = f"<title>{piece.name}, level {number}</title>"
+            yield f'<g {name}>{title}<path {style} stroke-linejoin="round" fill-rule="evenodd" d="{outline}"/></g>'
+        yield "</g>"
+
+
+def _strands(picture: SvgPicture, name: str, strands: list[Strand], width: float) -> Iterator[str]:
+    if not strands:
+        return
+    dashes = f' stroke-opacity="0.6" stroke-dasharray="{2.2 * width:g} {1.8 * width:g}"' if name == "hidden" else ""
+    width = 0.7 * width if name == "hidden" else width
+    style = f'fill="none" stroke="{INK}" stroke-width="{width:g}" stroke-linejoin="round"{dashes}'
+    yield f'<g id="{name}-strands" inkscape:groupmode="layer" inkscape:label="{name} strands" {style}>'
+    for strand in strands:
+        yield f'<path d="{picture.path(strand.points, strand.closed)}"/>'
+    yield "</g>"
+
+
+# ---- TikZ ------------------------------------------------------------------------------------------------------------
+
+
+def over_under_tikz(layering: Layering, *, size: float = 8.0, **options: Any) -> str:
+    r"""Return a picture of a layered surface from above as a ``tikzpicture``, to be read with ``\input``.
+
+    Parameters
+    ----------
+    layering : Layering
+        Of a drawing.
+    size : float
+        Its larger side in centimetres.
+    **options
+        ``colours`` and ``hidden``, see :func:`plyfold.draw.over_under.over_under`.
+
+    Returns
+    -------
+    str
+        It needs the package ``tikz``.
+
+    Raises
+    ------
+    InputError
+        If it is no layering, an option is unknown, or TeX cannot draw that size.
+
+    Examples
+    --------
+    >>> from plyfold import find_immersion, find_layering
+    >>> print(over_under_tikz(find_layering(find_immersion([(0, 0), (1, 0), (0, 1)]))).splitlines()[0])
+    \begin{tikzpicture}[line join=round]
+    """
+    refuse_unless_number("size", size)
+    if not 0 < size <= _WIDEST:
+        raise InputError(f"the size must be from 0 to {_WIDEST:g} centimetres, not {size!r}")
+    drawn = over_under(layering, **options)
+    lines = [*_tikz_pieces(drawn, size), *(_tikz_strand(strand, size, drawn.stroke) for strand in drawn.strands)]
+    return "\n".join([r"\begin{tikzpicture}[line join=round]", *lines, r"\end{tikzpicture}"]) + "\n"
+
+
+def over_under_tex(layering: Layering, **options: Any) -> str:
+    """Return :func:`over_under_tikz` as a document of its own, of the class ``standalone``."""
+    picture = over_under_tikz(layering, **options)
+    return "\\documentclass[tikz,border=2mm]{standalone}\n\\begin{document}\n" + picture + "\\end{document}\n"
+
+
+def _tikz_pieces(drawn: OverUnder, size: float) -> Iterator[str]:
+    colours = sorted({piece.colour for piece in drawn.pieces} | {INK})
+    for colour in colours:
+        yield rf"\definecolor{{{_tikz_name(colour)}}}{{HTML}}{{{colour[1:].upper()}}}"
+    for number, pieces in enumerate(drawn.layers, start=1):
+        yield f"% layer {number}"
+        for piece in pieces:
+            rings = "\n  ".join(_tikz_path(ring, size) + " -- cycle" for ring in piece.rings)
+            style = f"{_tikz_name(piece.colour)}, even odd rule, line width={_SEAM_POINTS}pt"
+            yield f"\\filldraw[{style}] % {piece.name}\n  {rings};"
+
+
+def _tikz_strand(strand: Strand, size: float, stroke: float) -> str:
+    width = stroke * size * _POINTS_PER_CENTIMETRE
+    style = f"{_tikz_name(INK)}, line width={width:.3f}pt"
+    if strand.hidden:
+        dashes = f"dash pattern=on {2.2 * width:.3f}pt off {1.8 * width:.3f}pt"
+        style = f"{_tikz_name(INK)}!60, line width={0.7 * width:.3f}pt, {dashes}"
+    return f"\\draw[{style}]\n  {_tikz_path(strand.points, size)}{' -- cycle' if strand.closed else ''};"
+
+
+def _tikz_name(colour: str) -> str:
+    return f"plyfold{colour[1:]}"
+
+
+def _tikz_path(points: Floats, size: float) -> str:
+    """Return a polyline in centimetres, on lines that are not too long."""
+    places = [f"({x:.4f},{y:.4f})" for x, y in (points * size).tolist()]
+    rows = (" -- ".join(places[start : start + 6]) for start in range(0, len(places), 6))
+    return "\n  -- ".join(rows)
+
+
+OVER_UNDER_WRITERS: Mapping[str, Callable[..., str]] = {
+    ".svg": over_under_svg,
+    ".tikz": over_under_tikz,
+    ".tex": over_under_tex,
+}

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
-from plyfold.draw.colours import BACK, CLOTH_HIGH, CLOTH_LOW, rgb
+from plyfold.colours import BACK, CLOTH_HIGH, CLOTH_LOW, rgb
 from plyfold.draw.depth_buffer import Pixels, Seen, View, look
 
 __all__ = ["Image", "Mesh", "shade"]

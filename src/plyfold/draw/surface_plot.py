@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 
 from plyfold.arrays import Floats
-from plyfold.draw.canvas import blank, closed, line
-from plyfold.draw.colours import INK, OBSTRUCTION, layer_colour, rgb, sheet_colour
+from plyfold.colours import INK, OBSTRUCTION, layer_colour, rgb, sheet_colour
+from plyfold.draw.canvas import blank, line
 from plyfold.draw.depth_buffer import View
 from plyfold.draw.over_under import ClothColours
-from plyfold.draw.places import line_weight, middle_and_size, natural_stretch
+from plyfold.draw.placement import closed, line_weight, middle_and_size, natural_stretch
 from plyfold.draw.render import Image, Mesh, shade
 from plyfold.errors import InputError
 from plyfold.options import refuse_unless_count, refuse_unless_number
@@ -20,7 +20,7 @@ from plyfold.options import refuse_unless_count, refuse_unless_number
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from plyfold.surface import Surface
+    from plyfold.surface.lift import Surface
 
 __all__ = ["plot_surface"]
 
@@ -56,7 +56,7 @@ def plot_surface(  # noqa: PLR0913 - each option is keyword-only and independent
         as in :func:`plot_layout`, :func:`plot_immersion` and :func:`plot_layers`.
     stretch : float, optional
         Vertical scale; by default chosen so that the layers can be told apart.
-    pixels : int
+    pixels : int, optional
         Along the longer side; 300 for each inch of the printed picture is enough.
 
     Returns

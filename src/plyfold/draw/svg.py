@@ -1,26 +1,102 @@
-"""A small picture of an arrangement as SVG text, for notebooks; no drawing library needed."""
+"""Small pictures as SVG text, for notebooks: of an arrangement, and of a disk layout. No drawing library is needed."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.draw.colours import ACCENT, INK, text_colour, winding_colour
-from plyfold.draw.places import arrows, border_middle, label_circle, line_weight, middle_and_size
+from plyfold.arrays import Floats
+from plyfold.colours import ACCENT, INK, PAPER, mix, sheet_colour, text_colour, winding_colour
+from plyfold.draw.placement import (
+    MOST_NUMBERS,
+    BorderCircle,
+    arrows,
+    border_middle,
+    label_circle,
+    line_weight,
+    middle_and_size,
+)
+from plyfold.io.svg_writing import path_data
 
 if TYPE_CHECKING:
-    from plyfold.arrangement import Arrangement
+    from plyfold.arrangement.arrangement import Arrangement
+    from plyfold.immersion.immersion import Group, Immersion
 
-__all__ = ["arrangement_svg", "curve_svg"]
+__all__ = ["SvgPicture", "arrangement_svg", "curve_svg", "layout_svg"]
 
-_SIZE = 400.0
-_MARGIN = 16.0
 _STROKE = 2.2
 _FONT = "font-family='system-ui, sans-serif' text-anchor='middle' dominant-baseline='central'"
+
+
+class SvgPicture:
+    """A picture with its map from the drawing to pixels: y down, a margin, and a given longer side.
+
+    Parameters
+    ----------
+    points : (n, 2) float
+        What it has room for.
+    size, margin : float
+        Of the longer side with both margins, and of one margin, in pixels.
+    """
+
+    def __init__(self, points: Floats, size: float = 400.0, margin: float = 16.0) -> None:
+        self.middle, longer = middle_and_size(points)
+        self.scale = (size - 2 * margin) / longer
+        self.half = np.abs(points - self.middle).max(axis=0) * self.scale + margin
+
+    def pixels(self, points: npt.ArrayLike) -> Floats:
+        """Return where points of the drawing are, to a hundredth of a pixel."""
+        return np.asarray(((np.asarray(points) - self.middle) * self.scale * (1, -1) + self.half).round(2))
+
+    def path(self, points: Floats, closed: bool = True) -> str:
+        """Return the ``d`` of a path, without repeated points."""
+        return _path(self.pixels(points), closed)
+
+    def area(self, points: Floats, colour: str, inside: str = "") -> str:
+        """Return a filled polygon."""
+        return f"<path d='{self.path(points)}' fill='{colour}'" + (f">{inside}</path>" if inside else "/>")
+
+    def line(self, points: Floats, colour: str, width: float, closed: bool = False) -> str:
+        """Return a polyline of some width in pixels."""
+        style = f"fill='none' stroke='{colour}' stroke-width='{width:.3g}' stroke-linejoin='round'"
+        return f"<path d='{self.path(points, closed)}' {style}/>"
+
+    def dot(self, place: npt.ArrayLike, radius: float, style: str) -> str:
+        """Return a circle with a radius in pixels."""
+        x, y = self.pixels(place).tolist()
+        return f"<circle cx='{x:g}' cy='{y:g}' r='{radius:.4g}' {style}/>"
+
+    def text(self, place: npt.ArrayLike, words: str, size: float, colour: str = INK) -> str:
+        """Return words in the middle of a place."""
+        x, y = self.pixels(place).tolist()
+        words = words.replace("-", "−")
+        return f"<text x='{x:g}' y='{y:g}' {_FONT} font-size='{size:.3g}' fill='{colour}'>{words}</text>"
+
+    def arrow(self, place: npt.ArrayLike, direction: npt.ArrayLike) -> str:
+        """Return the head of an arrow in a direction of the drawing."""
+        tip, forward = self.pixels(place), np.asarray(direction) * (1, -1)
+        side = np.array([-forward[1], forward[0]])
+        corners = np.array([tip + 5.5 * forward, tip - 4 * forward + 4 * side, tip - 4 * forward - 4 * side])
+        return f"<path d='{_path(corners.round(2))}' fill='{INK}'/>"
+
+    def element(self, parts: Iterable[str], namespaces: str = "") -> str:
+        """Return the picture."""
+        width, height = (f"{2 * half:.0f}" for half in self.half)
+        head = f"<svg xmlns='http://www.w3.org/2000/svg'{namespaces} width='{width}' height='{height}' "
+        return "\n".join([f"{head}viewBox='0 0 {width} {height}'>", *parts, "</svg>"])
+
+
+def _path(pixels: Floats, closed: bool = True) -> str:
+    repeats = np.concatenate([[False], np.all(pixels[1:] == pixels[:-1], axis=1)])
+    kept = pixels[~repeats]
+    return path_data(kept[:-1] if closed and len(kept) > 1 and np.array_equal(kept[0], kept[-1]) else kept, closed)
+
+
+# ---- arrangements ----------------------------------------------------------------------------------------------------
 
 
 def arrangement_svg(arrangement: Arrangement) -> str:
@@ -41,126 +117,105 @@ def arrangement_svg(arrangement: Arrangement) -> str:
 
     Examples
     --------
-    >>> from plyfold import arrangement
-    >>> picture = arrangement_svg(arrangement([(0, 0), (2, 2), (2, 0), (0, 2)]))
+    >>> from plyfold import arrange
+    >>> picture = arrangement_svg(arrange([(0, 0), (2, 2), (2, 0), (0, 2)]))
     >>> picture.startswith("<svg"), picture.count("<path"), picture.count("<circle")
     (True, 5, 1)
     """
     if arrangement.curve is None:
         return _chord_diagram(arrangement)
-    sheet = _Sheet(arrangement.curve.points)
-    parts = [*_cells(arrangement, sheet), _curve(arrangement, sheet), *_arrows(arrangement, sheet)]
-    parts += [*_crossings(arrangement, sheet), *_labels(arrangement, sheet)]
-    return sheet.element(parts)
+    picture, weight = SvgPicture(arrangement.curve.points), line_weight(arrangement.n_crossings)
+    parts = [*_cells(arrangement, picture), picture.line(arrangement.curve.points, INK, _STROKE * weight, closed=True)]
+    parts += [picture.arrow(place, direction) for place, direction in arrows(arrangement)]
+    rim = f"fill='{ACCENT}' stroke='{PAPER}' stroke-width='0.8'"
+    parts += [picture.dot(crossing, 3 * weight, rim) for crossing in arrangement.crossings]
+    return picture.element([*parts, *_labels(arrangement, picture)])
 
 
-def curve_svg(points: npt.NDArray[np.float64]) -> str:
+def curve_svg(points: Floats) -> str:
     """Return a picture of a closed polyline, shape (n, 2), as SVG: the line and its direction. It may touch itself."""
-    sheet = _Sheet(points)
-    place, (dx, dy) = border_middle(np.concatenate([points, points[:1]]))
-    return sheet.element([_outline(points, sheet, _STROKE), _arrow(sheet.pixels(place), np.array([dx, -dy]))])
+    picture = SvgPicture(points)
+    middle = border_middle(np.concatenate([points, points[:1]]))
+    return picture.element([picture.line(points, INK, _STROKE, closed=True), picture.arrow(*middle)])
 
 
-class _Sheet:
-    """The map from the drawing to pixels: y down, a margin, the longer side always the same."""
-
-    def __init__(self, points: npt.NDArray[np.float64]) -> None:
-        self.middle, size = middle_and_size(points)
-        self.scale = (_SIZE - 2 * _MARGIN) / size
-        self.half = np.abs(points - self.middle).max(axis=0) * self.scale + _MARGIN
-
-    def pixels(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        return np.asarray((np.asarray(points) - self.middle) * self.scale * (1, -1) + self.half)
-
-    def element(self, parts: list[str]) -> str:
-        width, height = (f"{2 * half:.0f}" for half in self.half)
-        head = f"<svg xmlns='http://www.w3.org/2000/svg' width='{width}' height='{height}' "
-        return f"{head}viewBox='0 0 {width} {height}'>\n" + "\n".join(parts) + "\n</svg>"
-
-
-def _path(pixels: npt.NDArray[np.float64]) -> str:
-    """Return the ``d`` of a closed path, to a hundredth of a pixel and without repeated points."""
-    rounded = np.round(pixels, 2)
-    kept = rounded[np.any(rounded != np.roll(rounded, 1, axis=0), axis=1)]
-    points = kept if len(kept) else rounded[:1]
-    return "M" + "L".join(f"{x:g},{y:g}" for x, y in points.tolist()) + "Z"
-
-
-def _cells(arrangement: Arrangement, sheet: _Sheet) -> Iterator[str]:
+def _cells(arrangement: Arrangement, picture: SvgPicture) -> Iterator[str]:
     for cell in range(1, arrangement.n_cells):
         winding = int(arrangement.winding[cell])
-        outline = _path(sheet.pixels(arrangement.cell_outline(cell)))
         title = f"<title>cell {cell}, winding number {winding}</title>"
-        yield f"<path d='{outline}' fill='{winding_colour(winding)}'>{title}</path>"
+        yield picture.area(arrangement.cell_outline(cell), winding_colour(winding), title)
 
 
-def _curve(arrangement: Arrangement, sheet: _Sheet) -> str:
-    assert arrangement.curve is not None
-    return _outline(arrangement.curve.points, sheet, _STROKE * line_weight(arrangement.n_crossings))
-
-
-def _outline(points: npt.NDArray[np.float64], sheet: _Sheet, width: float) -> str:
-    style = f"fill='none' stroke='{INK}' stroke-width='{width:.3g}' stroke-linejoin='round'"
-    return f"<path d='{_path(sheet.pixels(points))}' {style}/>"
-
-
-def _arrows(arrangement: Arrangement, sheet: _Sheet) -> Iterator[str]:
-    for place, direction in arrows(arrangement):
-        yield _arrow(sheet.pixels(place), direction * (1, -1))
-
-
-def _arrow(tip: npt.NDArray[np.float64], forward: npt.NDArray[np.float64]) -> str:
-    side = np.array([-forward[1], forward[0]])
-    corners = np.array([tip + 5.5 * forward, tip - 4 * forward + 4 * side, tip - 4 * forward - 4 * side])
-    return f"<path d='{_path(corners)}' fill='{INK}'/>"
-
-
-def _crossings(arrangement: Arrangement, sheet: _Sheet) -> Iterator[str]:
-    radius = 3 * line_weight(arrangement.n_crossings)
-    for x, y in sheet.pixels(arrangement.crossings).round(2).tolist():
-        yield f"<circle cx='{x:g}' cy='{y:g}' r='{radius:.3g}' fill='{ACCENT}' stroke='white' stroke-width='0.8'/>"
-
-
-def _labels(arrangement: Arrangement, sheet: _Sheet) -> Iterator[str]:
+def _labels(arrangement: Arrangement, picture: SvgPicture) -> Iterator[str]:
     for cell in range(1, arrangement.n_cells):
         x, y, radius = label_circle(arrangement, cell)
-        size = min(16.0, 1.3 * radius * sheet.scale)
+        size = min(16.0, 1.3 * radius * picture.scale)
         if size >= 5:
             winding = int(arrangement.winding[cell])
-            yield _text(sheet.pixels((x, y)), str(winding), size, text_colour(winding_colour(winding)))
-
-
-def _text(place: npt.NDArray[np.float64], text: str, size: float, colour: str) -> str:
-    x, y = place.round(2).tolist()
-    return f"<text x='{x:g}' y='{y:g}' {_FONT} font-size='{size:.3g}' fill='{colour}'>{text.replace('-', '−')}</text>"
+            yield picture.text((x, y), str(winding), size, text_colour(winding_colour(winding)))
 
 
 def _chord_diagram(arrangement: Arrangement) -> str:
     """Return the Gauss code as a chord diagram: + where the other strand crosses from right to left, else −."""
     visits = len(arrangement.partner)
-    places = [_on_circle(1.0, visit, visits) for visit in range(visits)]
-    sheet = _Sheet(np.array([(-1.25, -1.25), (1.25, 1.25)]))
-    cx, cy = sheet.pixels((0.0, 0.0)).tolist()
-    ring = (
-        f"<circle cx='{cx:g}' cy='{cy:g}' r='{sheet.scale:.4g}' fill='none' stroke='{INK}' stroke-width='{_STROKE}'/>"
-    )
-    chords = [_chord(sheet, places[p], places[q]) for p, q in enumerate(arrangement.partner.tolist()) if p < q]
+    places = np.array([_at_visit(1.0, visit, visits) for visit in range(visits)]).reshape(-1, 2)
+    picture = SvgPicture(np.array([(-1.25, -1.25), (1.25, 1.25)]))
+    ring = picture.dot((0.0, 0.0), picture.scale, f"fill='none' stroke='{INK}' stroke-width='{_STROKE}'")
+    partners = enumerate(arrangement.partner.tolist())
+    chords = [picture.line(places[[visit, partner]], ACCENT, 1.6) for visit, partner in partners if visit < partner]
     size = min(14.0, 600.0 / max(visits, 1))
     labels = [
-        _text(sheet.pixels(_on_circle(1.13, visit, visits)), f"{visit}{'+' if ccw else '-'}", size, INK)
+        picture.text(_at_visit(1.13, visit, visits), f"{visit}{'+' if ccw else '-'}", size)
         for visit, ccw in enumerate(arrangement.ccw.tolist())
         if size >= 5
     ]
-    top = _on_circle(1.0, -0.5, max(visits, 1))
-    arrow = _arrow(sheet.pixels(top), np.array([-top[1], -top[0]]))
-    return sheet.element([ring, *chords, arrow, *labels])
+    x, y = top = _at_visit(1.0, -0.5, max(visits, 1))
+    return picture.element([ring, *chords, picture.arrow(top, (-y, x)), *labels])
 
 
-def _on_circle(radius: float, visit: float, visits: int) -> tuple[float, float]:
+def _at_visit(radius: float, visit: float, visits: int) -> tuple[float, float]:
     angle = 2 * math.pi * (visit + 0.5) / visits
     return radius * math.cos(angle), radius * math.sin(angle)
 
 
-def _chord(sheet: _Sheet, start: tuple[float, float], end: tuple[float, float]) -> str:
-    (x1, y1), (x2, y2) = sheet.pixels([start, end]).round(2).tolist()
-    return f"<line x1='{x1:g}' y1='{y1:g}' x2='{x2:g}' y2='{y2:g}' stroke='{ACCENT}' stroke-width='1.6'/>"
+# ---- disk layouts ----------------------------------------------------------------------------------------------------
+
+
+def layout_svg(immersion: Immersion) -> str:
+    """Return the disk layout as SVG, in the colours of :func:`plyfold.draw.plot_layout`.
+
+    Parameters
+    ----------
+    immersion : Immersion
+        It need not have a drawing.
+
+    Returns
+    -------
+    str
+        One ``<svg>`` element with a group for each sheet that has own borders.
+
+    Examples
+    --------
+    >>> from plyfold import find_immersion
+    >>> picture = layout_svg(find_immersion([(0, 0), (1, 0), (0, 1)]))
+    >>> picture.startswith("<svg"), picture.count("<g>")
+    (True, 1)
+    """
+    borders, weight = immersion.arrangement.n_borders, line_weight(immersion.arrangement.n_crossings)
+    circle, picture = BorderCircle(borders), SvgPicture(np.array([(-1.0, -1.0), (1.0, 1.0)]), 320.0, 24.0)
+    parts = [picture.dot((0.0, 0.0), picture.scale, f"fill='{mix(winding_colour(1), PAPER, 0.45)}'")]
+    for group in immersion.disk_layout():
+        title = f"<title>sheet {group.sheet} over cell {group.cell}</title>"
+        parts += ["<g>", title, *_group(picture, circle, group, weight), "</g>"]
+    if borders <= MOST_NUMBERS:
+        parts += [picture.text(circle.middle(border, 1.1), str(border), 11.0) for border in range(borders)]
+    return picture.element(parts)
+
+
+def _group(picture: SvgPicture, circle: BorderCircle, group: Group, weight: float) -> Iterator[str]:
+    colour = sheet_colour(group.sheet)
+    yield picture.area(circle.region(group.borders), mix(colour, PAPER, 0.62))
+    for border, other in group.arcs:
+        yield picture.line(circle.join(border, other), mix(colour, INK, 0.15), 1.6 * weight)
+    for border in group.borders:
+        yield picture.line(circle.arc(border, 1.02), colour, 5.0)

@@ -16,20 +16,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from plyfold import colours
 from plyfold.arrays import Floats
-from plyfold.draw import colours
-from plyfold.draw.places import middle_and_size, natural_stretch
+from plyfold.disk.motion import Motion
+from plyfold.draw.placement import middle_and_size, natural_stretch
 from plyfold.errors import InputError, PrecisionError
 from plyfold.options import refuse_unless_count
-from plyfold.surface.animation import Motion
 
 if TYPE_CHECKING:
-    from plyfold.surface import Surface
+    from plyfold.surface.lift import Surface
 
 __all__ = ["frame", "mesh_data", "page"]
 
-_PALE_INK = "#0b0f17"
-_PALE = "#b4bccb"
 # So many positions on the way from the disk to the drawing go into a page, and only two if it would grow too large.
 _FRAMES = 10
 _MANY_VERTICES = 20_000
@@ -74,7 +72,7 @@ def page(surface: Surface, title: str = "plyfold", figures: Mapping[str, object]
             "title": html.escape(title),
             "description": html.escape(f"{title}: a surface in three dimensions. Arrow keys turn it, + and - zoom."),
             "figures": _definition_list(shown),
-            "css": _static("viewer.css"),
+            "css": colours.page_style() + _static("viewer.css"),
             "surface": json.dumps(mesh_data(surface), separators=(",", ":")),
             "three": _static("three.min.js"),
             "cloth": _static("cloth.js"),
@@ -119,8 +117,8 @@ def mesh_data(surface: Surface) -> dict[str, Any]:
             "cloth": [colours.CLOTH_LOW, colours.CLOTH_HIGH],
             "back": colours.BACK,
             "ink": colours.INK,
-            "paleInk": _PALE_INK,
-            "pale": _PALE,
+            "lineOnDark": colours.LINE_ON_DARK,
+            "pale": colours.PALE,
             "intersection": colours.OBSTRUCTION,
             "layers": [colours.layer_colour(i + 1, levels) for i in range(levels)],
             "sheets": [colours.sheet_colour(i) for i in range(3 * len(colours.SHEETS))],

@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement import Arrangement
-from plyfold.arrangement.core import CurveLike
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import PrecisionError
-from plyfold.flat.delaunay import delaunay_triangles, inner_edges
+from plyfold.flat.delaunay import delaunay_triangles
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.flat.triangulate import chosen_immersion
-from plyfold.immersion import Immersion
+from plyfold.graphs import spanning_tree
+from plyfold.halfedges import ends_of, glued_pairs
+from plyfold.immersion.immersion import Immersion
+from plyfold.outline.curve import CurveLike
 from plyfold.predicates import orient
 
 if TYPE_CHECKING:
@@ -104,7 +106,7 @@ def _outlined(points: Floats, faces: Ints, piece: Ints) -> npt.NDArray[np.object
 def _crossing_sides(drawn: Arrangement, faces: Ints) -> list[set[int]]:
     """Return for each triangle those that overlap it because edges of the curve cross that are sides of the two."""
     n = len(faces) + 2
-    start, end = faces.ravel(), faces[:, [1, 2, 0]].ravel()
+    start, end = ends_of(faces)
     on_curve = np.flatnonzero(end == (start + 1) % n)
     triangle = np.empty(n, dtype=np.int64)
     triangle[start[on_curve]] = on_curve // 3
@@ -117,14 +119,8 @@ def _crossing_sides(drawn: Arrangement, faces: Ints) -> list[set[int]]:
 
 def _tree(faces: Ints) -> tuple[list[int], list[int]]:
     """Return the triangles in an order that begins with the root, and before each triangle the one it hangs on."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import breadth_first_order
-
-    first, second = inner_edges(faces).T // 3
-    size = len(faces)
-    graph = coo_array((np.ones(len(first), dtype=np.int8), (first, second)), shape=(size, size))
-    reached, parent = breadth_first_order(graph, 0, directed=False)
-    return reached.tolist(), parent.tolist()
+    parent, _, order = spanning_tree(len(faces), *glued_pairs(faces).T // 3)
+    return order.tolist(), parent.tolist()
 
 
 def _overlaps(points: Floats, faces: Ints, groups: list[Ints]) -> dict[int, set[int]]:

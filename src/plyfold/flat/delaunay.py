@@ -17,16 +17,18 @@ References
 
 from __future__ import annotations
 
+from math import hypot
 from typing import NamedTuple
 
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
-from plyfold.compiled import called_from_loops, run_in_python, run_loop
-from plyfold.flat.flips import wants_flip
-from plyfold.flat.turns import Places, as_places, turn
+from plyfold.compiled import called_from_loops, run_loop
+from plyfold.halfedges import before, following, glued_pairs
+from plyfold.predicates import Coordinates, as_coordinates, turn
 
-__all__ = ["delaunay_triangles", "inner_edges"]
+__all__ = ["delaunay_triangles", "flip_edges", "wants_flip"]
+
 
 # The order of the cuts is random, and the same each time.
 _SEED = 1
@@ -76,7 +78,7 @@ class _Triangles(NamedTuple):
 class _Disk(NamedTuple):
     """Everything."""
 
-    places: Places
+    places: Coordinates
     room: _Room
     triangles: _Triangles
 
@@ -110,35 +112,18 @@ def delaunay_triangles(points: Floats, faces: Ints) -> Ints:
     >>> delaunay_triangles(flat_kite, np.array([(0, 1, 2), (0, 2, 3)])).tolist()
     [[2, 3, 1], [1, 3, 0]]
     """
-    places = as_places(points)
+    places = as_coordinates(points)
     size = 3 * len(faces)
-    cuts = np.random.default_rng(_SEED).permutation(inner_edges(faces))
+    cuts = np.random.default_rng(_SEED).permutation(glued_pairs(faces))
     names = np.arange(size)
     triangles = _Triangles(faces.ravel().copy(), np.full(size, -1), names, names.copy())
     chains = np.zeros(2 * len(faces) + 4, dtype=np.int64)
     room = _Room(chains, np.zeros(4, dtype=np.int64), *np.zeros((5, len(faces) + 2), dtype=np.int64))
     given = (places, _Cuts(*cuts.T.copy()), room)
-    if places.x.dtype == object:
-        triangles = run_in_python(_open_all, given, triangles)
-    else:
-        triangles = run_loop(_open_all, _STEPS_PER_CUT * len(cuts), given, triangles)
-    return triangles.start.reshape(-1, 3)
+    return run_loop(_open_all, _STEPS_PER_CUT * len(cuts), given, triangles).start.reshape(-1, 3)
 
 
-def inner_edges(faces: Ints) -> Ints:
-    """Return the pairs of half-edges that are glued; half-edges are numbered triangle by triangle.
-
-    No two edges of a disk without inner vertices join the same points: between them would lie a disk of two straight
-    sides, without angles.
-    """
-    start, end = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    key = np.minimum(start, end) * (faces.max() + 1) + np.maximum(start, end)
-    order = np.argsort(key, kind="stable")
-    same = np.flatnonzero(np.diff(key[order]) == 0)
-    return np.stack([order[same], order[same + 1]], axis=1)
-
-
-def _open_all(given: tuple[Places, _Cuts, _Room], triangles: _Triangles) -> int:
+def _open_all(given: tuple[Coordinates, _Cuts, _Room], triangles: _Triangles) -> int:
     """Open the cuts; return how many."""
     places, cuts, room = given
     disk = _Disk(places, room, triangles)
@@ -147,22 +132,12 @@ def _open_all(given: tuple[Places, _Cuts, _Room], triangles: _Triangles) -> int:
         _glue(triangles, one, other, -1)
         _begin(disk, one, other)
         foot = triangles.start[one]
-        if _widen(disk, _LEFT, triangles.start[_before(other)]):
+        if _widen(disk, _LEFT, triangles.start[before(other)]):
             _remove(disk, _RIGHT, other)
             _widen_at_foot(disk)
             if _climb(disk, foot):
                 _rebuild(disk, foot)
     return len(cuts.one)
-
-
-@called_from_loops
-def _next(half_edge: int) -> int:
-    return half_edge - 2 if half_edge % 3 == 2 else half_edge + 1
-
-
-@called_from_loops
-def _before(half_edge: int) -> int:
-    return half_edge + 2 if half_edge % 3 == 0 else half_edge - 1
 
 
 @called_from_loops
@@ -195,7 +170,7 @@ def _top(room: _Room, side: int) -> int:
 def _corner(disk: _Disk, side: int) -> int:
     """Return the next corner of a chain."""
     half_edge = disk.room.chains[_top(disk.room, side)]
-    corner: int = disk.triangles.start[half_edge if side == _LEFT else _next(half_edge)]
+    corner: int = disk.triangles.start[half_edge if side == _LEFT else following(half_edge)]
     return corner
 
 
@@ -206,7 +181,7 @@ def _widen(disk: _Disk, side: int, witness: int) -> bool:
     edge = disk.triangles.beyond[disk.room.chains[_top(disk.room, side)]]
     if edge < 0:
         return False
-    begin, end, apex = start[edge], start[_next(edge)], start[_before(edge)]
+    begin, end, apex = start[edge], start[following(edge)], start[before(edge)]
     if turn(disk.places, begin, witness, end) <= 0 or not wants_flip(disk.places, (begin, witness, end, apex)):
         return False
     _remove(disk, side, edge)
@@ -217,7 +192,7 @@ def _widen(disk: _Disk, side: int, witness: int) -> bool:
 def _remove(disk: _Disk, side: int, edge: int) -> None:
     """Remove the triangle of a half-edge beyond a chain's next edge: its two other edges take the place of that."""
     room, top = disk.room, _top(disk.room, side)
-    later, sooner = (_next(edge), _before(edge)) if side == _LEFT else (_before(edge), _next(edge))
+    later, sooner = (following(edge), before(edge)) if side == _LEFT else (before(edge), following(edge))
     room.chains[top], room.chains[top + 1] = later, sooner
     room.sizes[side] += 1
     room.removed[room.sizes[_REMOVED]] = edge // 3
@@ -296,3 +271,63 @@ def _rebuild(disk: _Disk, foot: int) -> None:
             right, rung, rail = corner, first + 2, first + 1
         _glue(triangles, rail, room.outer[step], room.name[step])
     _glue(triangles, rung, room.outer[last], room.name[last])
+
+
+# ---- better triangles on the same points -----------------------------------------------------------------------------
+#
+# The disk may overlap itself. That does not matter to a flip, which looks at two triangles on either side of an edge.
+
+# Two opposite angles must add up to more than half a turn by this much, or rounding could flip an edge for ever.
+_CLEARLY = 1e-9
+
+
+def flip_edges(points: Floats, faces: Ints) -> Ints:
+    """Flip inner edges until, as a rule, no circle around a triangle contains the corner beyond one of its edges.
+
+    Parameters
+    ----------
+    points : (n, 2) float
+    faces : (m, 3) int
+        Counter-clockwise triangles that make a disk.
+
+    Returns
+    -------
+    (m, 3) int
+        Triangles of the same disk, counter-clockwise, exactly. Cost: O(m) if they are round already, O(m²) at worst.
+    """
+    places = Coordinates(*(numbers.tolist() for numbers in as_coordinates(points)))
+    # No two edges join the same points: between them would lie a disk of two straight sides, without angles.
+    apex = {(u, v): w for a, b, c in faces.tolist() for u, v, w in ((a, b, c), (b, c, a), (c, a, b))}
+    waiting = [edge for edge in apex if edge[0] < edge[1]]
+    while waiting:
+        u, v = waiting.pop()
+        a, b = apex.get((u, v)), apex.get((v, u))
+        if a is None or b is None or not wants_flip(places, (u, b, v, a)):
+            continue
+        del apex[u, v], apex[v, u]
+        for p, q, r in ((u, b, a), (b, v, a)):
+            apex[p, q], apex[q, r], apex[r, p] = r, p, q
+        waiting += [(u, b), (b, v), (v, a), (a, u)]
+    rows = [(u, v, w) for (u, v), w in apex.items() if u < v and u < w]
+    return np.array(rows, dtype=np.int64).reshape(-1, 3)
+
+
+@called_from_loops
+def wants_flip(places: Coordinates, corners: tuple[int, int, int, int]) -> bool:
+    """Tell whether a quadrilateral u, b, v, a is convex, and its angles at a and b are more than half a turn."""
+    u, b, v, a = corners
+    sine_a, cosine_a = _angle(places, u, a, v)
+    sine_b, cosine_b = _angle(places, v, b, u)
+    if sine_a * cosine_b + cosine_a * sine_b > -_CLEARLY:
+        return False
+    return turn(places, u, b, a) > 0 and turn(places, b, v, a) > 0
+
+
+@called_from_loops
+def _angle(places: Coordinates, before: int, corner: int, after: int) -> tuple[float, float]:
+    """Return sine and cosine of the angle at the corner of a counter-clockwise triangle."""
+    x, y, _ = places
+    px, py = x[after] - x[corner], y[after] - y[corner]
+    qx, qy = x[before] - x[corner], y[before] - y[corner]
+    size = hypot(px, py) * hypot(qx, qy) or 1.0
+    return abs(px * qy - py * qx) / size, (px * qx + py * qy) / size

@@ -21,13 +21,12 @@ from typing import NamedTuple
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
-from plyfold.compiled import called_from_loops, run_in_python, run_loop
+from plyfold.compiled import called_from_loops, run_loop
 from plyfold.errors import PlyfoldError
-from plyfold.flat.sheets import seams_of
-from plyfold.flat.skip_list import SkipList, empty_skip_list, link_above, unlink
-from plyfold.flat.sweep_order import sweep_order
-from plyfold.flat.turns import Places, as_places, turn
-from plyfold.immersion import Immersion
+from plyfold.flat.sweep_line import SkipList, empty_skip_list, link_above, sweep_order, unlink
+from plyfold.immersion.immersion import Immersion
+from plyfold.mesh.sheets import seams_of
+from plyfold.predicates import Coordinates, as_coordinates, turn
 
 __all__ = ["sweep_triangles"]
 
@@ -93,7 +92,7 @@ class _Output(NamedTuple):
 class _Sweep(NamedTuple):
     """Everything."""
 
-    places: Places
+    places: Coordinates
     drawing: _Drawing
     nodes: SkipList
     strands: _Strands
@@ -124,7 +123,7 @@ def sweep_triangles(immersion: Immersion) -> Ints:
 
     Examples
     --------
-    >>> from plyfold.immersion import find_immersion
+    >>> from plyfold import find_immersion
     >>> sweep_triangles(find_immersion([(0, 0), (4, 0), (1, 1), (0, 4)])).tolist()
     [[0, 2, 3], [0, 1, 2]]
     """
@@ -134,15 +133,9 @@ def sweep_triangles(immersion: Immersion) -> Ints:
     n = len(points)
     ahead = np.diff(drawing.rank, append=drawing.rank[:1]) > 0
     starts = int((ahead[1:] > ahead[:-1]).sum()) + int(ahead[0] > ahead[-1])
-    places = as_places(points)
-    given, output = (
-        (places, drawing, *_room(n, starts)),
-        _Output(np.empty((n - 2, 3), dtype=np.int64), np.zeros(5, dtype=np.int64)),
-    )
-    if places.x.dtype == object:
-        output = run_in_python(_swept, given, output)
-    else:
-        output = run_loop(_swept, len(drawing.order), given, output)
+    given = (as_coordinates(points), drawing, *_room(n, starts))
+    output = _Output(np.empty((n - 2, 3), dtype=np.int64), np.zeros(5, dtype=np.int64))
+    output = run_loop(_swept, len(drawing.order), given, output)
     if output.counts[_TRIANGLES] != n - 2:
         raise PlyfoldError("internal check failed: the triangles make the disk", where=points[:1])
     return output.faces
@@ -181,7 +174,7 @@ def _room(n: int, starts: int) -> tuple[SkipList, _Strands, _Intervals, _Polygon
     )
 
 
-def _swept(given: tuple[Places, _Drawing, SkipList, _Strands, _Intervals, _Polygons], output: _Output) -> int:
+def _swept(given: tuple[Coordinates, _Drawing, SkipList, _Strands, _Intervals, _Polygons], output: _Output) -> int:
     """Sweep; return how many triangles there are."""
     places, drawing, nodes, strands, intervals, polygons = given
     sweep = _Sweep(places, drawing, nodes, strands, intervals, polygons, output)

@@ -6,17 +6,15 @@ from typing import overload
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement, arrangement
-from plyfold.arrangement.core import CurveLike
+from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrays import Floats, Ints
-from plyfold.curve import Curve, as_curve
 from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError, PlyfoldError
-from plyfold.flat.cells import refuse_max_area
-from plyfold.flat.delaunay import delaunay_triangles
-from plyfold.flat.flips import flip_edges
+from plyfold.flat.delaunay import delaunay_triangles, flip_edges
 from plyfold.flat.sweep import sweep_triangles
-from plyfold.immersion import Immersion, find_immersion
-from plyfold.immersion.immersion import require_immersion
+from plyfold.immersion.immersion import Immersion, require_disk, require_immersion
+from plyfold.immersion.solve import find_immersion
+from plyfold.mesh.cells import refuse_max_area
+from plyfold.outline.curve import Curve, CurveLike, as_curve
 from plyfold.predicates import orient
 
 __all__ = ["chosen_immersion", "triangulate"]
@@ -106,7 +104,7 @@ def triangulate(
 def chosen_immersion(curve: CurveLike, immersion: Immersion | None) -> Immersion:
     """Return the immersion asked for, or the curve's first; raise an error if there is none."""
     if immersion is None:
-        drawing = arrangement(curve)
+        drawing = arrange(curve)
         if drawing.curve is None:
             raise PlyfoldError("triangles need a drawing, and this arrangement is a Gauss code alone")
         found = find_immersion(drawing)
@@ -116,7 +114,7 @@ def chosen_immersion(curve: CurveLike, immersion: Immersion | None) -> Immersion
     drawn = require_immersion(immersion).arrangement
     if not (_same(drawn, curve) if isinstance(curve, Arrangement) else _draws(drawn, as_curve(curve).points)):
         raise InputError("the immersion belongs to another curve", hint="make it from the same arrangement")
-    return immersion
+    return require_disk(immersion)
 
 
 def _faces_as_given(curve: CurveLike, faces: Ints, drawn: Arrangement) -> Ints:
@@ -129,7 +127,7 @@ def _faces_as_given(curve: CurveLike, faces: Ints, drawn: Arrangement) -> Ints:
             raise GeneralPositionError(
                 "strands touch, and where they were separated a triangle has no area on the points as given",
                 where=given.points[flat[0]],
-                hint="take the moved points: a = arrangement(curve), then triangulate(a) and a.curve.points",
+                hint="take the moved points: a = arrange(curve), then triangulate(a) and a.curve.points",
             )
     return faces if isinstance(curve, Curve) else given.rows[faces]
 

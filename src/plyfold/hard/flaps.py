@@ -22,15 +22,14 @@ from itertools import groupby
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement, arrangement
-from plyfold.arrays import Bools, Floats, Ints
-from plyfold.curve import Curve
+from plyfold.arrangement.arrangement import Arrangement, arrange
+from plyfold.arrays import Bools, Floats, Ints, freeze
 from plyfold.errors import InputError
-from plyfold.hard.pieces import immersion_of_pieces
-from plyfold.immersion import Immersion
-from plyfold.layering import Layering
+from plyfold.immersion.immersion import Immersion
+from plyfold.layering.layering import Layering
+from plyfold.outline.curve import Curve
 
-__all__ = ["PALEY", "FlapDisk", "flap_disk"]
+__all__ = ["PALEY", "FlapDisk", "flap_disk", "immersion_of_pieces"]
 
 PALEY = tuple((i, (i + step) % 7) for i in range(7) for step in (1, 2, 4))
 """The Paley tournament on seven flaps. Without opposite arcs no smaller digraph needs more than two colours."""
@@ -58,7 +57,7 @@ class FlapDisk:
 
     Examples
     --------
-    >>> from plyfold.layering import find_layering
+    >>> from plyfold import find_layering
     >>> disk = flap_disk(3, [(0, 1), (1, 2), (2, 0)])
     >>> disk.immersion.arrangement.n_crossings, bool(find_layering(disk.immersion))
     (20, True)
@@ -69,7 +68,7 @@ class FlapDisk:
     piece_of_sheet: Ints
 
     def __post_init__(self) -> None:
-        self.piece_of_sheet.flags.writeable = False
+        freeze(self)
 
     @property
     def curve(self) -> Curve:
@@ -93,7 +92,7 @@ class FlapDisk:
 
         Examples
         --------
-        >>> from plyfold.layering import find_layering
+        >>> from plyfold import find_layering
         >>> disk = flap_disk(2, [(0, 1), (1, 0)])
         >>> sum(disk.sides(find_layering(disk.immersion)))
         1
@@ -143,7 +142,7 @@ def flap_disk(flaps: int, arcs: Iterable[tuple[int, int]]) -> FlapDisk:
     --------
     Three flaps that cover one another's handles: with two sides for three flaps there is no layering.
 
-    >>> from plyfold.layering import find_layering
+    >>> from plyfold import find_layering
     >>> both_ways = [(0, 1), (1, 0), (1, 2), (2, 1), (0, 2), (2, 0)]
     >>> print(find_layering(flap_disk(3, both_ways).immersion).reason)
     reversed pair
@@ -151,7 +150,7 @@ def flap_disk(flaps: int, arcs: Iterable[tuple[int, int]]) -> FlapDisk:
     covers = _checked_covers(flaps, arcs)
     shapes = _shapes(covers)
     corners, piece_of_edge = _outline(shapes)
-    arranged = arrangement(corners, general_position="raise")
+    arranged = arrange(corners, general_position="raise")
     over = _pieces_over_cells(arranged, [[_base_box(shapes), *_handles(shapes)], *(shape.boxes() for shape in shapes)])
     # A side of a handle turns into a side of the flap on the edge on which the border before the base's side ends.
     immersion = immersion_of_pieces(arranged, over, piece_of_edge[np.roll(arranged.visit_edge, -1)])
@@ -271,3 +270,73 @@ def _pieces_over_cells(arranged: Arrangement, pieces: Sequence[Sequence[Box]]) -
 def _inside(box: Box, x: Floats, y: Floats) -> Bools:
     left, low, right, top = box
     return (left <= x) & (x <= right) & (low <= y) & (y <= top)
+
+
+# ---- the disk that is glued from pieces ------------------------------------------------------------------------------
+#
+# A curve may bound several immersed disks. Where it was drawn as the outline of one of them, that one is written down
+# here without a search: the sheets over a cell are the polygons that contain it.
+
+
+def immersion_of_pieces(arrangement: Arrangement, over: Bools, own_piece: Ints) -> Immersion:
+    """Return the immersed disk that is glued from given pieces.
+
+    Parameters
+    ----------
+    arrangement : Arrangement
+        Of the outline of the disk as it was drawn, with at least one crossing.
+    over : (cells, pieces) bool
+        Whether each piece lies over each cell. Pieces do not overlap themselves, and are glued along borders of the
+        arrangement, at most one to one other along each border.
+    own_piece : (borders,) int
+        The piece on the left of each border that has the border on the boundary of the disk.
+
+    Returns
+    -------
+    Immersion
+        It has been checked. The sheets over each cell are in order of the pieces they are part of: in all, in the order
+        of ``np.nonzero(over)``.
+
+    Raises
+    ------
+    PlyfoldError
+        If the pieces do not make an immersed disk with this outline.
+
+    Notes
+    -----
+    O(k · pieces).
+    """
+    sheet = np.cumsum(over).reshape(over.shape) - 1
+    right, left = over[arrangement.right_cell], over[arrangement.left_cell]
+    left[np.arange(arrangement.n_borders), own_piece] = False
+    border, right_piece = np.nonzero(right)
+    left_piece = _glued_pieces(right, left)[border, right_piece]
+    sheet_cell = np.nonzero(over)[0]
+    immersion = Immersion(
+        arrangement=arrangement,
+        sheet_cell=sheet_cell,
+        first_sheet=np.searchsorted(sheet_cell, np.arange(arrangement.n_cells)),
+        own_sheet=sheet[arrangement.left_cell, own_piece],
+        gluing=np.stack(
+            [
+                border,
+                sheet[arrangement.right_cell[border], right_piece],
+                sheet[arrangement.left_cell[border], left_piece],
+            ],
+            axis=1,
+        ),
+    )
+    immersion.check()
+    return immersion
+
+
+def _glued_pieces(right: Bools, left: Bools) -> Ints:
+    """Return the piece on the left that each piece (column) on the right of each border (row) goes on as.
+
+    It is the piece itself, except at a seam, where one piece ends on the right and another begins on the left.
+    """
+    glued = np.tile(np.arange(right.shape[1]), (len(right), 1))
+    ends, begins = right & ~left, left & ~right
+    seam = np.flatnonzero(ends.any(axis=1))
+    glued[seam, ends[seam].argmax(axis=1)] = begins[seam].argmax(axis=1)
+    return glued

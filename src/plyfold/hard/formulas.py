@@ -22,11 +22,11 @@ import numpy as np
 
 from plyfold.errors import InputError
 from plyfold.hard.flaps import FlapDisk, flap_disk
-from plyfold.layering import Layering
+from plyfold.layering.layering import Layering
 
 __all__ = ["FormulaDisk", "formula_disk"]
 
-Clause = tuple[int, ...]
+_Literals = tuple[int, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +38,11 @@ class FormulaDisk:
     disk : FlapDisk
     flap_of_variable : mapping of int to int
         The flap that shows the value of each variable: above the base is true.
+
+    Examples
+    --------
+    >>> formula_disk([(1, 2)]).flap_of_variable.keys()
+    dict_keys([1, 2])
     """
 
     disk: FlapDisk
@@ -48,7 +53,7 @@ class FormulaDisk:
 
         Examples
         --------
-        >>> from plyfold.layering import find_layering
+        >>> from plyfold import find_layering
         >>> made = formula_disk([(1, 2), (2, 3)])
         >>> values = made.assignment(find_layering(made.disk.immersion))
         >>> values[1] != values[2] != values[3]
@@ -90,7 +95,7 @@ def formula_disk(clauses: Iterable[Sequence[int]]) -> FormulaDisk:
     --------
     Seven points cannot have two colours such that every line of the Fano plane has both.
 
-    >>> from plyfold.layering import find_layering
+    >>> from plyfold import find_layering
     >>> fano = formula_disk([(1, 2, 3), (1, 4, 5), (1, 6, 7), (2, 4, 6), (2, 5, 7), (3, 4, 7), (3, 5, 6)])
     >>> print(find_layering(fano.disk.immersion).reason)
     cyclic order
@@ -110,7 +115,7 @@ def formula_disk(clauses: Iterable[Sequence[int]]) -> FormulaDisk:
     return FormulaDisk(disk, {literal: place[flap] for literal, flap in digraph.flap_of.items() if literal > 0})
 
 
-def _checked(clause: Sequence[int]) -> Clause:
+def _checked(clause: Sequence[int]) -> _Literals:
     literals = tuple(sorted(set(clause)))
     if len(literals) not in (2, 3) or 0 in literals or not all(isinstance(literal, Integral) for literal in literals):
         raise InputError(
@@ -147,7 +152,7 @@ class _Digraph:
         self.arcs += zip(flaps, [*flaps[1:], flaps[0]], strict=True)
 
 
-def _add_clause(digraph: _Digraph, clause: Clause, uses: Counter[int]) -> None:
+def _add_clause(digraph: _Digraph, clause: _Literals, uses: Counter[int]) -> None:
     """Add a circle through a flap for one literal that is in no other clause, and the flaps of the others."""
     own = min(clause, key=lambda literal: (uses[literal] > 1, -literal not in digraph.flap_of, -uses[literal]))
     if uses[own] == 1:

@@ -13,13 +13,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from plyfold.arrangement import arrangement
+from plyfold.arrangement.arrangement import arrange
 from plyfold.arrays import Floats
-from plyfold.curve import Curve
 from plyfold.errors import InputError
-from plyfold.immersion import Immersion, immersions
-from plyfold.layering import find_layering
+from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.solve import immersions
+from plyfold.layering.orders.search import find_layering
 from plyfold.obstruction import Obstruction
+from plyfold.outline.curve import Curve
 
 __all__ = ["Unliftable", "search_symmetric"]
 
@@ -33,7 +34,20 @@ TRIES = 20
 
 
 class Unliftable(NamedTuple):
-    """A curve, an immersed disk that it bounds and that cannot be lifted, and the reason."""
+    """A curve, an immersed disk that it bounds and that cannot be lifted, and the reason.
+
+    Parameters
+    ----------
+    curve : Curve
+    immersion : Immersion
+    obstruction : Obstruction
+
+    Examples
+    --------
+    >>> found = next(search_symmetric(np.random.default_rng(0)))
+    >>> found.immersion.arrangement.curve is found.curve
+    True
+    """
 
     curve: Curve
     immersion: Immersion
@@ -48,9 +62,9 @@ def search_symmetric(
     Parameters
     ----------
     rng : numpy.random.Generator
-    order : int
+    order : int, optional
         The curve goes over into itself after a turn by 1 / order; at least 2.
-    triangles : int
+    triangles : int, optional
         How many random triangles, at most, are glued to each part of the regular polygon that a curve begins as: to
         each side, or to two sides of a rhomb if the order is 2.
     attempts : int, optional
@@ -88,7 +102,7 @@ def search_symmetric(
 
 
 def _unliftable(curve: Curve) -> Iterator[Unliftable]:
-    for immersion in islice(immersions(arrangement(curve)), IMMERSIONS_TRIED):
+    for immersion in islice(immersions(arrange(curve)), IMMERSIONS_TRIED):
         found = find_layering(immersion)
         if isinstance(found, Obstruction):
             yield Unliftable(curve, immersion, found)

@@ -12,11 +12,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from string import ascii_lowercase
 
-from plyfold.arrangement import Arrangement, arrangement
-from plyfold.arrangement.core import CurveLike
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange, require_one_loop
 from plyfold.immersion.dual_tree import grow_dual_tree
 from plyfold.immersion.grouping import Grouping, Groupings, find_groupings, list_groupings
-from plyfold.immersion.obstructions import is_visibly_no_disk
+from plyfold.immersion.solve import is_visibly_no_disk
 from plyfold.immersion.word import Word, write_word
 
 __all__ = ["BlankWord", "Letter", "blank_word"]
@@ -144,7 +143,8 @@ def blank_word(curve: CurveLike) -> BlankWord:
     >>> print(blank_word([(0, 0), (1, 0), (0, 1)]))
     (empty)
     """
-    arranged = arrangement(curve)
+    arranged = arrange(curve)
+    require_one_loop(arranged, "Blank's word")
     return BlankWord(arranged, write_word(grow_dual_tree(arranged)))
 
 

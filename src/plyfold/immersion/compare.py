@@ -6,6 +6,7 @@ import numpy as np
 
 from plyfold.arrays import Ints
 from plyfold.errors import InputError
+from plyfold.graphs import components
 from plyfold.immersion.immersion import Immersion, require_immersion
 
 __all__ = ["changed_borders", "flip_distance"]
@@ -35,7 +36,7 @@ def changed_borders(first: Immersion, second: Immersion) -> tuple[int, ...]:
 
     Examples
     --------
-    >>> from plyfold.immersion import immersions
+    >>> from plyfold import immersions
     >>> milnor = [(88, 39), (62, 102), (-17, -15), (-17, -13), (44, -7), (-75, 180),
     ...           (-88, -39), (-62, -102), (17, 15), (17, 13), (-44, 7), (75, -180)]
     >>> changed_borders(*immersions(milnor))
@@ -68,6 +69,14 @@ def flip_distance(first: Immersion, second: Immersion) -> int:
     Notes
     -----
     O(k log k).
+
+    Examples
+    --------
+    >>> from plyfold import immersions
+    >>> milnor = [(88, 39), (62, 102), (-17, -15), (-17, -13), (44, -7), (-75, 180),
+    ...           (-88, -39), (-62, -102), (17, 15), (17, 13), (-44, 7), (75, -180)]
+    >>> flip_distance(*immersions(milnor))
+    6
     """
     _meet(first, second)
     return _partition_distance(first.own_sheet, second.own_sheet)
@@ -75,14 +84,10 @@ def flip_distance(first: Immersion, second: Immersion) -> int:
 
 def _partition_distance(first: Ints, second: Ints) -> int:
     """Return the distance of two partitions of the same things, given the group of each."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     groups = np.unique(first, return_inverse=True)[1], np.unique(second, return_inverse=True)[1]
     sizes = int(groups[0].max()) + 1, int(groups[1].max()) + 1
-    graph = coo_array((np.ones(len(first)), (groups[0], groups[1] + sizes[0])), shape=(sum(sizes), sum(sizes)))
-    joined = int(connected_components(graph, directed=False)[0])
-    return sum(sizes) - 2 * joined
+    joined = components(sum(sizes), groups[0], groups[1] + sizes[0])
+    return sum(sizes) - 2 * int(joined.max() + 1)
 
 
 def _meet(first: Immersion, second: Immersion) -> Ints:

@@ -17,8 +17,7 @@ from bisect import bisect_right
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
-from plyfold.arrangement.core import CurveLike
+from plyfold.arrangement.arrangement import Arrangement, CurveLike
 from plyfold.errors import NotImmersibleError
 from plyfold.immersion.immersion import Immersion
 from plyfold.immersion.solve import find_immersion

@@ -20,11 +20,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.compiled import called_from_loops, run_loop
+from plyfold.graphs import representative
 
 __all__ = ["DualTree", "around_cells", "grow_dual_tree"]
+
+called_from_loops(representative)
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,19 +193,11 @@ def _join(given: tuple[_Shores], results: _Joins) -> int:
     """Join the lakes on both sides of each border, one after another, unless they are joined already (Kruskal)."""
     lake, other, joined = given[0]
     for border in range(len(lake)):
-        here, there = _joined_lake(joined, lake[border]), _joined_lake(joined, other[border])
+        here, there = representative(joined, lake[border]), representative(joined, other[border])
         if here != there:
             joined[here] = there
             results.joins[border] = 1
     return len(lake)
-
-
-@called_from_loops
-def _joined_lake(joined: Ints, lake: int) -> int:
-    """Return the lake that stands for all that were joined to a lake; the way there is halved for the next time."""
-    while joined[lake] != lake:
-        joined[lake] = lake = joined[joined[lake]]
-    return lake
 
 
 def _from_root(shores: dict[int, list[tuple[int, int, int, int]]], root: int) -> Iterator[tuple[int, int, int]]:

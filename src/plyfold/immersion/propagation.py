@@ -11,15 +11,15 @@ part of the word that no chord of another crosses has a ring of its own.
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Iterable
+from collections import Counter, deque
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.immersion.parts import independent_parts
+from plyfold.graphs import representative
 from plyfold.immersion.word import Word
 
-__all__ = ["Conflict", "Narrowed", "narrow"]
+__all__ = ["Conflict", "Narrowed", "independent_parts", "narrow"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -215,3 +215,66 @@ def _reasons(found: _Board | Narrowed, labels: Iterable[int]) -> tuple[int, ...]
                 reasons.add(label)
                 waiting.append(label)
     return tuple(sorted(reasons))
+
+
+# ---- parts that have nothing to do with each other ------------------------------------------------------------------
+
+
+def independent_parts(word: Word, labels: Sequence[int], partners: Sequence[Sequence[int]]) -> list[list[int]]:
+    """Split the letters of some labels into as many parts as can be without chords from one part across another.
+
+    A band between two disks joins their words so that one disk's letters lie between two letters of the other's. Each
+    part can be looked at by itself, however long the word is.
+
+    Parameters
+    ----------
+    word : Word
+    labels : sequence of int
+    partners : sequence of sequence of int
+        The plus letters that each label of the word may still be joined to.
+
+    Returns
+    -------
+    list of list of int
+        The letters of each part in order along the curve; the parts in the order of their first labels. Near-linear.
+    """
+    letters = sorted(letter for label in labels for letter in (word.minus[label], *partners[label]))
+    part = list(range(len(word.minus)))
+    _join_blocks(word, letters, part)
+    _join_crossing(word, letters, part)
+    parts: dict[int, list[int]] = {representative(part, label): [] for label in labels}
+    for letter in letters:
+        parts[representative(part, word.label[letter])].append(letter)
+    return list(parts.values())
+
+
+def _join_blocks(word: Word, letters: list[int], part: list[int]) -> None:
+    """Join labels with a letter in the block of another's: a chord occupies the whole block of its plus letter."""
+    begin, following = len(word), -1
+    for letter in reversed(letters):
+        if begin <= letter:
+            part[representative(part, word.label[letter])] = representative(part, word.label[following])
+        begin, following = min(begin, word.block[letter]), letter
+
+
+def _join_crossing(word: Word, letters: list[int], part: list[int]) -> None:
+    """Join parts whose letters alternate along the curve.
+
+    The parts of which a letter has come, and others have not, wait on a stack. A part that comes again while others
+    wait above it alternates with them.
+    """
+    to_come = Counter(representative(part, word.label[letter]) for letter in letters)
+    open_parts: list[int] = []
+    waiting: set[int] = set()
+    for letter in letters:
+        here = representative(part, word.label[letter])
+        if here not in waiting:
+            open_parts.append(here)
+            waiting.add(here)
+        while open_parts[-1] != here:
+            other = open_parts.pop()
+            part[other] = here
+            to_come[here] += to_come[other]
+        to_come[here] -= 1
+        if not to_come[here]:
+            open_parts.pop()

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.loops import loop_turning_numbers
 from plyfold.arrays import Bools, Floats, Ints
 
@@ -73,11 +73,11 @@ def place_of_turning(drawn: Arrangement) -> tuple[tuple[float, float], ...]:
 
     Examples
     --------
-    >>> from plyfold.arrangement import arrangement
-    >>> place_of_turning(arrangement([(0, 0), (2, 2), (2, 0), (0, 2)]))
+    >>> from plyfold import arrange
+    >>> place_of_turning(arrange([(0, 0), (2, 2), (2, 0), (0, 2)]))
     ((1.0, 1.0),)
     """
-    if drawn.curve is None or not drawn.n_crossings:
+    if len(drawn.curves) != 1 or not drawn.n_crossings:
         return ()
     chosen = next(loops_to_leave_out(drawn), None)
     return places_of(drawn, [loop.first for loop in chosen] if chosen else [_nearer_to_once(drawn)])

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement, arrangement
-from plyfold.arrangement.base import begun_at, numbered_from
-from plyfold.arrangement.core import CurveLike
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange, require_one_loop
+from plyfold.arrangement.base_visit import begun_at, numbered_from
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import InputError
 from plyfold.immersion.dual_tree import DualTree, grow_dual_tree
-from plyfold.immersion.gluing import glue_sheets
 from plyfold.immersion.grouping import (
     Grouping,
     Groupings,
@@ -23,8 +21,9 @@ from plyfold.immersion.grouping import (
     list_groupings,
     nth_grouping,
 )
-from plyfold.immersion.immersion import Immersion, require_memory_for_gluing
-from plyfold.immersion.obstructions import is_visibly_no_disk, no_grouping, visible_obstruction
+from plyfold.immersion.immersion import Immersion, glue_sheets, require_memory_for_gluing
+from plyfold.immersion.propagation import Conflict
+from plyfold.immersion.shorter_loops import place_of_turning
 from plyfold.immersion.word import write_word
 from plyfold.obstruction import Obstruction
 
@@ -34,27 +33,30 @@ __all__ = [
     "count_immersions",
     "find_immersion",
     "immersions",
+    "is_visibly_no_disk",
+    "negative_winding",
     "nth_immersion",
     "sample_immersion",
+    "visible_obstruction",
     "watched_immersions",
 ]
 
+# Above this many ascending links, the conflict that an obstruction names is not made minimal.
+_MINIMISE_UP_TO = 300
 
-def find_immersion(curve: CurveLike, method: Literal["exact", "paper"] = "exact") -> Immersion | Obstruction:
+
+def find_immersion(curve: CurveLike) -> Immersion | Obstruction:
     """Find an immersed disk that has the curve as its boundary, or say why there is none (§2.3 of [MGR11]_).
 
     Parameters
     ----------
     curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
-    method : {"exact", "paper"}
-        Decide exactly, or run the paper's own greedy procedure, which may fail on curves that have an immersion and
-        then says so; see :mod:`plyfold.immersion.paper`.
 
     Returns
     -------
     Immersion or Obstruction
         The result is true if there is an immersion. An immersion has been checked against the definition. An
-        obstruction names the theorem that fails: the turning number is not ±1, a cell has a negative winding number,
+        obstruction names the theorem that fails: the turning number is not 1, a cell has a negative winding number,
         or the exhausted word has no grouping.
 
     Raises
@@ -63,6 +65,8 @@ def find_immersion(curve: CurveLike, method: Literal["exact", "paper"] = "exact"
         If the input is not a closed curve.
     MemoryLimitError
         If the gluing of its sheets would not fit into memory. :func:`bounds_disk` decides without it.
+    InputError
+        If it is several closed curves: so far their immersions are found only together with an embedding.
 
     Notes
     -----
@@ -82,18 +86,12 @@ def find_immersion(curve: CurveLike, method: Literal["exact", "paper"] = "exact"
     >>> print(find_immersion(limacon))
     The curve turns 2 times, and the outline of a disk turns once.
     """
-    if method not in ("exact", "paper"):
-        raise InputError(f'method must be "exact" or "paper", not {method!r}')
-    arranged = arrangement(curve)
+    arranged = arrange(curve)
     obstruction = visible_obstruction(arranged)
     if obstruction is not None:
         return obstruction
-    if method == "paper":
-        from plyfold.immersion.paper import paper_immersion
-
-        return paper_immersion(arranged)
     family = _family_of(arranged)
-    return no_grouping(arranged) if family is None else _glued(family, next(list_groupings(family.groupings)))
+    return _no_grouping(arranged) if family is None else _glued(family, next(list_groupings(family.groupings)))
 
 
 def immersions(curve: CurveLike) -> Iterator[Immersion]:
@@ -116,7 +114,7 @@ def immersions(curve: CurveLike) -> Iterator[Immersion]:
     >>> [len(immersion.disk_layout()) for immersion in immersions(milnor)]
     [9, 9]
     """
-    yield from watched_immersions(arrangement(curve), UNWATCHED)
+    yield from watched_immersions(arrange(curve), UNWATCHED)
 
 
 def watched_immersions(arranged: Arrangement, watch: Watch) -> Iterator[Immersion]:
@@ -267,7 +265,7 @@ def best_immersion(curve: CurveLike, key: Callable[[Immersion], Any]) -> Immersi
     >>> best_immersion(milnor, key=lambda immersion: len(immersion.disk_layout())).n_sheets
     11
     """
-    arranged = arrangement(curve)
+    arranged = arrange(curve)
     return min(immersions(arranged), key=key, default=None) or find_immersion(arranged)
 
 
@@ -283,7 +281,7 @@ class _Family:
 
 
 def _family(curve: CurveLike) -> _Family | None:
-    arranged = arrangement(curve)
+    arranged = arrange(curve)
     return None if is_visibly_no_disk(arranged) else _family_of(arranged)
 
 
@@ -322,3 +320,72 @@ def _random_below(limit: int, rng: np.random.Generator) -> int:
         number = int.from_bytes(rng.bytes((limit.bit_length() + 7) // 8)) >> (-limit.bit_length() % 8)
         if number < limit:
             return number
+
+
+# ---- why there is none (§2.4 of the paper) --------------------------------------------------------------------------
+
+
+def is_visibly_no_disk(arranged: Arrangement) -> bool:
+    """Tell whether there is a visible obstruction, without looking for its place."""
+    require_one_loop(arranged, "the search for immersions")
+    return arranged.turning_number != 1 or bool(arranged.winding.min() < 0)
+
+
+def visible_obstruction(arranged: Arrangement) -> Obstruction | None:
+    """Return the obstruction that numbers alone show, if there is one: the turning number or a winding number."""
+    require_one_loop(arranged, "the search for immersions")
+    turning = arranged.turning_number
+    if turning != 1:
+        sentence = f"The curve turns {turning} times, and the outline of a disk turns once."
+        return Obstruction("turning number", sentence, place_of_turning(arranged), turning, arranged)
+    return negative_winding(arranged)
+
+
+def negative_winding(arranged: Arrangement) -> Obstruction | None:
+    """Return the obstruction of a negative winding number, if there is one: the lowest of them."""
+    lowest = int(np.argmin(arranged.winding))
+    winding = int(arranged.winding[lowest])
+    if winding >= 0:
+        return None
+    who = "curve winds" if arranged.n_loops == 1 else "curves wind"
+    sentence = f"The {who} {winding} times around a cell, and cloth cannot cover it a negative number of times."
+    subject = arranged if arranged.n_loops == 1 else None
+    return Obstruction("negative winding", sentence, _places(arranged, [lowest]), winding, subject)
+
+
+def _no_grouping(arranged: Arrangement) -> Obstruction:
+    """Return the obstruction of a curve whose word has no grouping: cells whose ways out are in conflict."""
+    tree = grow_dual_tree(arranged)
+    cells = _conflict(tree)
+    if len(cells) == 1:
+        sentence = "No grouping: the way out of a cell can be joined to no border that would cut off a disk."
+    else:
+        sentence = f"No grouping: the ways out of {len(cells)} cells cannot be joined to borders without crossing."
+    links = tuple(tree.link[cells].tolist())
+    return Obstruction("no grouping", sentence, _places(arranged, cells), links, arranged)
+
+
+def _places(arranged: Arrangement, cells: list[int]) -> tuple[tuple[float, float], ...]:
+    return tuple(arranged.cell_point(cell) for cell in cells if arranged.curves)
+
+
+def _conflict(tree: DualTree) -> list[int]:
+    """Return cells whose ascending links cannot all be joined; as few as leaving out some at a time can reach.
+
+    Begins with those that led to the contradiction. Whole stretches are left out first, each half as long as those
+    before, and single cells at last.
+    """
+    cells = _contradiction(tree, tree.ascending_cells())
+    stretch = len(cells) if len(cells) <= _MINIMISE_UP_TO else 0
+    while stretch > 1:
+        stretch = -(-stretch // 2)
+        for start in range(0, len(cells), stretch)[::-1]:
+            cells = _contradiction(tree, cells[:start] + cells[start + stretch :]) or cells
+    return cells
+
+
+def _contradiction(tree: DualTree, cells: list[int]) -> list[int]:
+    """Return those of some cells that contradict each other; none if their links can be joined."""
+    word = write_word(tree, cells)
+    found = find_groupings(word)
+    return [word.cells[label] for label in found.labels] if isinstance(found, Conflict) else []

@@ -1,5 +1,5 @@
 """Files in and out, one module per format."""
 
-from plyfold.io.reading import SIZE_LIMIT, read
+import lazy_loader
 
-__all__ = ["SIZE_LIMIT", "read"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from plyfold.curve import Curve
 from plyfold.errors import FileFormatError
 from plyfold.io.vector import read_geojson
 from plyfold.mistaken import mistaken_code
+from plyfold.outline.curve import Curve
 
 __all__ = ["read_json"]
 
@@ -24,8 +24,8 @@ def read_json(text: str) -> Curve:
     ----------
     text : str
         ``[[x, y], ...]`` or ``{"points": [[x, y], ...]}``, whose closing edge is implied;
-        ``[[[x, y], ...], ...]`` or ``{"strokes": [[[x, y], ...], ...]}``, joined as strokes; or GeoJSON. A third
-        coordinate is left out.
+        ``[[[x, y], ...], ...]`` or ``{"strokes": [[[x, y], ...], ...]}``, joined as strokes; a document that the
+        sketching page has saved; or GeoJSON. A third coordinate is left out.
 
     Returns
     -------
@@ -52,6 +52,8 @@ def read_json(text: str) -> Curve:
         raise _error("it is neither a list nor an object")
     if "type" in value:
         return read_geojson(value)
+    if "plyfold" in value:
+        return _curve_of_document(value)
     if "strokes" in value:
         return _curve_of_strokes(value["strokes"])
     if "points" in value:
@@ -82,6 +84,15 @@ def _curve_of_strokes(strokes: object) -> Curve:
     if not isinstance(strokes, list) or not all(isinstance(stroke, list) for stroke in strokes):
         raise _error("the strokes are not a list of lists of points")
     return Curve.from_strokes(strokes)
+
+
+def _curve_of_document(document: dict[str, Any]) -> Curve:
+    """Return the loop of a document of the sketching page, which writes doubles, large ones without a point."""
+    strokes = document.get("strokes")
+    if not isinstance(strokes, list) or not all(isinstance(stroke, dict) for stroke in strokes):
+        raise _error("it is a document of the sketching page without strokes")
+    points = [np.array(stroke.get("points", []), dtype=np.float64) for stroke in strokes]
+    return Curve(points[0]) if len(points) == 1 and strokes[0].get("closed") else Curve.from_strokes(points)
 
 
 def _code_error(numbers: object) -> FileFormatError | None:

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
+from plyfold.colours import INK, sheet_colour
+from plyfold.io.svg_writing import drawing_svg, line_width, path_data
 
 if TYPE_CHECKING:
     from shapely import Polygon
@@ -37,29 +39,15 @@ def as_wkt(polygons: Sequence[Polygon], properties: Sequence[dict[str, Any]]) ->
 
 def as_svg(polygons: Sequence[Polygon], properties: Sequence[dict[str, Any]]) -> str:
     """Return a picture in the drawing's own units, y down: translucent polygons, what is told of them as titles."""
-    from plyfold.draw.colours import sheet_colour
-
-    left, low, right, high = _bounds(polygons)
-    margin = 0.05 * max(right - left, high - low)
-    box = f"{left - margin} {-high - margin} {right - left + 2 * margin} {high - low + 2 * margin}"
-    parts = [
-        f'<path fill="{sheet_colour(number)}" fill-opacity="0.6" stroke="#1d2638" stroke-width="{margin / 20}" '
-        f'fill-rule="evenodd" d="{_path(polygon)}"><title>{_title(told)}</title></path>'
-        for number, (polygon, told) in enumerate(zip(polygons, properties, strict=True))
-    ]
-    return f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}">\n' + "\n".join(parts) + "\n</svg>\n"
-
-
-def _bounds(polygons: Sequence[Polygon]) -> tuple[float, float, float, float]:
-    corners = np.array([polygon.bounds for polygon in polygons]).reshape(-1, 4)
-    if not len(corners):
-        return 0.0, 0.0, 1.0, 1.0
-    return (*corners[:, :2].min(axis=0).tolist(), *corners[:, 2:].max(axis=0).tolist())
-
-
-def _path(polygon: Polygon) -> str:
-    rings = [polygon.exterior, *polygon.interiors]
-    return "".join("M" + "L".join(f"{x!r},{-y!r}" for x, y in ring.coords[:-1]) + "Z" for ring in rings)
+    rings = [[np.array(ring.coords[:-1]) for ring in (polygon.exterior, *polygon.interiors)] for polygon in polygons]
+    corners = np.concatenate([np.empty((0, 2)), *(ring for around in rings for ring in around)])
+    parts = (
+        f'<path fill="{sheet_colour(number)}" d="{"".join(path_data(ring * (1, -1)) for ring in around)}">'
+        f"<title>{_title(told)}</title></path>"
+        for number, (around, told) in enumerate(zip(rings, properties, strict=True))
+    )
+    style = f'fill-opacity="0.6" stroke="{INK}" stroke-width="{line_width(corners) / 2}" fill-rule="evenodd"'
+    return drawing_svg(corners, parts, style)
 
 
 def _title(told: dict[str, Any]) -> str:

@@ -9,12 +9,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import BinaryIO
 
-from plyfold.curve import Curve
 from plyfold.errors import FileFormatError, InputError
 from plyfold.io.json_points import read_json
-from plyfold.io.svg import read_svg
 from plyfold.io.tables import read_npy, read_table
 from plyfold.io.vector import read_wkt
+from plyfold.outline.curve import Curve
 
 __all__ = ["SIZE_LIMIT", "read"]
 
@@ -47,6 +46,8 @@ def read(path: str | Path, *, id: str | None = None, tolerance: float | None = N
 
     Raises
     ------
+    InputError
+        If what is given is not the path of a file.
     FileFormatError
         If the file is missing, empty, broken, too large, of an unknown format, or holds no curve or several.
     StrokeError
@@ -135,6 +136,8 @@ def _decoded(data: bytes, kind: str | None, id: str | None, tolerance: float | N
         raise FileFormatError("it is empty", hint=_FORMATS)
     kind = kind or _sniffed(data)
     if kind == "SVG":
+        from plyfold.io.svg import read_svg  # its library takes a while to load
+
         return read_svg(data, id, tolerance)
     if id is not None:
         raise FileFormatError("only an element of an SVG can be chosen by id", hint="leave the id out")

@@ -24,13 +24,13 @@ def refuse_existing(path: str | os.PathLike[str], force: bool = False) -> None:
     --------
     >>> refuse_existing(os.devnull)
     Traceback (most recent call last):
-    FileExistsError: /dev/null exists already and was not overwritten; add force to replace it
+    FileExistsError: /dev/null exists already and was not overwritten; force (--force) replaces it
     """
     refuse_unless_flag("force", force)
     if Path(path).is_dir():
         raise IsADirectoryError(f"{path} is a folder")
     if Path(path).exists() and not force:
-        raise FileExistsError(f"{path} exists already and was not overwritten; add force to replace it")
+        raise FileExistsError(f"{path} exists already and was not overwritten; force (--force) replaces it")
 
 
 def save_bytes(path: str | os.PathLike[str], content: bytes, force: bool = False) -> None:

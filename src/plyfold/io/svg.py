@@ -9,12 +9,13 @@ from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
-import numpy.typing as npt
+from svgelements import SVG, Arc, Close, CubicBezier, Length, Move, QuadraticBezier, Shape
 
-from plyfold.curve import Curve
+from plyfold.arrays import Floats
 from plyfold.errors import FileFormatError, InputError
-from plyfold.io.outline import Arc, Bezier, Outline, sample_points
-from plyfold.points import LARGEST_COORDINATE, diagonal
+from plyfold.io.beziers import Bezier, DrawnPath, EllipticArc, sample_points
+from plyfold.outline.curve import Curve
+from plyfold.outline.points import LARGEST_COORDINATE, diagonal
 
 __all__ = ["read_svg"]
 
@@ -27,8 +28,6 @@ _LINK = "{http://www.w3.org/1999/xlink}href"
 _TEMPLATES = ("symbol", "marker", "mask")
 _GEOGRAPHIC = ("gpx", "kml", "gml")
 _SHAPE_HINT = "draw one closed path, polygon, polyline, rect, circle or ellipse"
-
-_Points = npt.NDArray[np.float64]
 
 
 def read_svg(data: bytes, id: str | None = None, tolerance: float | None = None) -> Curve:
@@ -76,7 +75,7 @@ def read_svg(data: bytes, id: str | None = None, tolerance: float | None = None)
     return Curve.from_strokes(outline.flattened(tolerance) for outline in outlines)
 
 
-def _checked_size(points: _Points) -> float:
+def _checked_size(points: Floats) -> float:
     hint = "check the coordinates and transforms"
     if not (np.abs(points) <= LARGEST_COORDINATE).all():
         raise FileFormatError(f"a coordinate is not finite, or beyond {LARGEST_COORDINATE:g}", hint=hint)
@@ -94,7 +93,7 @@ def _checked_tolerance(tolerance: float | None, size: float) -> float:
     return tolerance
 
 
-def _only(outlines: list[Outline]) -> Outline:
+def _only(outlines: list[DrawnPath]) -> DrawnPath:
     if len(outlines) == 1:
         return outlines[0]
     names = list(dict.fromkeys(outline.name for outline in outlines))
@@ -108,7 +107,7 @@ def _listed(names: Iterable[str]) -> str:
     return ", ".join(names[:20]) + (f" and {len(names) - 20} more" if len(names) > 20 else "")
 
 
-def _drawn_outlines(data: bytes, id: str | None) -> list[Outline]:
+def _drawn_outlines(data: bytes, id: str | None) -> list[DrawnPath]:
     """Return the pieces of all drawn shapes, or of those in the chosen element."""
     document = _safe_document(data)
     try:
@@ -128,19 +127,17 @@ def _drawn_outlines(data: bytes, id: str | None) -> list[Outline]:
 
 def _shapes_by_id(document: bytes) -> dict[str | None, list[Any]]:
     """Return the shapes within each element that has an id, and under None all that are drawn."""
-    from svgelements import SVG, Shape
-
     drawing = SVG.parse(io.BytesIO(document), reify=False, on_error="raise")
-    return {name: _shapes_within(element, Shape) for name, element in [(None, drawing), *drawing.objects.items()]}
+    return {name: _shapes_within(element) for name, element in [(None, drawing), *drawing.objects.items()]}
 
 
-def _shapes_within(element: Any, shape_type: type) -> list[Any]:
-    if isinstance(element, shape_type):
+def _shapes_within(element: Any) -> list[Any]:
+    if isinstance(element, Shape):
         return [element]
-    return list(element.select(lambda part: isinstance(part, shape_type))) if hasattr(element, "select") else []
+    return list(element.select(lambda part: isinstance(part, Shape))) if hasattr(element, "select") else []
 
 
-def _outlines(shape: Any, number: int) -> Iterator[Outline]:
+def _outlines(shape: Any, number: int) -> Iterator[DrawnPath]:
     """Yield the pieces of one shape, named by its id or number, in final coordinates: transforms applied, y up."""
     transform = shape.transform
     matrix = np.array([(transform.a, transform.c), (-transform.b, -transform.d)])
@@ -149,13 +146,11 @@ def _outlines(shape: Any, number: int) -> Iterator[Outline]:
     for run, closed in _runs(shape.segments(transformed=False)):
         segments = tuple(_segment(part).transformed(matrix, shift) for part in run)
         start = matrix @ _place(run[0].start) + shift
-        yield Outline(start, segments, closed or np.array_equal(start, segments[-1].end), name)
+        yield DrawnPath(start, segments, closed or np.array_equal(start, segments[-1].end), name)
 
 
 def _runs(segments: Iterable[Any]) -> Iterator[tuple[list[Any], bool]]:
     """Split a path at its moves and closings into runs of segments, and tell whether each was closed."""
-    from svgelements import Close, Move
-
     run: list[Any] = []
     for segment in segments:
         if not isinstance(segment, Move | Close):
@@ -167,26 +162,23 @@ def _runs(segments: Iterable[Any]) -> Iterator[tuple[list[Any], bool]]:
         yield run, False
 
 
-def _segment(part: Any) -> Bezier | Arc:
-    from svgelements import Arc as SvgArc
-    from svgelements import CubicBezier, QuadraticBezier
-
+def _segment(part: Any) -> Bezier | EllipticArc:
     if isinstance(part, CubicBezier):
         return Bezier(_places(part.start, part.control1, part.control2, part.end))
     if isinstance(part, QuadraticBezier):
         return Bezier(_places(part.start, part.control, part.end))
-    if isinstance(part, SvgArc) and part.sweep and part.rx and part.ry:
+    if isinstance(part, Arc) and part.sweep and part.rx and part.ry:
         center = _place(part.center)
         axes = np.column_stack([_place(part.prx) - center, _place(part.pry) - center])
-        return Arc(center, axes, float(part.get_start_t()), float(part.sweep), _place(part.end))
+        return EllipticArc(center, axes, float(part.get_start_t()), float(part.sweep), _place(part.end))
     return Bezier(_places(part.start, part.end))
 
 
-def _places(*points: Any) -> _Points:
+def _places(*points: Any) -> Floats:
     return np.array([_place(point) for point in points])
 
 
-def _place(point: Any) -> _Points:
+def _place(point: Any) -> Floats:
     place = np.array(point)
     if place.dtype.kind not in "if" or place.shape != (2,):
         raise ValueError(f"{point} is no place; a unit or the start of a path is missing")
@@ -263,8 +255,6 @@ def _link(element: ElementTree.Element) -> str:
 
 def _state_size(root: ElementTree.Element) -> None:
     """Give a drawing without viewBox the one it has by default: svgelements would mix up its width and height."""
-    from svgelements import Length
-
     sizes = [Length(root.get(side, "100%")).value(ppi=96) for side in ("width", "height")]
     if root.get("viewBox") is None and all(isinstance(size, float) and size > 0 for size in sizes):
         root.set("viewBox", f"0 0 {sizes[0]!r} {sizes[1]!r}")

@@ -10,9 +10,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from plyfold.curve import Curve
 from plyfold.errors import FileFormatError
 from plyfold.mistaken import mistaken_code
+from plyfold.outline.curve import Curve
 
 __all__ = ["read_npy", "read_table"]
 

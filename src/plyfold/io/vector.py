@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from plyfold.curve import Curve, as_curve
 from plyfold.errors import FileFormatError
+from plyfold.outline.curve import Curve, as_curve
 
 __all__ = ["read_geojson", "read_wkt"]
 

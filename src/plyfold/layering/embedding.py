@@ -1,54 +1,64 @@
-"""Embeddings of a curve: layered disks over all its immersions at once (§5 of the paper: an open problem there).
+"""Embeddings of an outline: layered surfaces over all its immersions at once (§5 of the paper: an open problem there).
 
-Two ways lead to an embedding. Immersion by immersion the order of sheets is a small problem, but there can be 2^100
-immersions. The equations between levels of borders (:mod:`plyfold.layering.levels`) know all immersions at once, but
-for curves that cover themselves many times they are harder than all of a few immersions. So few immersions are gone
-through one by one, and where there are more of them the curve itself is asked.
+Two ways lead to an embedding of a disk. Immersion by immersion the order of sheets is a small problem
+(:mod:`plyfold.layering.orders`), but there can be 2^100 immersions. The equations between levels of borders
+(:mod:`plyfold.layering.levels`) know all immersions at once, but for curves that cover themselves many times they are
+harder than all of a few immersions. So few immersions are gone through one by one, and where there are more of them the
+curve itself is asked; and so are several curves, or one that bounds a disk with handles. Each solution of the equations
+glues sheets to a surface without self-intersections that has the curves as its boundary and lies to the left of them.
+Its Euler characteristic is the sum of their turning numbers, for it lies flat without branch points; the same holds for
+each of its pieces, which gives their genus. Nothing demands that the surface be in one piece.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import islice
+from typing import cast
 
-from plyfold.arrangement import Arrangement, arrangement
-from plyfold.arrangement.base import begun_at, numbered_from, visits_from_base
-from plyfold.arrangement.core import CurveLike
-from plyfold.arrangement.several import are_several
+import numpy.typing as npt
+
+from plyfold.arrangement.arrangement import Arrangement, arrange, watched_arrangement
+from plyfold.arrangement.base_visit import borders_numbered_back
 from plyfold.arrays import Ints
-from plyfold.clock import Clock
-from plyfold.immersion import bounds_disk, count_immersions, find_immersion, immersions
-from plyfold.layering.casing import layering_of_levels
-from plyfold.layering.counting import count_layerings
-from plyfold.layering.layered_surface import (
-    LayeredSurface,
-    count_layered_surfaces,
-    find_layered_surface,
-    layered_surfaces,
+from plyfold.clock import Clock, Watch
+from plyfold.errors import TimeLimitError
+from plyfold.immersion.solve import bounds_disk, count_immersions, find_immersion, immersions, watched_immersions
+from plyfold.layering.layering import Layering, layering_of_levels
+from plyfold.layering.levels.casing import casing_of_visits
+from plyfold.layering.levels.counting import count_level_solutions
+from plyfold.layering.levels.equations import (
+    level_clauses,
+    level_equations,
+    list_levels,
+    no_levels,
+    no_surface,
+    solve_levels,
 )
-from plyfold.layering.layering import Layering
-from plyfold.layering.level_clauses import LevelClauses, contradicting_crossings, list_levels, solve_levels
-from plyfold.layering.level_counting import count_level_solutions
-from plyfold.layering.levels import LevelEquations, level_equations
-from plyfold.layering.listing import layerings
-from plyfold.layering.search import find_layering
+from plyfold.layering.orders.counting import count_layerings
+from plyfold.layering.orders.listing import layerings
+from plyfold.layering.orders.search import find_layering, undecided
+from plyfold.layering.tables import TooLargeError
 from plyfold.obstruction import Obstruction, Unknown
+from plyfold.outline.curve import OutlineLike
 
 __all__ = ["count_embeddings", "embeddings", "find_embedding"]
 
 # Up to so many immersions are gone through one by one.
 _FEW = 100
 
+_HOW_MANY = "how many embeddings there are"
 
-def find_embedding(
-    curve: CurveLike, time_limit: float | None = None
-) -> Layering | LayeredSurface | Obstruction | Unknown:
-    """Find a layered surface without self-intersections over any immersion of the curve, or prove that there is none.
+
+def find_embedding(curve: OutlineLike, time_limit: float | None = None) -> Layering | Obstruction | Unknown:
+    """Find a layered surface without self-intersections that has the curve as its outline, or prove that there is none.
 
     Parameters
     ----------
     curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
-        Several curves bound one surface, with holes or handles: see :func:`~plyfold.find_layered_surface`.
+        One curve bounds a disk, or, if its turning number is 1 − 2g, a disk with g handles. Several curves bound one
+        surface, perhaps in several pieces; they may cross themselves and each other. Each has the surface on its left,
+        so that outer boundaries run counter-clockwise and holes clockwise.
     time_limit : float, optional
         Seconds after which to give up; none by default.
 
@@ -56,17 +66,22 @@ def find_embedding(
     -------
     Layering or Obstruction or Unknown
         The result is true if there is an embedding; it has been checked, and its ``immersion`` says over which
-        immersion it lies. (For a list of curves it is a LayeredSurface.) An obstruction is that of
-        :func:`~plyfold.find_immersion` if there is no immersion, and otherwise has the reason ``"no embedding"``:
-        ``value`` is a tuple of crossings at which no levels of the strands fit together, whatever the immersion; as few
-        as can be found with little effort. At the time limit the answer is Unknown.
+        immersion it lies. An obstruction has the reason ``"turning number"``, ``"negative winding"`` or, of a disk,
+        ``"no grouping"`` (there is no immersion), and otherwise ``"no embedding"``: ``value`` is a tuple of crossings
+        at which no levels of the strands fit together, whatever the immersion; as few as can be found with little
+        effort. At the time limit the answer is Unknown.
+
+    Raises
+    ------
+    GeneralPositionError
+        If several curves touch or overlap, or three of their edges meet in a point.
 
     Notes
     -----
-    Exact in both directions. The first immersions are tried one by one with :func:`~plyfold.find_layering`; if none of
-    them lifts and there are more, the levels of all borders are a SAT problem with O(Σ w) variables and clauses, over
-    borders. Whether an embedded disk can be decided in polynomial time is open [EM09]_. A chain of a hundred disks with
-    5 immersions each, 1,200 crossings, takes about 0.2 s.
+    Exact in both directions. The first immersions of a disk are tried one by one with :func:`~plyfold.find_layering`;
+    if none of them lifts and there are more, and for all other outlines, the levels of all borders are a SAT problem
+    with O(Σ w) variables and clauses, over borders. Whether an embedded disk can be decided in polynomial time is open
+    [EM09]_. A chain of a hundred disks with 5 immersions each, 1,200 crossings, takes about 0.2 s.
 
     References
     ----------
@@ -77,38 +92,67 @@ def find_embedding(
     >>> ramp = [(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)]
     >>> sorted(find_embedding(ramp).level.tolist())
     [1, 1, 1, 1, 2]
+    >>> ring = find_embedding([[(0, 0), (9, 0), (0, 9)], [(1, 1), (1, 3), (3, 1)]])
+    >>> ring.euler_characteristic, len(ring.pieces), ring.genus
+    (0, 1, 0)
     """
-    if are_several(curve):
-        return find_layered_surface(curve, time_limit)
-    clock, arranged = Clock(time_limit), arrangement(curve)
-    first = find_immersion(arranged)
-    if isinstance(first, Obstruction):
-        return first
+    clock = Clock(time_limit)
+    try:
+        arranged = watched_arrangement(curve, "perturb", Watch(clock))
+        if not _may_be_disk(arranged):
+            obstruction = no_surface(arranged)
+            return _from_levels(arranged, clock) if obstruction is None else obstruction
+        return _over_immersions(arranged, clock)
+    except TimeLimitError:
+        return undecided("time limit", "whether there is an embedding", clock)
+
+
+def _over_immersions(arranged: Arrangement, clock: Clock) -> Layering | Obstruction | Unknown:
+    """Return a layering of one of the first immersions, or else ask the curve itself. May raise TimeLimitError."""
+    candidates = list(islice(watched_immersions(arranged, Watch(clock)), 1))
+    if not candidates:
+        return cast("Obstruction", find_immersion(arranged))
     for immersion in islice(immersions(arranged), _FEW):
         found = find_layering(immersion, clock.left)
         if not isinstance(found, Obstruction):
             return found
-    clauses = LevelClauses(_equations(arranged))
+    number = count_immersions(arranged)
+    if number > _FEW:
+        return _from_levels(arranged, clock, f"none of the {_written(number)} immersions lifts; ")
+    which = "the only immersion does not lift" if number == 1 else f"none of the {number} immersions lifts"
+    return no_levels(arranged, level_clauses(arranged), clock, f"{which}; ")
+
+
+def _may_be_disk(arranged: Arrangement) -> bool:
+    return arranged.n_loops == 1 == arranged.turning_number
+
+
+def _from_levels(arranged: Arrangement, clock: Clock, because: str = "") -> Layering | Obstruction | Unknown:
+    clauses = level_clauses(arranged)
     try:
-        level = solve_levels(clauses, clock) if count_immersions(arranged) > _FEW else None
+        level = solve_levels(clauses, clock)
     except TimeoutError:
         return _unknown("whether there is an embedding", arranged, clock)
-    return _no_embedding(arranged, clauses, clock) if level is None else _checked(arranged, level)
+    return no_levels(arranged, clauses, clock, because) if level is None else _layering(arranged, level)
 
 
-def embeddings(curve: CurveLike) -> Iterator[Layering | LayeredSurface]:
-    """List all embeddings of a curve, over all its immersions, each once, in a stable order; nothing if there is none.
+def embeddings(curve: OutlineLike, over: npt.ArrayLike | None = None) -> Iterator[Layering]:
+    """List all embeddings of an outline, over all its immersions, each once, in a stable order; nothing if none.
 
     Parameters
     ----------
     curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
+        As for :func:`find_embedding`.
+    over : array_like of bool, shape (2k,) or (k,), optional
+        List only those with this casing, given as for :func:`~plyfold.embed_cased`: several if curves lie in others
+        without crossing them.
 
     Yields
     ------
-    Layering (or LayeredSurface)
+    Layering
         Checked. There can be exponentially many; they are made one at a time. Few immersions are gone through one by
-        one. Otherwise each embedding takes at most k questions to the SAT solver, most of them easy, and none of them
-        is in vain for long because an immersion does not lift.
+        one. Otherwise each embedding takes at most k + Σ w questions to the SAT solver, w added up over curves, most of
+        them easy, and none of them is in vain for long because an immersion does not lift.
 
     Examples
     --------
@@ -117,21 +161,24 @@ def embeddings(curve: CurveLike) -> Iterator[Layering | LayeredSurface]:
     >>> [layering.changes for layering in embeddings(milnor)]
     [6, 6, 6, 6]
     """
-    if are_several(curve):
-        yield from layered_surfaces(curve)
+    arranged = arrange(curve)
+    casing = None if over is None else casing_of_visits(arranged, over)
+    if no_surface(arranged) is not None or (_may_be_disk(arranged) and not bounds_disk(arranged)):
         return
-    arranged = arrangement(curve)
-    total = count_immersions(arranged)
-    if 0 < total <= _FEW:
+    if casing is None and _has_few_immersions(arranged):
         for immersion in immersions(arranged):
             yield from layerings(immersion)
-    elif total:
-        for level in list_levels(LevelClauses(_equations(arranged))):
-            yield _checked(arranged, level)
+    else:
+        for level in list_levels(level_clauses(arranged, casing)):
+            yield _layering(arranged, level)
 
 
-def count_embeddings(curve: CurveLike, time_limit: float | None = None) -> int | Unknown:
-    """Count the embeddings of a curve over all its immersions, exactly.
+def _has_few_immersions(arranged: Arrangement) -> bool:
+    return _may_be_disk(arranged) and count_immersions(arranged) <= _FEW
+
+
+def count_embeddings(curve: OutlineLike, time_limit: float | None = None) -> int | Unknown:
+    """Count the embeddings of an outline over all its immersions, exactly.
 
     Parameters
     ----------
@@ -142,15 +189,15 @@ def count_embeddings(curve: CurveLike, time_limit: float | None = None) -> int |
     Returns
     -------
     int or Unknown
-        0 if there is none. Turned upside down, an embedding is another one, so the number is even unless the curve does
-        not cross itself. Unknown at the time limit.
+        0 if there is none. Turned upside down, an embedding is another one, so the number is even unless sheets nowhere
+        lie on each other. Unknown at the time limit, or if a table would have more than two million rows.
 
     Notes
     -----
-    For few immersions, the layerings of all of them. Otherwise the solutions of the equations between levels are
-    counted, see :func:`plyfold.layering.level_counting.count_level_solutions`: a curve falls apart where only one sheet
-    lies, and the numbers of its parts multiply. A single part with many immersions and hundreds of crossings can be out
-    of reach.
+    Of any number of pieces. For a disk with few immersions, the layerings of all of them. Otherwise the solutions of
+    the equations between levels are counted, see :func:`plyfold.layering.levels.counting.count_level_solutions`: a
+    curve falls apart where only one sheet lies, and the numbers of its parts multiply. A single part with many
+    immersions and hundreds of crossings can be out of reach.
 
     Examples
     --------
@@ -160,56 +207,48 @@ def count_embeddings(curve: CurveLike, time_limit: float | None = None) -> int |
     >>> count_embeddings(milnor), count_embeddings(chain(milnor, 100)) == 4**100
     (4, True)
     """
-    if are_several(curve):
-        return count_layered_surfaces(curve, time_limit)
-    clock, arranged = Clock(time_limit), arrangement(curve)
-    if not bounds_disk(arranged):
-        return 0
+    clock = Clock(time_limit)
     try:
-        return _count(arranged, clock)
-    except TimeoutError:
-        return _unknown("how many embeddings there are", arranged, clock)
+        return _count(watched_arrangement(curve, "perturb", Watch(clock)), clock)
+    except TimeLimitError:
+        return undecided("time limit", _HOW_MANY, clock)
 
 
-def _count(arranged: Arrangement, clock: Clock) -> int:
-    if count_immersions(arranged) > _FEW:
-        return count_level_solutions(_equations(arranged), clock)
+def _count(arranged: Arrangement, clock: Clock) -> int | Unknown:
+    """Return the number of embeddings. May raise TimeLimitError."""
+    if no_surface(arranged) is not None or (_may_be_disk(arranged) and not bounds_disk(arranged)):
+        return 0
+    if not _has_few_immersions(arranged):
+        return _count_levels(arranged, clock)
     total = 0
-    for immersion in immersions(arranged):
+    for immersion in watched_immersions(arranged, Watch(clock)):
         number = count_layerings(immersion, clock.left)
         if clock.over or isinstance(number, Unknown):
-            raise TimeoutError
+            return _unknown(_HOW_MANY, arranged, clock, "time limit" if clock.over else "size")
         total += number
     return total
 
 
-def _equations(arranged: Arrangement) -> LevelEquations:
-    """Return the equations with borders and crossings numbered from the base visit on, for the order of answers."""
-    return level_equations(numbered_from(arranged, arranged.base_visit))
+def _layering(arranged: Arrangement, level: Ints) -> Layering:
+    return layering_of_levels(arranged, borders_numbered_back(arranged, level))
 
 
-def _checked(arranged: Arrangement, level: Ints) -> Layering:
-    layering = layering_of_levels(arranged, begun_at(level, arranged.n_borders - arranged.base_visit))
-    layering.immersion.check()
-    layering.check()
-    return layering
+def _count_levels(arranged: Arrangement, clock: Clock) -> int | Unknown:
+    try:
+        return count_level_solutions(level_equations(arranged), clock)
+    except TimeoutError:
+        return _unknown(_HOW_MANY, arranged, clock)
+    except TooLargeError:
+        return _unknown(_HOW_MANY, arranged, clock, "size")
 
 
-def _no_embedding(arranged: Arrangement, clauses: LevelClauses, clock: Clock) -> Obstruction:
-    from_base = list(dict.fromkeys(arranged.crossing_of_visit[visits_from_base(arranged)].tolist()))
-    crossings = tuple(sorted(from_base[crossing] for crossing in contradicting_crossings(clauses, clock)))
-    number = count_immersions(arranged)
-    which = "the only immersion does not lift" if number == 1 else f"none of the {_written(number)} immersions lifts"
-    sentence = f"No embedding: {which}. No levels of the strands fit together at {len(crossings)} crossings."
-    places = () if arranged.curve is None else tuple((x, y) for x, y in arranged.crossings[list(crossings)].tolist())
-    return Obstruction("no embedding", sentence, places, crossings, arranged)
-
-
-def _unknown(question: str, arranged: Arrangement, clock: Clock) -> Unknown:
-    seconds, number = clock.spent, count_immersions(arranged)
-    known = {"immersions": number, "crossings": arranged.n_crossings, "seconds": seconds}
-    sentence = f"Unknown after {seconds:.3g} s: {question}. Number of immersions: {_written(number)}."
-    return Unknown("time limit", sentence, known)
+def _unknown(question: str, arranged: Arrangement, clock: Clock, reason: str = "time limit") -> Unknown:
+    left_open = undecided(reason, question, clock)
+    known, sentence = dict(left_open.established) | {"crossings": arranged.n_crossings}, left_open.sentence
+    if _may_be_disk(arranged):
+        known["immersions"] = count_immersions(arranged)
+        sentence += f" Number of immersions: {_written(count_immersions(arranged))}."
+    return Unknown(reason, sentence, known)
 
 
 def _written(number: int) -> str:

@@ -7,17 +7,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plyfold.arrays import Bools, Ints
+from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrays import Bools, Ints, freeze
 from plyfold.errors import PlyfoldError
-from plyfold.immersion import Immersion
-from plyfold.immersion.immersion import count_each
+from plyfold.immersion.immersion import Immersion, Piece, require_memory_for_gluing
+from plyfold.ragged import count_each, starts_of
 
-__all__ = ["Layering", "meeting_sheets"]
+__all__ = ["Layering", "layering_of_levels", "meeting_sheets"]
 
 
 @dataclass(frozen=True, eq=False)
 class Layering:
-    """The levels of the sheets: a way to lift an immersed disk off the table so that it does not cut itself.
+    """The levels of the sheets: a way to lift an immersed surface off the table so that it does not cut itself.
+
+    The surface is a disk, or whatever else its outline bounds, see :attr:`pieces`. It is true as a value.
 
     Parameters
     ----------
@@ -27,30 +30,49 @@ class Layering:
 
     Examples
     --------
-    >>> from plyfold.immersion import find_immersion
-    >>> from plyfold.layering import find_layering
+    >>> from plyfold import find_immersion
+    >>> from plyfold import find_layering
     >>> ramp = find_immersion([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)])
     >>> layering = find_layering(ramp)
     >>> sorted(layering.level.tolist())
     [1, 1, 1, 1, 2]
     >>> layering.casing.sum(), layering.changes
     (np.int64(4), 2)
+    >>> from plyfold import find_embedding
+    >>> annulus = find_embedding([[(0, 0), (9, 0), (0, 9)], [(1, 1), (1, 3), (3, 1)]])
+    >>> annulus.border_level.tolist(), annulus.pieces
+    ([1, 1], (Piece(loops=(0, 1), euler_characteristic=0),))
     """
 
     immersion: Immersion
     level: Ints
 
     def __post_init__(self) -> None:
-        self.level.flags.writeable = False
+        freeze(self)
 
     def __repr__(self) -> str:
         return f"<Layering: {self.immersion.n_sheets} sheets on up to {self.level.max(initial=0)} levels>"
 
     def _repr_svg_(self) -> str | None:
-        # A Gauss code alone has no picture.
-        from plyfold.draw.over_under_svg import over_under_svg
+        # A Gauss code alone has no picture, several curves none yet.
+        from plyfold.draw.over_under_files import over_under_svg
 
-        return None if self.immersion.arrangement.curve is None else over_under_svg(self, colours="sheets")
+        return over_under_svg(self, colours="sheets") if len(self.immersion.arrangement.curves) == 1 else None
+
+    @property
+    def euler_characteristic(self) -> int:
+        """The sum of the turning numbers of all curves."""
+        return self.immersion.euler_characteristic
+
+    @property
+    def genus(self) -> int:
+        """Number of handles, of all pieces together."""
+        return self.immersion.genus
+
+    @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The connected pieces, in the order of their first curves."""
+        return self.immersion.pieces
 
     @property
     def border_level(self) -> Ints:
@@ -61,7 +83,7 @@ class Layering:
     def casing(self) -> Bools:
         """True where the strand passes over the other one, False where it passes under, shape (2k,), by visits.
 
-        :func:`~plyfold.embed_cased` gives the layering back.
+        :func:`~plyfold.embed_cased` gives the layering back, or says which curves lie in others without crossing them.
         """
         here, there = meeting_sheets(self.immersion)
         return self.level[here] > self.level[there]
@@ -69,8 +91,8 @@ class Layering:
     @property
     def changes(self) -> int:
         """How often the curve changes between passing over and passing under, once round; an even number."""
-        casing = self.casing
-        return int((casing != np.roll(casing, 1)).sum())
+        casing, arrangement = self.casing, self.immersion.arrangement
+        return int((casing != casing[arrangement.start_visit[arrangement.border_before]]).sum())
 
     def check(self) -> None:
         """Check that every cell's levels are 1 … w and that every gluing keeps the order.
@@ -108,7 +130,44 @@ def meeting_sheets(immersion: Immersion) -> tuple[Ints, Ints]:
     along the top cell, the other one comes along it.
     """
     arrangement = immersion.arrangement
-    visit = np.arange(len(arrangement.partner))
-    beside_top = np.where(arrangement.ccw, visit - 1, visit)
+    beside_top = np.where(arrangement.ccw, arrangement.border_before, arrangement.border_after)
     here = immersion.own_sheet[beside_top]
     return here, here[arrangement.partner]
+
+
+def layering_of_levels(arranged: Arrangement, level: Ints) -> Layering:
+    """Build the layered surface in which the own sheets of the borders have given levels, and check it.
+
+    Parameters
+    ----------
+    arranged : Arrangement
+        No negative winding number.
+    level : (borders,) int
+        From 1 to the winding number on the left of the border. At every crossing the two strands have different
+        levels over the top cell, and past the crossing the upper one's is one less on the side away from it.
+
+    Returns
+    -------
+    Layering
+        Over each cell the sheets are numbered from below. Cost: O(Σ w), the sheets counted once per border.
+    """
+    require_memory_for_gluing(arranged)
+    winding, lower = arranged.winding, arranged.winding[arranged.right_cell]
+    first_sheet = starts_of(winding)
+    border = np.repeat(np.arange(arranged.n_borders), lower)
+    right = count_each(lower)
+    left = right + (right >= level[border] - 1)
+    immersion = Immersion(
+        arrangement=arranged,
+        sheet_cell=np.repeat(np.arange(arranged.n_cells), winding),
+        first_sheet=first_sheet,
+        own_sheet=first_sheet[arranged.left_cell] + level - 1,
+        gluing=np.stack(
+            [border, first_sheet[arranged.right_cell[border]] + right, first_sheet[arranged.left_cell[border]] + left],
+            axis=1,
+        ),
+    )
+    layering = Layering(immersion, count_each(winding) + 1)
+    immersion.check()
+    layering.check()
+    return layering

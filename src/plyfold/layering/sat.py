@@ -1,4 +1,6 @@
-"""Questions to the SAT solver: within a time limit, and which demands contradict each other.
+"""Questions to the SAT solver: one solution or all, within a time limit, and which demands contradict each other.
+
+A clause is a list of literals of which one must be true; a literal is a variable 1, 2, … or its negative.
 
 Nothing here holds up Ctrl-C or a time limit. Clauses are handed over a few at a time, and questions are asked in
 another thread, in which the solver lets go of the interpreter and can be stopped.
@@ -13,9 +15,9 @@ from itertools import chain
 from threading import Event, Thread
 from typing import Any, TypeAlias, TypeVar
 
-from plyfold.clock import NO_LIMIT, Clock
+from plyfold.clock import NO_LIMIT, Clock, make_call
 
-__all__ = ["Clauses", "StoppableSolver", "in_time", "minimal_core", "solve", "solver_of"]
+__all__ = ["Clauses", "StoppableSolver", "in_time", "minimal_core", "solutions_by_choice", "solve", "solver_of"]
 
 Clauses: TypeAlias = Iterable[Sequence[int]]
 Answer = TypeVar("Answer")
@@ -92,35 +94,45 @@ def solve(clauses: Clauses, clock: Clock = NO_LIMIT) -> list[int] | None:
         return list(solver.get_model()) if solver.ask(clock=clock) else None
 
 
+def solutions_by_choice(clauses: Clauses, choices: Sequence[int]) -> Iterator[list[int]]:
+    """Yield the literals of all solutions, each once, given variables that determine a solution.
+
+    The solver is asked for one; then the last choice whose opposite has not been tried, under the choices before it, is
+    turned round, and the solver is asked for the rest. Nothing is remembered but the way back.
+    """
+    with solver_of(clauses) as solver:
+        tried: list[tuple[int, bool]] = []
+        possible = solver.ask()
+        while True:
+            if possible:
+                model = solver.get_model()
+                yield model
+                tried += [(model[variable - 1], False) for variable in choices[len(tried) :]]
+            while tried and tried[-1][1]:
+                tried.pop()
+            if not tried:
+                return
+            tried[-1] = (-tried[-1][0], True)
+            possible = solver.ask([literal for literal, _ in tried])
+
+
 def in_time(time_limit: float | None, solver: StoppableSolver, question: Callable[[], Answer]) -> Answer:
     """Ask a question of a solver, and stop the solver when the time is over or Ctrl-C is pressed.
 
     The question is asked in another thread, since signals have to wait for as long as this one is in foreign code.
     Raises TimeoutError when the time is over, unless the question answers all the same.
     """
-    answers: list[Answer] = []
-    errors: list[BaseException] = []
+    outcome: list[Callable[[], Answer]] = []
     # Not Thread.join: interrupted by a signal, it takes the thread for finished.
     done = Event()
-
-    def ask() -> None:
-        try:
-            answers.append(question())
-        except BaseException as error:  # it is raised again below
-            errors.append(error)
-        finally:
-            done.set()
-
     try:
-        Thread(target=ask, daemon=True).start()
+        Thread(target=make_call, args=(question, outcome, done), daemon=True).start()
         done.wait(time_limit)
     finally:
         if not done.is_set():
             solver.interrupt()
             done.wait()
-    if errors:
-        raise errors[0]
-    return answers[0]
+    return outcome[0]()
 
 
 def minimal_core(

@@ -7,17 +7,16 @@ import sys
 import traceback
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeAlias
 
 from plyfold.errors import CurveError, InputError, MemoryLimitError, PlyfoldError, StrokeError, TimeLimitError
 from plyfold.sketch.export import export
-from plyfold.sketch.lie import lie
-from plyfold.sketch.lifting import surface
-from plyfold.sketch.look import look
+from plyfold.sketch.lie import lie, lifted
+from plyfold.sketch.look import look_at
 from plyfold.sketch.opening import gallery, opened
-from plyfold.sketch.schema import VERSION, Export, Lie, Look, Surface, parse, read_question
+from plyfold.sketch.schema import VERSION, Export, Lie, Lift, Look, Q, parse, read_question
 
-__all__ = ["Answer", "answer", "error_answer", "json_answer"]
+__all__ = ["Reply", "answer", "error_reply", "json_reply"]
 
 # What is part of drawing is no failure: browsers would write of it in their consoles.
 _STATUS = {
@@ -36,7 +35,7 @@ _STATUS = {
 
 
 @dataclass(frozen=True)
-class Answer:
+class Reply:
     """What goes back to the page."""
 
     status: int
@@ -45,7 +44,10 @@ class Answer:
     headers: Mapping[str, str] = field(default_factory=dict)
 
 
-def answer(name: str, body: bytes, headers: Mapping[str, str]) -> Answer:
+_Answering: TypeAlias = Callable[[bytes, Mapping[str, str]], Reply]
+
+
+def answer(name: str, body: bytes, headers: Mapping[str, str]) -> Reply:
     """Answer a question.
 
     Parameters
@@ -59,7 +61,7 @@ def answer(name: str, body: bytes, headers: Mapping[str, str]) -> Answer:
 
     Returns
     -------
-    Answer
+    Reply
         Whatever happens: no error gets out of here.
 
     Examples
@@ -71,25 +73,25 @@ def answer(name: str, body: bytes, headers: Mapping[str, str]) -> Answer:
     try:
         return _ANSWERS[name](body, headers)
     except PlyfoldError as error:
-        return error_answer(_kind(error), error.message or str(error), error.where, error.hint)
+        return error_reply(_kind(error), error.message or str(error), error.where, error.hint)
     except MemoryError:
-        return error_answer("too large", "this takes more memory than there is", hint="ask for fewer triangles")
+        return error_reply("too large", "this takes more memory than there is", hint="ask for fewer triangles")
     except Exception:  # a mistake in plyfold: the page gets a sentence, the terminal the details
         traceback.print_exc(file=sys.stderr)
-        return error_answer("internal", "plyfold made a mistake here", hint="the terminal has the details")
+        return error_reply("internal", "plyfold made a mistake here", hint="the terminal has the details")
 
 
-def json_answer(value: Any, status: int = 200) -> Answer:
+def json_reply(value: Any, status: int = 200) -> Reply:
     """Return plain data as an answer in JSON."""
-    return Answer(status, "application/json", json.dumps(value, separators=(",", ":"), allow_nan=False).encode())
+    return Reply(status, "application/json", json.dumps(value, separators=(",", ":"), allow_nan=False).encode())
 
 
-def error_answer(
+def error_reply(
     kind: str, sentence: str, where: Iterable[Iterable[float]] = (), hint: str = "", status: int | None = None
-) -> Answer:
+) -> Reply:
     """Return an error as an answer: its kind, a sentence, the places and what to do."""
     error = {"kind": kind, "sentence": sentence, "where": [list(place) for place in where], "hint": hint}
-    return json_answer({"version": VERSION, "error": error}, status or _STATUS[kind])
+    return json_reply({"version": VERSION, "error": error}, status or _STATUS[kind])
 
 
 def _kind(error: PlyfoldError) -> str:
@@ -102,40 +104,28 @@ def _kind(error: PlyfoldError) -> str:
     return "input" if isinstance(error, InputError) and not isinstance(error, CurveError) else "drawing"
 
 
-def _look(body: bytes, _headers: Mapping[str, str]) -> Answer:
-    return json_answer(look(read_question(Look, parse(body))))
+def _asked(kind: type[Q], find: Callable[[Q], dict[str, Any]]) -> _Answering:
+    return lambda body, _headers: json_reply(find(read_question(kind, parse(body))))
 
 
-def _lie(body: bytes, _headers: Mapping[str, str]) -> Answer:
-    return json_answer(lie(read_question(Lie, parse(body))))
-
-
-def _surface(body: bytes, _headers: Mapping[str, str]) -> Answer:
-    return json_answer(surface(read_question(Surface, parse(body))))
-
-
-def _export(body: bytes, _headers: Mapping[str, str]) -> Answer:
+def _export(body: bytes, _headers: Mapping[str, str]) -> Reply:
     order = read_question(Export, parse(body))
     content, kind = export(order)
-    return Answer(200, kind, content, {"Content-Disposition": f'attachment; filename="drawing.{order.format}"'})
+    return Reply(200, kind, content, {"Content-Disposition": f'attachment; filename="drawing.{order.format}"'})
 
 
-def _open(body: bytes, headers: Mapping[str, str]) -> Answer:
+def _open(body: bytes, headers: Mapping[str, str]) -> Reply:
     try:
-        return json_answer(opened(body, headers))
+        return json_reply(opened(body, headers))
     except InputError as error:
-        return error_answer("file", error.message or str(error), error.where, error.hint)
+        return error_reply("file", error.message or str(error), error.where, error.hint)
 
 
-def _gallery(_body: bytes, _headers: Mapping[str, str]) -> Answer:
-    return json_answer(gallery())
-
-
-_ANSWERS: dict[str, Callable[[bytes, Mapping[str, str]], Answer]] = {
-    "look": _look,
-    "lie": _lie,
-    "surface": _surface,
+_ANSWERS: dict[str, _Answering] = {
+    "look": _asked(Look, look_at),
+    "lie": _asked(Lie, lie),
+    "surface": _asked(Lift, lifted),
     "export": _export,
     "open": _open,
-    "gallery": _gallery,
+    "gallery": lambda _body, _headers: json_reply(gallery()),
 }

@@ -7,12 +7,16 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import islice
 
-from plyfold.arrangement import Arrangement, arrangement
-from plyfold.curve import Curve
+from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.errors import CurveError, NotImmersibleError, StrokeError
-from plyfold.immersion import Immersion, count_immersions, find_immersion, nth_immersion
-from plyfold.layering import Layering, count_layerings, find_layering, layerings
+from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.solve import count_immersions, find_immersion, nth_immersion
+from plyfold.layering.layering import Layering
+from plyfold.layering.orders.counting import count_layerings
+from plyfold.layering.orders.listing import layerings
+from plyfold.layering.orders.search import find_layering
 from plyfold.obstruction import Obstruction, Unknown
+from plyfold.outline.curve import Curve
 from plyfold.sketch.patience import patient
 from plyfold.sketch.schema import Stroke
 
@@ -58,7 +62,7 @@ def curve_of(strokes: Sequence[Stroke]) -> Curve:
 @lru_cache(maxsize=_REMEMBERED)
 def arranged(strokes: tuple[Stroke, ...]) -> Arrangement:
     """Return the arrangement of the loop that strokes draw; refuse one that crosses itself more than 20,000 times."""
-    drawn = arrangement(curve_of(strokes))
+    drawn = arrange(curve_of(strokes))
     if drawn.n_crossings > _MOST_CROSSINGS:
         crossings = f"the loop crosses itself {drawn.n_crossings:,} times, more than {_MOST_CROSSINGS:,}"
         raise CurveError(crossings, hint="draw a simpler one, or use plyfold from Python or the command line")

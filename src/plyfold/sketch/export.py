@@ -5,23 +5,27 @@ from __future__ import annotations
 import json
 import tempfile
 from collections.abc import Callable
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Floats
-from plyfold.draw.colours import INK
+from plyfold.colours import INK
+from plyfold.draw.canvas import ShownFigure, blank, line
+from plyfold.draw.figures import overview, picture_bytes
+from plyfold.draw.over_under_files import over_under_svg, over_under_tikz
+from plyfold.draw.placement import closed
 from plyfold.draw.svg import arrangement_svg
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
-from plyfold.layering import Layering
+from plyfold.io.svg_writing import polylines_svg
+from plyfold.layering.layering import Layering
 from plyfold.obstruction import Obstruction
 from plyfold.sketch.drawings import arranged, immersed
-from plyfold.sketch.embedding import png_with, svg_with
-from plyfold.sketch.lifting import lifted_surface
-from plyfold.sketch.schema import Document, Export, Points, document_data
+from plyfold.sketch.lie import lifted_surface
+from plyfold.sketch.pictures import png_with, svg_with
+from plyfold.sketch.schema import Document, Export, document_data
 
 __all__ = ["FORMATS", "export"]
 
@@ -63,8 +67,8 @@ def export(order: Export) -> tuple[bytes, str]:
 
     Examples
     --------
-    >>> from plyfold.sketch.schema import Surface
-    >>> export(Export(Document(()), "json", Surface((), 0, 0, None, 100)))[1]
+    >>> from plyfold.sketch.schema import Lift
+    >>> export(Export(Document(()), "json", Lift((), 0, 0, None, 100)))[1]
     'application/json'
     """
     if order.format not in _TYPES:
@@ -85,8 +89,6 @@ def _json(order: Export) -> bytes:
 
 
 def _tikz(order: Export) -> bytes:
-    from plyfold.draw.tikz import over_under_tikz
-
     layering = lifted_surface(order.surface).layering
     if not isinstance(layering, Layering):
         raise InputError("TikZ shows layers, and these sheets pass through each other", hint="choose SVG or PNG")
@@ -99,8 +101,6 @@ def _svg(order: Export) -> bytes:
 
 def _svg_picture(order: Export) -> str:
     """Return the picture of the furthest stage that the drawing reaches: cloth in layers, cells, or bare strokes."""
-    from plyfold.draw.over_under_svg import over_under_svg
-
     try:
         drawn = arranged(order.surface.strokes)
     except PlyfoldError:
@@ -115,15 +115,11 @@ def _png(order: Export) -> bytes:
 
 
 def _png_picture(order: Export) -> bytes:
-    from plyfold.draw.figures import overview
-
     try:
         figure = overview(*_furthest(order, arranged(order.surface.strokes)))
     except PlyfoldError:
         figure = _strokes_figure(order.document)
-    drawn = BytesIO()
-    figure.savefig(drawn, format="png", dpi=160, facecolor="white")
-    return drawn.getvalue()
+    return picture_bytes(figure, "png")
 
 
 _WRITERS: dict[str, Callable[[Export], bytes]] = {"json": _json, "svg": _svg, "png": _png, "tikz": _tikz}
@@ -145,40 +141,18 @@ def _furthest(order: Export, drawn: Arrangement) -> tuple[Any, Obstruction | Non
 
 
 def _strokes_svg(document: Document) -> str:
-    lines = [_line(stroke.points, stroke.closed) for stroke in document.strokes if stroke.points]
-    low, high = _box(lines)
-    x, y = float(low[0]), -float(high[1])
-    width, height = (high - low).tolist()
-    style = f'fill="none" stroke="{INK}" stroke-width="{max(width, height) / 200}" stroke-linejoin="round"'
-    drawn = "".join(
-        '<polyline points="{}"/>'.format(" ".join(f"{x!r},{-y!r}" for x, y in line.tolist())) for line in lines
-    )
-    start = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{x} {y} {width} {height}">'
-    return f"{start}\n<g {style}>{drawn}</g>\n</svg>\n"
+    return polylines_svg(_lines(document))
 
 
-def _strokes_figure(document: Document) -> Any:
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(5, 5), layout="constrained")
-    axes = figure.subplots()
-    axes.set_aspect("equal")
-    axes.set_axis_off()
-    for stroke in document.strokes:
-        if stroke.points:
-            axes.plot(*_line(stroke.points, stroke.closed).T, color=INK)
+def _strokes_figure(document: Document) -> ShownFigure:
+    figure = ShownFigure(figsize=(5, 5), layout="constrained")
+    axes = blank(figure.subplots())
+    for points in _lines(document):
+        line(axes, points, INK, 1.5)
     return figure
 
 
-def _line(points: Points, closed: bool) -> Floats:
-    return np.array([*points, *points[:1]] if closed else points, dtype=np.float64)
-
-
-def _box(lines: list[Floats]) -> tuple[Floats, Floats]:
-    """Return the lower left and upper right corner of a picture, with a margin; of nothing, a unit square."""
-    if not lines:
-        return np.zeros(2), np.ones(2)
-    points = np.concatenate(lines)
-    low, high = points.min(axis=0), points.max(axis=0)
-    margin = 0.05 * (float((high - low).max()) or 1.0)
-    return low - margin, high + margin
+def _lines(document: Document) -> list[Floats]:
+    """Return the strokes as polylines, closed ones with the first point at the end again."""
+    drawn = [(np.array(stroke.points, dtype=np.float64), stroke.closed) for stroke in document.strokes if stroke.points]
+    return [closed(points) if is_closed else points for points, is_closed in drawn]

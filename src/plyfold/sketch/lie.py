@@ -1,24 +1,33 @@
-"""How does the cloth lie? One immersion, one layering of it, and what they look like unwound."""
+"""How does the cloth lie? One immersion, one layering of it, and what they look like unwound, and lifted."""
 
 from __future__ import annotations
 
+from dataclasses import asdict
+from functools import lru_cache
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 
 from plyfold.arrays import Floats
-from plyfold.draw.hyperbolic import BorderCircle
-from plyfold.errors import NotImmersibleError
-from plyfold.immersion import Immersion, changed_borders
-from plyfold.layering import Layering
-from plyfold.obstruction import Obstruction
+from plyfold.clock import Clock, Watch
+from plyfold.draw.placement import BorderCircle
+from plyfold.draw.viewer import mesh_data
+from plyfold.errors import NotEmbeddableError, NotImmersibleError, TimeLimitError
+from plyfold.immersion.compare import changed_borders
+from plyfold.immersion.immersion import Immersion
+from plyfold.layering.layering import Layering
+from plyfold.obstruction import Obstruction, Unknown
+from plyfold.report import words
 from plyfold.sketch.drawings import Layered, immersed, immersion_count, layered
-from plyfold.sketch.schema import VERSION, Lie
+from plyfold.sketch.patience import patient
+from plyfold.sketch.schema import VERSION, Lie, Lift
+from plyfold.surface.lift import Surface, layering_of, lift
 
-__all__ = ["lie", "obstruction_data"]
+__all__ = ["lie", "lifted", "lifted_surface"]
 
 _DECIMALS = 4
+_SECONDS_TO_INTERSECT = 10.0
 
 
 def lie(question: Lie) -> dict[str, Any]:
@@ -51,7 +60,7 @@ def lie(question: Lie) -> dict[str, Any]:
     try:
         disk = immersed(question.strokes, question.immersion)
     except NotImmersibleError as error:
-        why = obstruction_data(error.obstruction)
+        why = _obstruction(error.obstruction)
         return {"version": VERSION, "obstruction": why, "immersions": "0", "seconds": perf_counter() - began}
     count = immersion_count(question.strokes)
     answer = {
@@ -63,11 +72,12 @@ def lie(question: Lie) -> dict[str, Any]:
         "sheet_cell": disk.sheet_cell.tolist(),
         "layout": _layout(disk),
     }
-    answer |= _layering(layered(question.strokes, question.immersion, question.layering))
+    found = layered(question.strokes, question.immersion, question.layering)
+    answer |= _layering(found) | {"verdict": _verdict(count, found.found)}
     return answer | {"seconds": perf_counter() - began}
 
 
-def obstruction_data(obstruction: Obstruction) -> dict[str, Any]:
+def _obstruction(obstruction: Obstruction) -> dict[str, Any]:
     """Return an obstruction as plain data, with the sheets and cells that are in conflict."""
     places = obstruction.value if obstruction.reason in ("reversed pair", "cyclic order") else ()
     sheets = {sheet for _, *others in places for sheet in np.ravel(others).tolist()}
@@ -87,10 +97,16 @@ def _layering(layered: Layered) -> dict[str, Any]:
         "layering": str(layered.number),
         "layerings": None if layered.count is None else str(layered.count),
         "layerable": True if lies else False if isinstance(found, Obstruction) else None,
-        "obstruction": obstruction_data(found) if isinstance(found, Obstruction) else None,
+        "obstruction": _obstruction(found) if isinstance(found, Obstruction) else None,
         "levels": found.level.tolist() if isinstance(found, Layering) else None,
         "casing": found.casing.tolist() if isinstance(found, Layering) else None,
     }
+
+
+def _verdict(count: int, found: Layering | Obstruction | Unknown) -> dict[str, str]:
+    """Return the verdict on the loop in words, now that it is known whether this immersion can be lifted."""
+    obstruction = found.sentence if isinstance(found, Obstruction) else ""
+    return asdict(words(count, obstruction, decided=not isinstance(found, Unknown)))
 
 
 def _changed(question: Lie, disk: Immersion, count: int) -> list[int]:
@@ -127,3 +143,72 @@ def _layout(disk: Immersion) -> dict[str, Any]:
 
 def _rounded(points: Floats) -> list[list[float]]:
     return [[x, y] for x, y in points.round(_DECIMALS).tolist()]
+
+
+# ---- lifted: the surface over one layering, for the 3D view and for files --------------------------------------------
+
+
+def lifted(question: Lift) -> dict[str, Any]:
+    """Return a lifted surface as the 3D view reads it, or why there is none.
+
+    Parameters
+    ----------
+    question : Surface
+
+    Returns
+    -------
+    dict
+        As ``PROTOCOL.md`` says, ready for JSON.
+
+    Raises
+    ------
+    PlyfoldError
+        If the strokes make no loop that can be used, the gap is none, or it was not decided in time.
+
+    Examples
+    --------
+    >>> from plyfold.sketch.schema import Stroke
+    >>> answer = lifted(Lift((Stroke(((0, 0), (4, 0), (0, 3)), closed=True),), 0, 0, None, 100))
+    >>> answer["gap"], answer["mesh"]["centre"]
+    (0.2, [2.0, 1.5, 0.0])
+    """
+    began = perf_counter()
+    try:
+        made = lifted_surface(question)
+    except (NotImmersibleError, NotEmbeddableError) as error:
+        why = _obstruction(error.obstruction)
+        return {"version": VERSION, "obstruction": why, "seconds": perf_counter() - began}
+    return {
+        "version": VERSION,
+        "mesh": mesh_data(made),
+        "immersion": str(question.immersion % immersion_count(question.strokes)),
+        "layering": str(layered(question.strokes, question.immersion, question.layering).number),
+        "gap": made.gap,
+        "seconds": perf_counter() - began,
+    }
+
+
+@lru_cache(maxsize=4)
+def lifted_surface(question: Lift) -> Surface:
+    """Return the surface that a question asks for.
+
+    Raises
+    ------
+    NotImmersibleError
+        If the loop bounds no disk.
+    NotEmbeddableError
+        If the disk cannot be lifted, unless the sheets may pass through each other.
+    TimeLimitError
+        If that was not decided in time.
+    """
+    found = layered(question.strokes, question.immersion, question.layering).found
+    options: dict[str, Any] = {"gap": question.gap, "triangles": question.triangles}
+    if isinstance(found, Layering):
+        return lift(found, **options)
+    if question.allow_intersections:
+        disk = immersed(question.strokes, question.immersion)
+        within = Watch(Clock(patient(_SECONDS_TO_INTERSECT)))
+        return lift(layering_of(disk, True, within), **options)
+    if isinstance(found, Obstruction):
+        raise NotEmbeddableError(found)
+    raise TimeLimitError(found.sentence)

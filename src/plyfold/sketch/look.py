@@ -2,29 +2,30 @@
 
 from __future__ import annotations
 
-import math
+from dataclasses import asdict
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 
-from plyfold.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.gauss import GaussCode
-from plyfold.draw.places import label_circle
-from plyfold.immersion import blank_word, count_immersions, find_immersion
+from plyfold.draw.placement import label_circle
+from plyfold.immersion.blank_word import blank_word
+from plyfold.immersion.solve import count_immersions, find_immersion
 from plyfold.obstruction import Obstruction
+from plyfold.offers.kinks import Kink, find_kink
+from plyfold.report import words
 from plyfold.sketch.drawings import arranged
-from plyfold.sketch.kinks import Kink, find_kink
 from plyfold.sketch.schema import VERSION, Look
 
-__all__ = ["in_words", "look"]
+__all__ = ["look_at"]
 
 _LONGEST_WORD = 60
-_LONGEST_NUMBER = 12
 _LABEL_TOLERANCE = 0.02
 
 
-def look(question: Look) -> dict[str, Any]:
+def look_at(question: Look) -> dict[str, Any]:
     """Return all that is known of a loop without asking how its cloth lies.
 
     Parameters
@@ -44,7 +45,7 @@ def look(question: Look) -> dict[str, Any]:
     Examples
     --------
     >>> from plyfold.sketch.schema import Stroke
-    >>> answer = look(Look((Stroke(((0, 0), (2, 2), (2, 0), (0, 2)), closed=True),)))
+    >>> answer = look_at(Look((Stroke(((0, 0), (2, 2), (2, 0), (0, 2)), closed=True),)))
     >>> answer["turning_number"], answer["verdict"]["reason"], answer["verdict"]["where"]
     (0, 'turning number', [[1.0, 1.0]])
     """
@@ -66,21 +67,6 @@ def look(question: Look) -> dict[str, Any]:
         "word": _word(drawn),
         "seconds": perf_counter() - began,
     }
-
-
-def in_words(count: int) -> str:
-    """Return a count as people read it; from a million million on, only how large it is.
-
-    Examples
-    --------
-    >>> in_words(12345), in_words(2**400)
-    ('12,345', 'about 2.58 · 10^120')
-    """
-    if len(str(count)) <= _LONGEST_NUMBER:
-        return f"{count:,}"
-    exponent = len(str(count)) - 1
-    leading = math.floor(count // 10 ** (exponent - 3) / 10) / 100
-    return f"about {leading:.2f} · 10^{exponent}"
 
 
 def _border(drawn: Arrangement, border: int) -> list[list[float]]:
@@ -107,12 +93,11 @@ def _verdict(drawn: Arrangement) -> dict[str, Any]:
     if isinstance(found, Obstruction):
         return _no_disk(drawn, found)
     count = count_immersions(drawn)
-    ways = "in one way" if count == 1 else f"in {in_words(count)} ways"
     return {
         "immersible": True,
         "immersions": str(count),
         "reason": None,
-        "sentence": f"Yes: this is the outline of a disk of cloth, which can lie {ways}.",
+        **asdict(words(count)),
         "where": [],
         "kink": None,
     }
@@ -124,7 +109,7 @@ def _no_disk(drawn: Arrangement, obstruction: Obstruction) -> dict[str, Any]:
         "immersible": False,
         "immersions": "0",
         "reason": obstruction.reason,
-        "sentence": f"No disk. {obstruction.sentence}",
+        **asdict(words(0, obstruction.sentence)),
         "where": [list(place) for place in obstruction.where],
         "kink": kink and _kink(kink),
     }

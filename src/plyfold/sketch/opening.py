@@ -11,17 +11,17 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
-from plyfold.curve import Curve
 from plyfold.errors import FileFormatError, InputError, StrokeError
 from plyfold.gallery import CURVES
-from plyfold.io import read
-from plyfold.sketch.embedding import PNG_START, png_document, svg_document
+from plyfold.io.reading import read
+from plyfold.outline.curve import Curve
+from plyfold.sketch.pictures import PNG_START, png_document, svg_document
 from plyfold.sketch.schema import (
     MOST_BYTES,
     MOST_POINTS,
     VERSION,
+    Backdrop,
     Document,
-    Image,
     Stroke,
     document_data,
     parse,
@@ -146,7 +146,7 @@ def _carried(content: bytes) -> Any:
 def _tracing(content: bytes, kind: str) -> Document:
     if len(content) > _LARGEST_PICTURE:
         raise InputError(f"the picture is larger than {_LARGEST_PICTURE // 2**20} MiB", hint="make it smaller")
-    return Document((), Image(f"data:image/{kind};base64,{base64.b64encode(content).decode()}"))
+    return Document((), Backdrop(f"data:image/{kind};base64,{base64.b64encode(content).decode()}"))
 
 
 def _drawn(name: str, content: bytes) -> Document:

@@ -1,4 +1,4 @@
-"""The files of the page, and the headers that keep it to itself."""
+"""The files of the page, with the colours of the palette, and the headers that keep it to itself."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ import re
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
-from plyfold.sketch.answers import Answer
+from plyfold.colours import CLOTH_LOW, PAPER, page_style
+from plyfold.sketch.answers import Reply
 
 __all__ = ["SECURITY_HEADERS", "page_file"]
 
@@ -42,7 +43,7 @@ SECURITY_HEADERS = {
 """With every answer: nothing is loaded from elsewhere, shown in a frame of, or read by, another site, or guessed."""
 
 
-def page_file(path: str) -> Answer | None:
+def page_file(path: str) -> Reply | None:
     """Return a file of the page, or None if there is no such file.
 
     Parameters
@@ -52,23 +53,42 @@ def page_file(path: str) -> Answer | None:
 
     Returns
     -------
-    Answer or None
-        Only what is listed in the page's two folders is ever opened, so no path leads out of them.
+    Reply or None
+        The colours as a style sheet are made. Only what is listed in the page's two folders is ever opened, so no path
+        leads out of them.
 
     Examples
     --------
     >>> page_file("/draw/viewer.js").content_type
     'text/javascript; charset=utf-8'
+    >>> page_file("/colours.css").content_type
+    'text/css; charset=utf-8'
     >>> page_file("/draw/../viewer.py"), page_file("/draw/%2e%2e/viewer.py")
     (None, None)
     """
-    file = _listed().get(path.removeprefix("/") or "index.html")
+    name = path.removeprefix("/") or "index.html"
+    content = _content(name)
+    if content is None:
+        return None
+    kind = _TYPES["." + name.rpartition(".")[2]]
+    policy = {"Content-Security-Policy": _policy(content)} if kind.startswith("text/html") else {}
+    return Reply(200, kind, content, policy)
+
+
+def _content(name: str) -> bytes | None:
+    """Return what stands at an address: the palette as a style sheet, or a file, pictures in its colours."""
+    if name == "colours.css":
+        return page_style().encode()
+    file = _listed().get(name)
     if file is None:
         return None
     content = file.read_bytes()
-    kind = _TYPES["." + file.name.rpartition(".")[2]]
-    policy = {"Content-Security-Policy": _policy(content)} if kind.startswith("text/html") else {}
-    return Answer(200, kind, content, policy)
+    return _coloured(content) if name.endswith(".svg") else content
+
+
+def _coloured(picture: bytes) -> bytes:
+    """Put the page's colours where a picture has their names: it cannot read the style sheet."""
+    return picture.replace(b"{{strong}}", CLOTH_LOW.encode()).replace(b"{{on-strong}}", PAPER.encode())
 
 
 def _listed() -> dict[str, Traversable]:

@@ -15,14 +15,14 @@ __all__ = [
     "MOST_BYTES",
     "MOST_POINTS",
     "VERSION",
+    "Backdrop",
     "Document",
     "Export",
-    "Image",
     "Lie",
+    "Lift",
     "Look",
-    "Points",
+    "Polyline",
     "Stroke",
-    "Surface",
     "document_data",
     "parse",
     "read_document",
@@ -38,20 +38,20 @@ _LONGEST_INDEX = 1000
 _PICTURE = re.compile(r"data:image/(png|jpeg|gif|webp);base64,[A-Za-z0-9+/]*={0,2}")
 _INDEX = re.compile(rf"-?[0-9]{{1,{_LONGEST_INDEX}}}")
 
-Points: TypeAlias = tuple[tuple[float, float], ...]
+Polyline: TypeAlias = tuple[tuple[float, float], ...]
 Setting: TypeAlias = str | float | bool | None
 
 
 @dataclass(frozen=True)
 class Stroke:
-    """Points in the order of the pen; ``closed`` if the last one is joined to the first."""
+    """Polyline in the order of the pen; ``closed`` if the last one is joined to the first."""
 
-    points: Points
+    points: Polyline
     closed: bool = False
 
 
 @dataclass(frozen=True)
-class Image:
+class Backdrop:
     """A picture to draw after: its data address, and (x, y, width, height) of its place, from the lower left corner."""
 
     href: str
@@ -64,7 +64,7 @@ class Document:
     """All that a user would miss: the strokes, the picture behind them and the settings of the page."""
 
     strokes: tuple[Stroke, ...]
-    image: Image | None = None
+    image: Backdrop | None = None
     view: dict[str, Setting] = field(default_factory=dict)
 
 
@@ -86,7 +86,7 @@ class Lie:
 
 
 @dataclass(frozen=True)
-class Surface:
+class Lift:
     """The question what it looks like, lifted."""
 
     strokes: tuple[Stroke, ...]
@@ -103,10 +103,10 @@ class Export:
 
     document: Document
     format: str
-    surface: Surface
+    surface: Lift
 
 
-Q = TypeVar("Q", Look, Lie, Surface, Export)
+Q = TypeVar("Q", Look, Lie, Lift, Export)
 
 
 # ---- reading ---------------------------------------------------------------------------------------------------------
@@ -146,7 +146,7 @@ def read_question(kind: type[Q], data: Any) -> Q:
 
     Parameters
     ----------
-    kind : {Look, Lie, Surface, Export}
+    kind : {Look, Lie, Lift, Export}
     data : object
         What its JSON says.
 
@@ -218,8 +218,8 @@ def _lie(question: dict[str, Any]) -> Lie:
     )
 
 
-def _surface(question: dict[str, Any]) -> Surface:
-    return _surface_of(question, _drawing(question))
+def _lift(question: dict[str, Any]) -> Lift:
+    return _lift_of(question, _drawing(question))
 
 
 def _export(question: dict[str, Any]) -> Export:
@@ -227,24 +227,24 @@ def _export(question: dict[str, Any]) -> Export:
     kind = question.get("format")
     if not isinstance(kind, str):
         _refuse("format must be a word such as glb")
-    return Export(document, kind, _surface_of(question, document.strokes))
+    return Export(document, kind, _lift_of(question, document.strokes))
 
 
-_READERS: dict[type, Callable[[dict[str, Any]], Look | Lie | Surface | Export]] = {
+_READERS: dict[type, Callable[[dict[str, Any]], Look | Lie | Lift | Export]] = {
     Look: _look,
     Lie: _lie,
-    Surface: _surface,
+    Lift: _lift,
     Export: _export,
 }
 
 
-def _surface_of(question: dict[str, Any], strokes: tuple[Stroke, ...]) -> Surface:
+def _lift_of(question: dict[str, Any], strokes: tuple[Stroke, ...]) -> Lift:
     triangles = question.get("triangles", 3000)
     if isinstance(triangles, bool) or not isinstance(triangles, int) or not 1 <= triangles <= _MOST_TRIANGLES:
         _refuse(f"triangles must be a whole number from 1 to {_MOST_TRIANGLES}")
     gap = question.get("gap")
     allowed = question.get("allow_intersections", False)
-    return Surface(
+    return Lift(
         strokes,
         _index(question, "immersion"),
         _index(question, "layering"),
@@ -283,7 +283,7 @@ def _limited(strokes: tuple[Stroke, ...]) -> tuple[Stroke, ...]:
     return strokes
 
 
-def _points(data: Any, name: str) -> Points:
+def _points(data: Any, name: str) -> Polyline:
     return tuple(_point(place, f"{name}[{number}]") for number, place in enumerate(_list(data, name)))
 
 
@@ -293,14 +293,14 @@ def _point(data: Any, name: str) -> tuple[float, float]:
     return _number(data[0], name), _number(data[1], name)
 
 
-def _image(data: Any) -> Image | None:
+def _image(data: Any) -> Backdrop | None:
     if data is None:
         return None
     image = _object(data, "document.image")
     href, place = image.get("href"), image.get("place")
     if not isinstance(href, str) or not _PICTURE.fullmatch(href):
         _refuse("document.image.href is not the data address of a PNG, JPEG, GIF or WebP picture")
-    return Image(href, None if place is None else _place(place), _share(image.get("opacity", 0.5)))
+    return Backdrop(href, None if place is None else _place(place), _share(image.get("opacity", 0.5)))
 
 
 def _place(data: Any) -> tuple[float, float, float, float]:

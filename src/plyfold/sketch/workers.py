@@ -21,7 +21,7 @@ from multiprocessing import connection, get_context, parent_process, resource_tr
 from multiprocessing.connection import Connection
 from typing import Any
 
-from plyfold.sketch.answers import Answer, answer, error_answer
+from plyfold.sketch.answers import Reply, answer, error_reply
 
 __all__ = ["Question", "Workers"]
 
@@ -30,9 +30,9 @@ _MOST = 8
 _MOST_MEMORY = 3 * 2**30
 _ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
-_SUPERSEDED = error_answer("superseded", "a newer question took the place of this one")
-_GONE = error_answer("superseded", "the page has gone")
-_DIED = error_answer("internal", "the process that worked on this has died", hint="perhaps it took too much memory")
+_SUPERSEDED = error_reply("superseded", "a newer question took the place of this one")
+_GONE = error_reply("superseded", "the page has gone")
+_DIED = error_reply("internal", "the process that worked on this has died", hint="perhaps it took too much memory")
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class Question:
 class _Worker:
     process: Any
     pipe: Connection
-    ended: Answer | None = None  # why it was or will be killed
+    ended: Reply | None = None  # why it was or will be killed
 
 
 def _warm_context() -> Any:
@@ -105,7 +105,7 @@ class Workers:
     def __post_init__(self) -> None:
         self._waiting += [self._start() for _ in range(_WAITING)]
 
-    def ask(self, question: Question, page: socket.socket | None = None) -> Answer:
+    def ask(self, question: Question, page: socket.socket | None = None) -> Reply:
         """Put a question to a worker and wait for the answer, as long as the page's connection is open.
 
         Parameters
@@ -116,11 +116,11 @@ class Workers:
 
         Returns
         -------
-        Answer
+        Reply
         """
         worker = self._take(question.place)
         if worker is None:
-            return error_answer("busy", f"{_MOST} questions are being answered already", hint="wait a moment")
+            return error_reply("busy", f"{_MOST} questions are being answered already", hint="wait a moment")
         try:
             worker.pipe.send((question.name, question.body, dict(question.headers)))
             found = _outcome(worker, question.seconds, page)
@@ -157,7 +157,7 @@ class Workers:
             self._working[worker] = place
             return worker
 
-    def _give_back(self, worker: _Worker, found: Answer | None) -> Answer:
+    def _give_back(self, worker: _Worker, found: Reply | None) -> Reply:
         with self._lock:
             del self._working[worker]
             if found is not None and worker.ended is None and len(self._waiting) < _WAITING:
@@ -170,7 +170,7 @@ class Workers:
         return found or worker.ended or _DIED
 
 
-def _outcome(worker: _Worker, seconds: float, page: socket.socket | None) -> Answer | None:
+def _outcome(worker: _Worker, seconds: float, page: socket.socket | None) -> Reply | None:
     """Wait for the answer until the time is over, the page has gone, or the worker has died."""
     end = time.monotonic() + seconds
     watched: list[Any] = [worker.pipe] if page is None else [worker.pipe, page]
@@ -184,16 +184,16 @@ def _outcome(worker: _Worker, seconds: float, page: socket.socket | None) -> Ans
                 return None
             watched.remove(page)  # it sends its next question already
     hint = "draw something simpler, or ask for less"
-    worker.ended = error_answer("time limit", f"there is no answer after {seconds:g} seconds", hint=hint)
+    worker.ended = error_reply("time limit", f"there is no answer after {seconds:g} seconds", hint=hint)
     return None
 
 
-def _received(pipe: Connection) -> Answer | None:
+def _received(pipe: Connection) -> Reply | None:
     try:
         found = pipe.recv()
     except (EOFError, OSError):
         return None
-    assert isinstance(found, Answer)
+    assert isinstance(found, Reply)
     return found
 
 

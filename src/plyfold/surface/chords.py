@@ -12,8 +12,8 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import PrecisionError
-from plyfold.flat.cells import CellTriangulation
-from plyfold.flat.sheets import following
+from plyfold.halfedges import ends_of, half_edges_from_to, twins_of
+from plyfold.mesh.cells import CellTriangulation
 from plyfold.predicates import orient
 
 __all__ = ["split_chords"]
@@ -40,9 +40,9 @@ def split_chords(mesh: CellTriangulation, borders: Ints) -> CellTriangulation:
 
     Examples
     --------
-    >>> from plyfold.arrangement import arrangement
-    >>> from plyfold.flat.cells import triangulate_cells
-    >>> square = triangulate_cells(arrangement([(0, 0), (2, 0), (2, 2), (0, 2)]), triangles=0)
+    >>> from plyfold import arrange
+    >>> from plyfold.mesh.cells import triangulate_cells
+    >>> square = triangulate_cells(arrange([(0, 0), (2, 0), (2, 2), (0, 2)]), triangles=0)
     >>> split = split_chords(square, np.array([0]))
     >>> split.points[4:].tolist(), len(split.triangles)
     ([[1.0, 1.0]], 4)
@@ -63,7 +63,7 @@ def _chords(mesh: CellTriangulation, borders: Ints) -> Ints:
     open_point = np.zeros(len(mesh.points), dtype=bool)
     pieces = np.flatnonzero(np.isin(mesh.chain_border, borders))
     open_point[mesh.chain[pieces]] = open_point[mesh.chain[(pieces + 1) % len(mesh.chain)]] = True
-    start, end = _ends(mesh.triangles)
+    start, end = ends_of(mesh.triangles)
     right = mesh.twin[mesh.left]
     inside = mesh.twin >= 0
     inside[mesh.left] = inside[right[right >= 0]] = False
@@ -72,7 +72,7 @@ def _chords(mesh: CellTriangulation, borders: Ints) -> Ints:
 
 def _halved(mesh: CellTriangulation, half_edges: Ints) -> CellTriangulation:
     """Put a point in the middle of edges, each given by one half-edge, and join it to what is on both sides."""
-    start, end = _ends(mesh.triangles)
+    start, end = ends_of(mesh.triangles)
     points = np.concatenate([mesh.points, mesh.points[start[half_edges]] / 2 + mesh.points[end[half_edges]] / 2])
     middle = np.full(len(start) + 1, -1)  # one more, for sides without a twin
     middle[mesh.twin[half_edges]] = middle[half_edges] = len(mesh.points) + np.arange(len(half_edges))
@@ -101,27 +101,12 @@ def _triangulation(points: Floats, triangles: Ints, cell: Ints, chain: Ints, cha
     a, b, c = points[triangles].swapaxes(0, 1)
     if len(flat := np.flatnonzero(orient(a, b, c) <= 0)):
         raise PrecisionError("double precision cannot hold a point in the middle of an edge", where=a[flat])
-    start, end = _ends(triangles)
-    key = start * len(points) + end
-    order = np.argsort(key)
     return CellTriangulation(
         points=points,
         triangles=triangles,
-        twin=_found(key, order, end * len(points) + start),
+        twin=twins_of(triangles),
         cell=cell,
         chain=chain,
         chain_border=chain_border,
-        left=_found(key, order, chain * len(points) + np.roll(chain, -1)),
+        left=half_edges_from_to(triangles, chain, np.roll(chain, -1)),
     )
-
-
-def _ends(triangles: Ints) -> tuple[Ints, Ints]:
-    """Return start and end of every half-edge."""
-    start = triangles.ravel()
-    return start, start[following(np.arange(len(start)))]
-
-
-def _found(key: Ints, order: Ints, wanted: Ints) -> Ints:
-    """Return where the wanted keys are, −1 where they are not."""
-    at = order[np.minimum(np.searchsorted(key, wanted, sorter=order), len(key) - 1)]
-    return np.where(key[at] == wanted, at, -1)

@@ -21,7 +21,8 @@ import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.surface.glue import LiftedMesh
+from plyfold.matrices import factorised
+from plyfold.surface.glue import LiftedMesh, numbers_of_copies
 
 __all__ = ["Cloth", "Response", "cloth_of", "held_response", "response"]
 
@@ -132,17 +133,6 @@ def held_response(cloth: Cloth, held: Bools, watch: Watch = UNWATCHED) -> Respon
     return balance
 
 
-def factorised(matrix: Any, watch: Watch) -> Any:
-    """Return the factors of a symmetric positive definite matrix."""
-    from scipy.sparse.linalg import splu
-
-    options = {"SymmetricMode": True}
-    columns = matrix.tocsc()
-    return watch.wait_for(
-        lambda: splu(columns, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options), columns.shape[0]
-    )
-
-
 def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[Any, Floats]:
     """Return the matrix of ½ ∫ w |∇z|² and the area that belongs to each vertex."""
     from scipy.sparse import coo_array
@@ -164,9 +154,7 @@ def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[
 
 def _alone(mesh: LiftedMesh) -> Bools:
     """Tell which vertices lie where nothing overlaps: above and below all triangles around them is no other one."""
-    below = mesh.planar_vertex[mesh.faces]
-    first = np.flatnonzero(np.concatenate([[True], (below[1:] != below[:-1]).any(axis=1)]))
-    copies = np.diff(np.append(first, len(below)))
+    copies = numbers_of_copies(mesh)
     alone = np.ones(len(mesh.level), dtype=bool)
     alone[mesh.faces[np.repeat(copies > 1, copies)]] = False
     return alone

@@ -2,20 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from plyfold.arrays import Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.flat.cells import CellTriangulation
-from plyfold.flat.sheets import SheetMesh, glue_copies
-from plyfold.immersion import Immersion
-from plyfold.layering import Layering
-from plyfold.layering.intersections import IntersectingLayering
-from plyfold.surface.passages import passing_edges, stacked_but_passing
+from plyfold.halfedges import following
+from plyfold.immersion.immersion import Immersion
+from plyfold.layering.layering import Layering
+from plyfold.layering.orders.intersections import IntersectingLayering
+from plyfold.mesh.cells import CellTriangulation
+from plyfold.mesh.sheets import SheetMesh, glue_copies
+from plyfold.ragged import count_each, pairs_in_each
 
-__all__ = ["LiftedMesh", "glue_sheets"]
+__all__ = [
+    "LiftedMesh",
+    "copies_over_each_other",
+    "intersection_curves",
+    "numbers_of_copies",
+    "passing_edges",
+    "shares_of_gap",
+    "stack_sheets",
+    "stacked_but_passing",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +62,7 @@ class LiftedMesh:
     passing: Ints
 
 
-def glue_sheets(
+def stack_sheets(
     layering: Layering | IntersectingLayering, mesh: CellTriangulation, watch: Watch = UNWATCHED
 ) -> LiftedMesh:
     """Copy the triangles of each cell once per sheet, glue the copies and stack them.
@@ -70,11 +81,11 @@ def glue_sheets(
 
     Examples
     --------
-    >>> from plyfold.flat.cells import triangulate_cells
-    >>> from plyfold.immersion import find_immersion
-    >>> from plyfold.layering import find_layering
+    >>> from plyfold.mesh.cells import triangulate_cells
+    >>> from plyfold import find_immersion
+    >>> from plyfold import find_layering
     >>> triangle = find_layering(find_immersion([(0, 0), (1, 0), (0, 1)]))
-    >>> lifted = glue_sheets(triangle, triangulate_cells(triangle.immersion.arrangement, max_area=1.0))
+    >>> lifted = stack_sheets(triangle, triangulate_cells(triangle.immersion.arrangement, max_area=1.0))
     >>> lifted.faces.shape, lifted.boundary.tolist(), lifted.stacked.tolist()
     ((1, 3), [0, 1, 2], [])
     """
@@ -108,11 +119,169 @@ def _stacks(immersion: Immersion, sheet_level: Ints, mesh: CellTriangulation, gl
     # Every vertex over a point is the corner of exactly one copy of the point's highest triangle.
     at = np.unique(planar_vertex, return_index=True)[1]
     repeated = np.repeat(top[at], sheets[at])
-    step = np.arange(len(repeated)) - np.repeat(np.cumsum(sheets[at]) - sheets[at], sheets[at])
-    sheet = glued.first_sheet[repeated // 3] + step
+    sheet = glued.first_sheet[repeated // 3] + count_each(sheets[at])
     stacked_vertex = vertex[glued.lifted(repeated, sheet)]
     level = np.empty(len(planar_vertex), dtype=np.int64)
     level[stacked_vertex] = sheet_level[sheet] - 1
     order = np.lexsort((level, planar_vertex))
     above = np.flatnonzero(np.diff(planar_vertex[order]) == 0)
     return level, np.stack([order[above], order[above + 1]], axis=1)
+
+
+# ---- where sheets pass through each other ----------------------------------------------------------------------------
+#
+# Over the points of a border along which two sheets pass through each other their order is open, and strict over all
+# other points. So between them, seen from above near the border, they meet in a curve.
+
+# Sheets that pass through each other part by one unit of height on so many along them.
+_WAY_PER_HEIGHT = 2.0
+# They keep at least this share of the gap, wherever their order is strict.
+_LEAST_SHARE = 1e-6
+
+
+def passing_edges(layering: IntersectingLayering, mesh: CellTriangulation, glued: SheetMesh) -> Ints:
+    """Return rows (a, b, c, d): edges a → b and c → d of two sheets that pass through each other along them."""
+    border, lower, upper = layering.intersections.T
+    rank = np.argsort(mesh.chain_border, kind="stable")
+    first, last = (np.searchsorted(mesh.chain_border[rank], border, side=side) for side in ("left", "right"))
+    row = np.repeat(np.arange(len(border)), last - first)
+    beside = mesh.twin[mesh.left[rank[first[row] + count_each(last - first)]]]
+    vertex = glued.faces.ravel()
+    sides = (glued.lifted(beside, sheet[row]) for sheet in (lower, upper))
+    return np.column_stack([vertex[end] for side in sides for end in (side, following(side))])
+
+
+def stacked_but_passing(stacked: Ints, level: Ints, planar_vertex: Ints, passing: Ints) -> Ints:
+    """Return the stacked vertices; over passing points all pairs but the passing ones, in place of neighbours."""
+    open_points = np.unique(planar_vertex[passing])
+    kept = stacked[~np.isin(planar_vertex[stacked[:, 0]], open_points)]
+    members = np.flatnonzero(np.isin(planar_vertex, open_points))
+    members = members[np.lexsort((level[members], planar_vertex[members]))]
+    pairs = _pairs(members, np.unique(planar_vertex[members], return_counts=True)[1])
+    key, open_key = (np.sort(rows, axis=1) @ [len(level), 1] for rows in (pairs, _open_pairs(passing)))
+    return np.concatenate([kept, pairs[~np.isin(key, open_key)]])
+
+
+def shares_of_gap(points: Floats, mesh: LiftedMesh, gap: float) -> Floats:
+    """Return which share of the gap the stacked vertices must keep, shape (c,): 1 but near intersections.
+
+    There it is half the way along the two sheets to the place where they pass through each other, as long as this is
+    less than the gap.
+    """
+    if not len(mesh.passing):
+        return np.ones(len(mesh.stacked))
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import dijkstra
+
+    here, there = _sides_of_pairs(mesh)
+    rows = (here, there, mesh.stacked, _open_pairs(mesh.passing))
+    keys = [np.sort(pairs, axis=1) @ [len(mesh.level), 1] for pairs in rows]
+    known, node = np.unique(np.concatenate(keys), return_inverse=True)
+    start, end, stacked, sources = np.split(node, np.cumsum(list(map(len, keys)))[:-1])
+    length = np.hypot(*(points[mesh.planar_vertex[here[:, 0]]] - points[mesh.planar_vertex[there[:, 0]]]).T)
+    one_each = np.unique(start * len(known) + end, return_index=True)[1]
+    ways = coo_array((length[one_each], (start[one_each], end[one_each])), shape=(len(known), len(known))).tocsr()
+    reach = _WAY_PER_HEIGHT * gap
+    way = dijkstra(ways, directed=False, indices=np.unique(sources), min_only=True, limit=reach)
+    return np.asarray(np.clip(way[stacked] / reach, _LEAST_SHARE, 1.0))
+
+
+def intersection_curves(vertices: Floats, mesh: LiftedMesh) -> tuple[Floats, ...]:
+    """Return the polylines, each of shape (m, 3), along which sheets pass through each other.
+
+    Cost: linear in the number of pairs of triangles over each other.
+    """
+    if not len(mesh.passing):
+        return ()
+    here, there = _sides_of_pairs(mesh)
+    crossed = np.flatnonzero(_above(vertices, here) != _above(vertices, there))
+    edges, edge = np.unique(_as_keys(here[crossed], there[crossed]), axis=0, return_inverse=True)
+    places = _meeting_places(vertices, edges)
+    # Every pair of triangles has three sides in a row, of which none or two are crossed.
+    return tuple(places[chain] for chain in _chains(edge.reshape(-1, 2)))
+
+
+def copies_over_each_other(mesh: LiftedMesh) -> Ints:
+    """Return all pairs of triangles over the same triangle of the drawing, shape (q, 2)."""
+    return _pairs(np.arange(len(mesh.faces)), numbers_of_copies(mesh))
+
+
+def numbers_of_copies(mesh: LiftedMesh) -> Ints:
+    """Return how many triangles lie over each triangle of the drawing; they follow each other."""
+    below = mesh.planar_vertex[mesh.faces]
+    first = np.flatnonzero(np.concatenate([[True], (below[1:] != below[:-1]).any(axis=1)]))
+    return np.diff(np.append(first, len(below)))
+
+
+def _pairs(members: Ints, lengths: Ints) -> Ints:
+    """Return all pairs of members of groups with these lengths, that follow each other."""
+    return members[np.column_stack(pairs_in_each(lengths))]
+
+
+def _open_pairs(passing: Ints) -> Ints:
+    """Return the pairs of vertices whose order is open."""
+    return np.unique(np.sort(np.concatenate([passing[:, [0, 2]], passing[:, [1, 3]]]), axis=1), axis=0)
+
+
+def _sides_of_pairs(mesh: LiftedMesh) -> tuple[Ints, Ints]:
+    """Return the pairs of vertices at the starts and at the ends of the sides of triangles over each other.
+
+    Three rows follow each other for each pair of triangles.
+    """
+    first, second = copies_over_each_other(mesh).T
+    here = np.stack([mesh.faces[first], mesh.faces[second]], axis=2)
+    return here.reshape(-1, 2), np.roll(here, -1, axis=1).reshape(-1, 2)
+
+
+def _above(vertices: Floats, pairs: Ints) -> Ints:
+    """Tell whether the first vertex of each pair lies above the second; of equal ones that with the larger number."""
+    a, b = vertices[pairs, 2].T
+    return np.where(a == b, pairs[:, 0] > pairs[:, 1], a > b).astype(np.int64)
+
+
+def _as_keys(here: Ints, there: Ints) -> Ints:
+    """Return rows (a, b, c, d), the same for a pair of edges a → b and c → d in any order and direction."""
+    edges = np.stack([here, there], axis=2)
+    swapped = edges[:, 0].min(axis=1) > edges[:, 1].min(axis=1)
+    edges[swapped] = edges[swapped, ::-1]
+    turned = edges[:, 0, 0] > edges[:, 0, 1]
+    edges[turned] = edges[turned, :, ::-1]
+    return edges.reshape(-1, 4)
+
+
+def _meeting_places(vertices: Floats, edges: Ints) -> Floats:
+    """Return where the edges a → b and c → d, one over the other, meet."""
+    a, b, c, d = vertices[edges].swapaxes(0, 1)
+    start, end = a[:, 2] - c[:, 2], b[:, 2] - d[:, 2]
+    apart = start - end
+    share = np.divide(start, apart, out=np.full(len(apart), 0.5), where=apart != 0)[:, None]
+    return np.asarray((1 - share) * a + share * b)
+
+
+def _chains(links: Ints) -> Iterator[list[int]]:
+    """Yield links between nodes, of which each has one or two, as rows of nodes; the first one again at a loop's end.
+
+    Examples
+    --------
+    >>> list(_chains(np.array([(3, 4), (0, 1), (5, 3), (2, 1), (4, 5)])))
+    [[0, 1, 2], [3, 4, 5, 3]]
+    """
+    beside: dict[int, list[int]] = {}
+    for a, b in links.tolist():
+        beside.setdefault(a, []).append(b)
+        beside.setdefault(b, []).append(a)
+    ends = [node for node, others in beside.items() if len(others) == 1]
+    for end in ends:
+        if end in beside:
+            yield list(_walk(beside, end))
+    while beside:
+        start = next(iter(beside))
+        yield [*_walk(beside, start), start]
+
+
+def _walk(beside: dict[int, list[int]], start: int) -> Iterator[int]:
+    """Yield nodes, each beside the one before, as far as they are left; they are taken out."""
+    ahead = [start]
+    while ahead:
+        yield ahead[0]
+        ahead = [node for node in beside.pop(ahead[0]) if node in beside]

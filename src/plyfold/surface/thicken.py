@@ -8,13 +8,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Floats, Ints, freeze
+from plyfold.certify import check_solid
 from plyfold.errors import InputError, PrecisionError
+from plyfold.halfedges import ends_of
+from plyfold.io.mesh.saving import save_model
 from plyfold.options import refuse_unless_number
-from plyfold.surface.files import Colouring, model_of_solid, save_model
+from plyfold.surface.files import Colouring, model_of_solid
 
 if TYPE_CHECKING:
-    from plyfold.surface.surface import Surface
+    from plyfold.surface.lift import Surface
 
 __all__ = ["Solid", "thicken"]
 
@@ -53,8 +56,7 @@ class Solid:
     sheet: Ints
 
     def __post_init__(self) -> None:
-        for array in (self.vertices, self.faces, self.sheet):
-            array.flags.writeable = False
+        freeze(self)
 
     def __repr__(self) -> str:
         return f"<Solid: {len(self.faces)} triangles, {self.thickness:g} thick>"
@@ -75,8 +77,6 @@ class Solid:
         CertificateError
             Naming the condition and the place.
         """
-        from plyfold.certify import check_solid
-
         check_solid(self.vertices, self.faces, self.thickness)
 
     def export(
@@ -173,7 +173,7 @@ def _require_strict_order(vertices: Floats) -> None:
 
 def _sheets_along(surface: Surface) -> Ints:
     """Return the sheet of the triangle at each edge of the boundary; edge i starts at the i-th boundary vertex."""
-    start, end = surface.faces.ravel(), np.roll(surface.faces, -1, axis=1).ravel()
+    start, end = ends_of(surface.faces)
     b = len(surface.boundary)
     side = np.flatnonzero((start < b) & (end == (start + 1) % b))
     sheet = np.empty(b, dtype=np.int64)

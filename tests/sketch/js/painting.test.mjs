@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { toDrawing, toScreen } from "../../../src/plyfold/sketch/static/camera.js";
-import { windingColour } from "../../../src/plyfold/sketch/static/colours.js";
+import { onWinding, sheetColour, windingColour } from "../../../src/plyfold/sketch/static/colours.js";
 import { gridStep, paint, snapped } from "../../../src/plyfold/sketch/static/painting.js";
 
 /** A canvas that writes down what it is told. */
@@ -13,7 +13,10 @@ function recorder() {
   return [new Proxy(target, { get: (own, name) => own[name] ?? record(name) }), calls];
 }
 
-const THEME = { ink: "ink", paper: "paper", dot: "dot", accent: "accent", wrong: "wrong", hover: "hover", changed: "changed", night: false };
+const THEME = {
+  ink: "ink", paper: "paper", dot: "dot", accent: "accent", wrong: "wrong", lit: "lit",
+  winding: ["one", "two"], negative: ["minus one"], "on-winding": ["dark", "pale"], "on-negative": ["dark"], sheets: ["first", "second"],
+};
 const CAMERA = { scale: 2, x: 100, y: 100 };
 const BLANK = {
   size: { width: 200, height: 200 }, camera: CAMERA, theme: THEME, document: { strokes: [], image: null }, joins: [], openEnds: [],
@@ -44,7 +47,12 @@ test("every stroke, cell, number and cross is painted in its place", () => {
   assert.deepEqual(calls.find(([name]) => name === "fillText"), ["fillText", "−1", 160, 80]);
   const [x, y] = toScreen(CAMERA, [20, 20]);
   assert.ok(calls.some(([name, ...values]) => name === "moveTo" && `${values}` === `${[x - 9, y - 9]}`));
-  assert.equal(windingColour(0), null);
+});
+
+test("the last shade stands for all beyond it, and sheets' colours come round again", () => {
+  assert.deepEqual([-3, -1, 0, 1, 2, 9].map((winding) => windingColour(THEME, winding)), ["minus one", "minus one", null, "one", "two", "two"]);
+  assert.deepEqual([-3, 0, 1, 9].map((winding) => onWinding(THEME, winding)), ["dark", "ink", "dark", "pale"]);
+  assert.deepEqual([0, 1, 2].map((sheet) => sheetColour(THEME, sheet)), ["first", "second", "first"]);
 });
 
 test("vertices that are near each other are smaller", () => {

@@ -14,7 +14,7 @@ from enum import IntEnum
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.core import Arrangement
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Complexes, Floats, Ints
 
 __all__ = ["Kind", "Skeleton", "skeleton"]

@@ -8,14 +8,14 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.core import Arrangement, arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrangement.drawing.flips import flipped
 from plyfold.arrangement.drawing.relaxation import energy, relaxed
 from plyfold.arrangement.drawing.skeleton import Skeleton, skeleton
 from plyfold.arrangement.drawing.straight_lines import grid_drawing, tutte_drawing
 from plyfold.arrays import Complexes, Ints
-from plyfold.curve import Curve
 from plyfold.errors import GeneralPositionError, PrecisionError
+from plyfold.outline.curve import Curve
 
 __all__ = ["draw_code"]
 
@@ -57,7 +57,7 @@ def draw_code(wanted: Arrangement) -> Curve:
     Examples
     --------
     >>> limacon = Arrangement.from_gauss([1, 0], [True, False], 1)
-    >>> arrangement(draw_code(limacon)).gauss_code()
+    >>> arrange(draw_code(limacon)).gauss_code()
     ([1, 0], [True, False], 1)
     """
     if wanted.n_crossings == 0:
@@ -141,7 +141,7 @@ def _curve(points: Complexes) -> Curve:
 
 def _has_code(curve: Curve, wanted: Arrangement) -> bool:
     try:
-        drawn = arrangement(curve, "raise")
+        drawn = arrange(curve, "raise")
     except GeneralPositionError:
         return False
     same = np.array_equal(drawn.partner, wanted.partner) and np.array_equal(drawn.ccw, wanted.ccw)

@@ -311,8 +311,8 @@ class Viewer {
 
   setDark() {
     if (this.options.dark !== null) this.element.dataset.theme = this.options.dark ? "dark" : "light";
-    const { ink, paleInk } = this.surface.palette;
-    this.lines.forEach(({ material }) => material.color.set(this.dark ? paleInk : ink));
+    const { ink, lineOnDark } = this.surface.palette;
+    this.lines.forEach(({ material }) => material.color.set(this.dark ? lineOnDark : ink));
     this.requestFrame();
   }
 

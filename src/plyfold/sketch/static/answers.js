@@ -7,6 +7,7 @@ const PAGE = crypto.getRandomValues(new Uint32Array(2)).join("-");
 const TRIANGLES = 3000;
 const NO_SURFACE = "There is no surface: the loop is the outline of no disk.";
 const RETRY = 2000; // milliseconds
+export const SILENT = "plyfold does not answer";
 const AWAY = { kind: "away", where: [], hint: "start plyfold sketch again; the drawing is kept in this browser" };
 
 /**

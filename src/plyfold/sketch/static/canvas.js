@@ -1,6 +1,7 @@
 // The drawing area: its size, its painting, and the pointers on it. Fingers draw; two of them move and zoom the paper.
 
 import { panned, toDrawing, zoomed } from "./camera.js";
+import { themeOf } from "./colours.js";
 import { joins } from "./document.js";
 import { distance, middle, minus } from "./geometry.js";
 import { hoverAt } from "./hover.js";
@@ -9,7 +10,6 @@ import { answerShown, errorShown, lieShown, shown, smallKink } from "./store.js"
 import { TOOLS, cancel } from "./tools.js";
 
 const REACH = { mouse: 9, pen: 12, touch: 20 };
-const COLOURS = ["ink", "paper", "dot", "accent", "wrong", "changed", "hover"];
 
 export function createCanvas(page, canvas) {
   const { store } = page;
@@ -60,12 +60,6 @@ function fitToScreen(canvas) {
   const [width, height] = [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
   return ratio;
-}
-
-function themeOf(canvas) {
-  const style = getComputedStyle(canvas);
-  const theme = Object.fromEntries(COLOURS.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
-  return { ...theme, night: document.documentElement.dataset.theme === "dark" };
 }
 
 /** The picture to draw after, once it is there. */

@@ -1,7 +1,7 @@
 // What can be done to the page: small steps that actions, tools and dialogs share. Each takes the page,
 // {store, size(), question(), place, former, writing}, and changes its store.
 
-import { ask } from "./answers.js";
+import { SILENT, ask } from "./answers.js";
 import { fitted } from "./camera.js";
 import { crossingCode } from "./crossings.js";
 import { EMPTY, addStroke, allPoints, ends, isEmpty, joins, paths, rounded, withImage } from "./document.js";
@@ -129,7 +129,7 @@ export async function openFile(page, file) {
   const headers = { "X-File-Name": encodeURIComponent(file.name), "X-Plyfold-Page": "open" };
   const response = await fetch("/api/v1/open", { method: "POST", headers, body: file }).catch(() => null);
   const answer = await response?.json();
-  if (!answer || answer.error) return tell(page, answer?.error.sentence ?? "plyfold does not answer");
+  if (!answer || answer.error) return tell(page, answer?.error.sentence ?? SILENT);
   const { document, name } = answer;
   if (document.strokes.length || !document.image) return openDrawing(page, { ...EMPTY, ...document }, name ?? file.name);
   return usePicture(page, document.image);
@@ -178,7 +178,7 @@ export async function exportAs(page, format) {
   const response = await fetch("/api/v1/export", { method: "POST", headers: { "Content-Type": "application/json" }, body }).catch(() => null);
   if (!response?.ok || response.headers.get("Content-Disposition") === null) {
     const answer = await response?.json().catch(() => null);
-    return tell(page, answer?.error?.sentence ?? "plyfold does not answer");
+    return tell(page, answer?.error?.sentence ?? SILENT);
   }
   download(await response.blob(), fileName(page.store.state.name, format));
   return tell(page, `${fileName(page.store.state.name, format)} is saved.`);

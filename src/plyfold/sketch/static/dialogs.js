@@ -2,6 +2,7 @@
 
 import { toScreen, fitted } from "./camera.js";
 import { ACTIONS } from "./actions.js";
+import { SILENT } from "./answers.js";
 import { button, actionsIn } from "./buttons.js";
 import { openDrawing, openKept, tell } from "./commands.js";
 import { allPoints, loop } from "./document.js";
@@ -80,7 +81,7 @@ function card(document_, title, detail, onOpen) {
 
 export async function showGallery(page) {
   const { curves } = await fetch("/api/v1/gallery").then((response) => response.json()).catch(() => ({}));
-  if (!curves) return tell(page, "plyfold does not answer: start plyfold sketch again.");
+  if (!curves) return tell(page, `${SILENT}: start plyfold sketch again.`);
   const cards = curves.map(({ name, title, points, crossings, immersions }) => {
     const detail = `${name}: ${crossings} crossing${crossings === "1" ? "" : "s"}, ${immersions === "0" ? "no disk" : `${immersions} immersion${immersions === "1" ? "" : "s"}`}`;
     return card(loop(points), title, detail, () => openDrawing(page, loop(points), name));

@@ -3,7 +3,7 @@
  * with borders of its own the region that they span.
  */
 
-import { sheetColour } from "./colours.js";
+import { sheetColour, themeOf } from "./colours.js";
 
 const NAMESPACE = "http://www.w3.org/2000/svg";
 
@@ -28,6 +28,8 @@ function paintNothing(svg) {
  * pointer is over.
  */
 export function paintLayout(svg, lie, onHover) {
+  const theme = themeOf(svg);
+  const colourOf = (sheet) => sheetColour(theme, sheet);
   svg.replaceChildren();
   svg.setAttribute("viewBox", "-1.12 -1.12 2.24 2.24");
   if (!lie) return paintNothing(svg);
@@ -40,32 +42,32 @@ export function paintLayout(svg, lie, onHover) {
     part.addEventListener("pointerleave", () => onHover(null));
     return part;
   };
-  lie.layout.groups.forEach((group) => svg.append(hovers(regionOf(group), hoverOf(group))));
+  lie.layout.groups.forEach((group) => svg.append(hovers(regionOf(group, colourOf(group.sheet)), hoverOf(group))));
   lie.layout.borders.forEach((points, border) => {
     const sheet = sheetOf.get(border);
     const hover = { cell: lie.sheet_cell[sheet], sheets: [sheet], border };
-    svg.append(hovers(arcOf(points, border, sheet, lie.changed_borders.includes(border)), hover));
+    svg.append(hovers(arcOf(points, border, sheet, colourOf(sheet), lie.changed_borders.includes(border)), hover));
   });
   if (lie.layout.borders.length <= 60) lie.layout.borders.forEach((points, border) => svg.append(numberOf(points, border)));
 }
 
 const hoverOf = ({ sheet, cell }) => ({ cell, sheets: [sheet], border: null });
 
-function regionOf(group) {
+function regionOf(group, colour) {
   const part = element("g", { class: "sheet", "data-sheet": group.sheet });
   const title = element("title", {});
   title.textContent = words(group);
   part.append(title);
   if (group.region.length > 2) {
-    part.append(element("path", { d: `${pathThrough(group.region)}Z`, fill: sheetColour(group.sheet), "fill-opacity": 0.32 }));
+    part.append(element("path", { d: `${pathThrough(group.region)}Z`, fill: colour, "fill-opacity": 0.32 }));
   }
   group.arcs.forEach((points) =>
-    part.append(element("path", { d: pathThrough(points), class: "arc", stroke: sheetColour(group.sheet) })));
+    part.append(element("path", { d: pathThrough(points), class: "arc", stroke: colour })));
   return part;
 }
 
-function arcOf(points, border, sheet, changed) {
-  const attributes = { d: pathThrough(points), class: changed ? "border changed" : "border", stroke: sheetColour(sheet) };
+function arcOf(points, border, sheet, colour, changed) {
+  const attributes = { d: pathThrough(points), class: changed ? "border changed" : "border", stroke: colour };
   return element("path", { ...attributes, "data-border": border, "data-sheet": sheet });
 }
 

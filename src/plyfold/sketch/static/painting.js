@@ -5,7 +5,7 @@
  *            answer: to `look` or null, lie: to `lie` or null,           both about this very document
  *            tool, path: points being placed, next: where the next one would be, selected: {stroke, vertex},
  *            cursor: [x, y] of the keyboard, hover: {cell, sheets, border}, kink: small or null, snap, image: loaded picture or null}
- * theme = {ink, paper, dot, accent, wrong, hover, changed, night}
+ * The theme is that of colours.js.
  */
 
 import { toDrawing, toScreen } from "./camera.js";
@@ -82,7 +82,7 @@ function line(scene, points, { closed = false, colour, width = 2.5, dash = [], c
 }
 
 function paintCell(scene, { winding, outline }) {
-  const colour = windingColour(winding, scene.theme.night);
+  const colour = windingColour(scene.theme, winding);
   if (!colour) return;
   trace(scene, outline, true);
   scene.context.fillStyle = colour;
@@ -91,7 +91,7 @@ function paintCell(scene, { winding, outline }) {
 
 function paintHover(scene) {
   const cell = scene.answer.cells.find((found) => found.cell === scene.hover?.cell);
-  if (cell) line(scene, cell.outline, { closed: true, colour: scene.theme.hover, width: 9 });
+  if (cell) line(scene, cell.outline, { closed: true, colour: scene.theme.lit, width: 9 });
 }
 
 function paintStroke(scene, { points, closed }) {
@@ -141,12 +141,12 @@ function paintJoins(scene) {
 function paintLie(scene) {
   const { theme, answer, lie } = scene;
   lie.changed_borders.forEach((border) => {
-    line(scene, answer.borders[border], { colour: theme.changed, width: 7 });
+    line(scene, answer.borders[border], { colour: theme.lit, width: 7 });
     line(scene, answer.borders[border], { colour: theme.ink });
   });
   (scene.hover?.sheets ?? []).forEach((sheet) =>
     lie.sheets[sheet]?.forEach((border) =>
-      line(scene, answer.borders[border], { colour: sheetColour(sheet), width: 6 })));
+      line(scene, answer.borders[border], { colour: sheetColour(theme, sheet), width: 6 })));
   if (lie.casing) answer.borders.forEach((_, visit) => lie.casing[visit] && paintOver(scene, visit));
 }
 
@@ -185,7 +185,7 @@ function paintNumber({ context, camera, theme, at }, { winding, label, radius })
   context.font = `600 ${Math.min(17, room * 1.2)}px system-ui, sans-serif`;
   context.textAlign = "center";
   context.textBaseline = "middle";
-  context.fillStyle = winding === 0 ? theme.ink : onWinding(winding, theme.night);
+  context.fillStyle = onWinding(theme, winding);
   context.fillText(String(winding).replace("-", "−"), ...at(label));
 }
 

@@ -1,15 +1,16 @@
 // The verdict in words, the figures, and the walks through immersions and layerings.
 
 import { actionNamed } from "./actions.js";
+import { SILENT } from "./answers.js";
 import { button } from "./buttons.js";
 import { isEmpty } from "./document.js";
 import { answerShown, errorShown, lieShown, shown } from "./store.js";
 
-const HEADLINES = { unfinished: "Not a loop yet", away: "plyfold does not answer" };
+const HEADLINES = { unfinished: "Not a loop yet", away: SILENT };
 const LONGEST = 600;
 const REMEDIES = ["removeKink", "closeLoop", "lastOnly"];
 const find = (id) => document.getElementById(id);
-const grouped = (digits) => (digits.length > 24 ? `about 10^${digits.length - 1}` : digits.replace(/\B(?=(\d{3})+$)/g, "\u202f"));
+const grouped = (digits) => (digits.length > 24 ? `about 10^${digits.length - 1}` : digits.replace(/\B(?=(\d{3})+$)/g, ","));
 
 /** What is known, in one headline and one sentence. `state` colours it. */
 export function verdictOf(state) {
@@ -18,16 +19,10 @@ export function verdictOf(state) {
   if (error) return { kind: "unfinished", headline: HEADLINES[error.kind] ?? "Not a loop that can be used", sentence: `${error.sentence}${error.hint ? `: ${error.hint}` : ""}.` };
   const answer = answerShown(state);
   if (!answer) return null;
-  const { verdict } = answer;
-  if (!verdict.immersible) return { kind: "no", headline: "No disk", sentence: verdict.sentence };
-  return liftedVerdict(lieShown(state), verdict);
-}
-
-function liftedVerdict(lie, { immersions, sentence }) {
-  const ways = immersions === "1" ? "A disk of cloth" : `A disk of cloth, in ${grouped(immersions)} ways`;
-  if (lie?.obstruction) return { kind: "unlifted", headline: `${ways}; this one cannot be lifted`, sentence: lie.obstruction.sentence };
-  if (lie?.layerable === null) return { kind: "yes", headline: ways, sentence: "Whether it can be lifted was not decided in time." };
-  return { kind: "yes", headline: ways, sentence };
+  const lie = lieShown(state);
+  const kind = answer.verdict.immersible ? (lie?.obstruction ? "unlifted" : "yes") : "no";
+  const { headline, sentence } = (lie ?? answer).verdict;
+  return { kind, headline, sentence };
 }
 
 export function figuresOf(state) {
@@ -120,8 +115,7 @@ function refresh(state) {
   refreshFigures(figuresOf(state));
 }
 
-/** The headline has said yes or no already. */
-const sentenceCase = (sentence) => signed(sentence.replace(/^(No disk\.|Yes:) /, "").replace(/^./, (letter) => letter.toUpperCase()));
+const sentenceCase = (sentence) => signed(sentence.replace(/^./, (letter) => letter.toUpperCase()));
 
 /** With true minus signs before numbers. */
 const signed = (text) => text.replace(/(?<![\w-])-(?=\d)/g, "−");

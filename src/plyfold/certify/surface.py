@@ -1,0 +1,104 @@
+"""Check everything that a lifted surface is said to be, or the plane mesh that its sheets are copies of."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from plyfold.certify.exact import Ints, as_faces, finite
+from plyfold.certify.immersed import common_places, require_along_curve, require_immersed, walk_along, walked
+from plyfold.certify.layered import require_gap, require_layered, require_no_overlap
+from plyfold.certify.places import require_positive
+
+__all__ = ["check_rounded", "check_surface"]
+
+
+def check_surface(  # noqa: PLR0913 - the parts of a mesh, and two options
+    curve_points: npt.ArrayLike,
+    vertices: npt.ArrayLike,
+    faces: npt.ArrayLike,
+    boundary: npt.ArrayLike,
+    gap: float = 0.0,
+    *,
+    passing: npt.ArrayLike = (),
+) -> None:
+    """Check that a mesh in space is an embedded disk that seen from above is immersed and bounded by the curve.
+
+    Parameters
+    ----------
+    curve_points : array_like, shape (n, 2)
+        The closed curve with the surface on its left.
+    vertices : array_like, shape (v, 3)
+    faces : array_like of int, shape (m, 3)
+        Vertices of each triangle, counter-clockwise seen from above.
+    boundary : array_like of int, shape (b,)
+        Vertices along the curve, from the curve's first point.
+    gap : float, optional
+        Least vertical distance.
+    passing : array_like of int, shape (e, 4), optional
+        Edges along which sheets may pass through each other, see :func:`check_layered`.
+
+    Raises
+    ------
+    CertificateError
+        If :func:`check_immersed_disk` or :func:`check_layered` fails, the latter also where the vertices between points
+        of the curve are at the exact points of their edges: over one another, at the crossing of their two edges.
+
+    Examples
+    --------
+    >>> roof = [(0, 0, 0), (1, 0, 1), (1, 1, 0), (0, 1, 1)]
+    >>> check_surface([(0, 0), (1, 0), (1, 1), (0, 1)], roof, [[0, 1, 2], [0, 2, 3]], [0, 1, 2, 3])
+    """
+    require_gap(gap)
+    positions = finite(vertices, 3)
+    sides, walk = walked(curve_points, positions[:, :2], faces, boundary)
+    places = common_places(walk)
+    require_immersed(sides, walk, places)
+    require_layered(positions, sides.start.reshape(-1, 3), places, gap, passing)
+
+
+def check_rounded(
+    curve_points: npt.ArrayLike, points: npt.ArrayLike, triangles: npt.ArrayLike, chain: npt.ArrayLike
+) -> None:
+    """Check that rounding its points has left a mesh of the plane as it was.
+
+    Parameters
+    ----------
+    curve_points : array_like, shape (n, 2)
+    points : array_like, shape (p, 2)
+    triangles : array_like of int, shape (t, 3)
+        A mesh that without rounding is one of the plane, with the curve as edges.
+    chain : array_like of int, shape (s,)
+        The points of the mesh along the curve; crossings occur twice.
+
+    Raises
+    ------
+    CertificateError
+        If with the points as they are given, or with those on the curve at their exact places (see
+        :func:`check_surface`), a triangle is not counter-clockwise, the chain does not advance along the curve, or
+        triangles at the rim of the mesh overlap. It names the place.
+
+    Notes
+    -----
+    As all triangles are counter-clockwise, they can overlap only where parts of the rim have got over one another.
+    Cost: a small part of that of :func:`check_surface`, for it is done once for all sheets.
+
+    Examples
+    --------
+    >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    >>> check_rounded(square, square, [[0, 1, 2], [0, 2, 3]], [0, 1, 2, 3])
+    """
+    near = finite(points, 2)
+    faces = as_faces(triangles, len(near))
+    walk = walk_along(finite(curve_points, 2), near, np.asarray(chain))
+    places = common_places(walk)
+    require_along_curve(walk, places)
+    require_positive(places, faces)
+    require_no_overlap(faces[_at_rim(faces, len(near))], places)
+
+
+def _at_rim(faces: Ints, count: int) -> Ints:
+    """Return the triangles with a side that has nothing beyond."""
+    start, end = faces, np.roll(faces, -1, axis=1)
+    alone = ~np.isin(start * count + end, end * count + start)
+    return np.flatnonzero(alone.any(axis=1))

@@ -1,0 +1,13 @@
+from .arrangement_plot import plot_arrangement as plot_arrangement
+from .collapsed_plot import plot_collapsed_graph as plot_collapsed_graph
+from .collapsed_plot import plot_collapsed_graphs as plot_collapsed_graphs
+from .collapsed_plot import plot_marked_cell as plot_marked_cell
+from .figures import overview as overview
+from .figures import save as save
+from .immersion_plot import plot_immersion as plot_immersion
+from .immersion_plot import plot_immersions as plot_immersions
+from .layers_plot import plot_casing as plot_casing
+from .layers_plot import plot_layers as plot_layers
+from .layout_plot import plot_layout as plot_layout
+from .obstruction_plot import plot_obstruction as plot_obstruction
+from .surface_plot import plot_surface as plot_surface

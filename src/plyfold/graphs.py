@@ -1,0 +1,85 @@
+"""Graphs given by arrays of their edges: components, trees, paths, and sets that are joined."""
+
+from __future__ import annotations
+
+from collections.abc import MutableSequence
+
+import numpy as np
+
+from plyfold.arrays import Ints
+
+__all__ = ["components", "representative", "shortest_path", "spanning_tree"]
+
+
+def components(n: int, start: Ints, end: Ints) -> Ints:
+    """Return the connected component of each of n nodes, given edges; numbered in the order of their first nodes.
+
+    Examples
+    --------
+    >>> components(4, np.array([3]), np.array([1])).tolist()
+    [0, 1, 2, 1]
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    graph = coo_array((np.ones(len(start), dtype=bool), (start, end)), shape=(n, n))
+    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
+
+
+def spanning_tree(n: int, start: Ints, end: Ints) -> tuple[Ints, Ints, Ints]:
+    """Grow a tree from node 0 along the edges of a connected graph, breadth first.
+
+    Returns
+    -------
+    parent : (n,) int
+        Meaningless for node 0.
+    edge : (n,) int
+        The edge to the parent, the last one if there are several.
+    order : (n,) int
+        All nodes, parents before children.
+
+    Examples
+    --------
+    >>> [values.tolist() for values in spanning_tree(3, np.array([0, 2]), np.array([2, 1]))]
+    [[-9999, 2, 0], [0, 1, 0], [0, 2, 1]]
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import breadth_first_order
+
+    graph = coo_array((np.ones(len(start), dtype=np.int8), (start, end)), shape=(n, n))
+    order, parent = breadth_first_order(graph.tocsr(), 0, directed=False)
+    edge, edges = np.zeros(n, dtype=np.int64), np.arange(len(start))
+    for child, above in ((start, end), (end, start)):
+        in_tree = parent[child] == above
+        edge[child[in_tree]] = edges[in_tree]
+    return parent.astype(np.int64), edge, order.astype(np.int64)
+
+
+def shortest_path(n: int, edges: Ints, start: int, end: int) -> list[int]:
+    """Return the nodes on a path with fewest edges between two nodes that are connected.
+
+    Examples
+    --------
+    >>> shortest_path(4, np.array([(0, 1), (1, 2), (2, 3), (1, 3)]), 0, 3)
+    [0, 1, 3]
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import breadth_first_order
+
+    graph = coo_array((np.ones(len(edges), dtype=bool), edges.T), shape=(n, n)).tocsr()
+    _, before = breadth_first_order(graph, start, directed=False)
+    path = [end]
+    while path[-1] != start:
+        path.append(int(before[path[-1]]))
+    return path[::-1]
+
+
+def representative(joined: MutableSequence[int] | Ints, member: int) -> int:
+    """Return the member that stands for all that were joined to a member; the way there is halved for the next time.
+
+    ``joined`` leads from each member to another one of its set, or to itself. To join two sets, lead one's
+    representative to the other's.
+    """
+    while joined[member] != member:
+        joined[member] = member = joined[joined[member]]
+    return member

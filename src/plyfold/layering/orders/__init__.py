@@ -1,0 +1,1 @@
+"""Orders of sheets over one immersion (§3 of the paper)."""

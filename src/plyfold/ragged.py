@@ -1,0 +1,44 @@
+"""Ragged arrays: rows of different lengths, one after the other in one array."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from plyfold.arrays import Ints
+
+__all__ = ["count_each", "pairs_in_each", "starts_of"]
+
+
+def starts_of(lengths: Ints) -> Ints:
+    """Return where each row starts.
+
+    Examples
+    --------
+    >>> starts_of(np.array([2, 0, 3])).tolist()
+    [0, 2, 2]
+    """
+    return np.asarray(np.cumsum(lengths) - lengths)
+
+
+def count_each(lengths: Ints) -> Ints:
+    """Return 0, 1, … for each row, one after the other.
+
+    Examples
+    --------
+    >>> count_each(np.array([2, 0, 3])).tolist()
+    [0, 1, 0, 1, 2]
+    """
+    return np.arange(int(lengths.sum())) - np.repeat(starts_of(lengths), lengths)
+
+
+def pairs_in_each(lengths: Ints) -> tuple[Ints, Ints]:
+    """Return the places of all pairs of entries of the same row, the earlier one first.
+
+    Examples
+    --------
+    >>> [places.tolist() for places in pairs_in_each(np.array([2, 0, 3]))]
+    [[0, 2, 2, 3], [1, 3, 4, 4]]
+    """
+    later = np.repeat(lengths, lengths) - count_each(lengths) - 1
+    first = np.repeat(np.arange(len(later)), later)
+    return first, first + 1 + count_each(later)

@@ -1,0 +1,124 @@
+"""What a mesh file says of a surface, and of a solid."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
+
+import numpy as np
+
+from plyfold.arrays import Floats
+from plyfold.colours import layer_colour, rgb, sheet_colour
+from plyfold.disk.motion import shapes_of_disk
+from plyfold.errors import InputError, PrecisionError
+from plyfold.io.mesh.model import DETAIL, Material, Model, size_of, summed_at_vertices
+from plyfold.options import refuse_unless_flag
+
+if TYPE_CHECKING:
+    from plyfold.surface.lift import Surface
+    from plyfold.surface.thicken import Solid
+
+__all__ = ["Colouring", "model_of_solid", "model_of_surface"]
+
+Colouring: TypeAlias = Literal["layers", "sheets"]
+
+
+def model_of_surface(surface: Surface, colours: Colouring = "layers", unwrapped: bool | None = None) -> Model:
+    """Return the model of a surface.
+
+    Parameters
+    ----------
+    surface : Surface
+    colours : {"layers", "sheets"}
+        A colour for each layer, in smooth transition, or for each sheet.
+    unwrapped : bool, optional
+        Give texture coordinates in the unwound disk, and the shapes ``flat`` and ``disk``; by default if double
+        precision can hold that disk.
+
+    Returns
+    -------
+    Model
+
+    Raises
+    ------
+    InputError
+        If the colouring is unknown, or ``unwrapped`` neither true, false nor None.
+    PrecisionError
+        If the disk is asked for, and double precision cannot hold it.
+
+    Examples
+    --------
+    >>> from plyfold import lift
+    >>> model_of_surface(lift([(0, 0), (1, 0), (0, 1)], max_area=1.0), unwrapped=False).materials
+    (Material(name='sheet_0_level_1', colour='#2f7fc1'),)
+    """
+    _refuse_colouring(colours)
+    if unwrapped is not None:
+        refuse_unless_flag("unwrapped", unwrapped)
+    uv, shapes = _unwrapped(surface, unwrapped)
+    return Model(
+        vertices=surface.vertices,
+        faces=surface.faces,
+        material=surface.sheet,
+        materials=_materials(surface),
+        smooth=np.zeros(len(surface.faces), dtype=np.int64),
+        closed=False,
+        detail=DETAIL * size_of(surface.vertices),
+        colours=_layer_colours(surface) if colours == "layers" else None,
+        uv=uv,
+        shapes=shapes,
+    )
+
+
+def model_of_solid(solid: Solid, colours: Colouring = "layers", unwrapped: bool | None = None) -> Model:
+    """Return the model of a solid; see :func:`model_of_surface`. Its walls are not smoothed."""
+    surface = solid.surface
+    model = model_of_surface(surface, colours, unwrapped)
+    up = np.repeat([solid.thickness / 2, -solid.thickness / 2], len(surface.vertices))[:, None] * (0.0, 0.0, 1.0)
+    walls = len(solid.faces) - 2 * len(surface.faces)
+    return Model(
+        vertices=solid.vertices,
+        faces=solid.faces,
+        material=solid.sheet,
+        materials=model.materials,
+        smooth=np.concatenate([np.zeros(2 * len(surface.faces), dtype=np.int64), 1 + np.arange(walls) // 2]),
+        closed=True,
+        detail=min(model.detail, solid.thickness),
+        colours=_twice(model.colours),
+        uv=_twice(model.uv),
+        shapes={name: np.tile(places, (2, 1)) + up for name, places in model.shapes.items()},
+    )
+
+
+def _unwrapped(surface: Surface, wanted: bool | None) -> tuple[Floats | None, dict[str, Floats]]:
+    """Return texture coordinates, and the surface flat on the table, on its way to a disk, and as that disk."""
+    if wanted is False:
+        return None, {}
+    try:
+        unwound = surface.unwrap()
+    except PrecisionError:
+        if wanted:
+            raise
+        return None, {}
+    return unwound.uv, shapes_of_disk(unwound)
+
+
+def _refuse_colouring(colours: str) -> None:
+    if not isinstance(colours, str) or colours not in get_args(Colouring):
+        raise InputError(f"there is no colouring by {colours!r}", hint=f"use one of {', '.join(get_args(Colouring))}")
+
+
+def _materials(surface: Surface) -> tuple[Material, ...]:
+    levels = surface.layering.level.tolist()
+    return tuple(Material(f"sheet_{i}_level_{level}", sheet_colour(i)) for i, level in enumerate(levels))
+
+
+def _layer_colours(surface: Surface) -> Floats:
+    """Return the colour of each vertex: the mean over the triangles around it, each in the colour of its layer."""
+    level = surface.layering.level
+    shades = np.array([rgb(layer_colour(number + 1, int(level.max()))) for number in range(level.max())])
+    total = summed_at_vertices(shades[level[surface.sheet] - 1], surface.faces, len(surface.vertices))
+    return np.asarray(total / np.bincount(surface.faces.ravel(), minlength=len(total))[:, None])
+
+
+def _twice(values: Floats | None) -> Floats | None:
+    return None if values is None else np.tile(values, (2, 1))

@@ -1,0 +1,402 @@
+"""The lifted surface: a smooth layered mesh whose outline, seen from above, is the drawing (§4 of the paper)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import chain
+from pathlib import Path
+from typing import cast
+
+import numpy as np
+
+from plyfold.arrangement.arrangement import Arrangement, watched_arrangement
+from plyfold.arrays import Floats, Ints, freeze
+from plyfold.certify import check_surface
+from plyfold.clock import UNWATCHED, Clock, Progress, Watch
+from plyfold.disk.unwrap import UnwoundDisk, unwound_mesh
+from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
+from plyfold.immersion.immersion import Immersion, require_disk
+from plyfold.immersion.solve import find_immersion, watched_immersions
+from plyfold.io.mesh.saving import refuse_ending, save_model
+from plyfold.io.saving import save_bytes
+from plyfold.layering.layering import Layering
+from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
+from plyfold.layering.orders.search import first_layering
+from plyfold.mesh.cells import DEFAULT_TRIANGLES, area_of_edge, refuse_broken, refuse_sizes, triangulate_cells
+from plyfold.obstruction import IMMERSION_REASONS, Obstruction
+from plyfold.options import refuse_unless_flag, refuse_unless_number
+from plyfold.outline.curve import Curve, CurveLike
+from plyfold.surface.chords import split_chords
+from plyfold.surface.files import Colouring, model_of_surface
+from plyfold.surface.glue import intersection_curves, stack_sheets
+from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, flat_weight, refuse_stiffness, smooth_heights
+from plyfold.surface.thicken import Solid, thicken
+
+__all__ = ["Surface", "layering_of", "lift"]
+
+# Distance of neighbouring sheets, as a fraction of the drawing's larger side.
+_DEFAULT_GAP = 0.05
+_LARGEST_GAP = 1000.0
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A surface over a layering, as a triangle mesh; embedded, but for reported intersections where they are allowed.
+
+    Parameters
+    ----------
+    layering : Layering or IntersectingLayering
+        The order of the sheets that the surface realises.
+    vertices : (n, 3) float
+        Where x and y are those of the drawing; the curve's own points have the input's coordinates, bit for bit.
+    faces : (m, 3) int
+        Vertices of each triangle, counter-clockwise seen from above.
+    sheet : (m,) int
+        The sheet that each triangle belongs to.
+    boundary : (b,) int
+        Vertices along the curve in order, from its first point: 0, 1, …, b − 1. Crossings and points added on edges
+        are among them.
+    gap : float
+        Sheets over the same point are at least this far apart, at every vertex. Near intersections the distance of
+        the sheets concerned is at least half the way along them to the intersection, where that is less.
+    passing : (e, 4) int
+        Rows (a, b, c, d): the edges from a to b and from c to d lie over each other, and two sheets pass through each
+        other along them. None but with ``lift(..., allow_intersections=True)``.
+    intersections : tuple of (m, 3) float
+        Polylines along which sheets pass through each other, rounded; the first point is repeated where they close.
+
+    Examples
+    --------
+    >>> ramp = lift([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)], gap=1.0)
+    >>> float(ramp.vertices[:, 2].max()) >= 1.0
+    True
+    >>> ramp.check()
+    """
+
+    layering: Layering | IntersectingLayering
+    vertices: Floats
+    faces: Ints
+    sheet: Ints
+    boundary: Ints
+    gap: float
+    passing: Ints = field(default_factory=lambda: np.empty((0, 4), dtype=np.int64))
+    intersections: tuple[Floats, ...] = ()
+
+    def __post_init__(self) -> None:
+        freeze(self)
+
+    def __repr__(self) -> str:
+        return f"<Surface: {len(self.faces)} triangles in {self.layering.immersion.n_sheets} sheets>"
+
+    @property
+    def curve(self) -> Curve:
+        """The curve that the surface has as its outline."""
+        drawn = self.layering.immersion.arrangement.curve
+        assert drawn is not None
+        return drawn
+
+    def check(self) -> None:
+        """Prove the surface right with the independent checkers of :mod:`plyfold.certify`.
+
+        Every triangle is positive seen from above, the mesh is a disk, its outline is the curve, the angles at its
+        vertices are those of an immersion, and the sheets over every point are in strict order. Where sheets may pass
+        through each other, they do so only in triangles along the edges that :attr:`passing` names.
+
+        Raises
+        ------
+        CertificateError
+            Naming the condition and the place.
+
+        Notes
+        -----
+        About a second for 100,000 triangles.
+        """
+        gap = 0.0 if len(self.passing) else self.gap
+        check_surface(self.curve.points, self.vertices, self.faces, self.boundary, gap, passing=self.passing)
+
+    def unwrap(self) -> UnwoundDisk:
+        """Spread the cloth out as a round disk: one-to-one, the boundary by arc length, no triangle flipped.
+
+        Returns
+        -------
+        UnwoundDisk
+            With this surface's vertices and triangles; computed once. It has texture coordinates, ``uv``, and maps
+            points of the disk to the drawing and to the surface.
+
+        Raises
+        ------
+        PrecisionError
+            If double precision cannot hold the disk; it names the place.
+        """
+        return self._unwound
+
+    @cached_property
+    def _unwound(self) -> UnwoundDisk:
+        immersion = self.layering.immersion
+        return unwound_mesh(immersion, self.vertices, self.faces, self.sheet, self.boundary)
+
+    def thicken(self, thickness: float) -> Solid:
+        """Return a solid with this surface in its middle, as thick as given in vertical direction: to be printed.
+
+        Parameters
+        ----------
+        thickness : float
+            In units of the drawing; less than :attr:`gap` where sheets overlap.
+
+        Returns
+        -------
+        Solid
+            With ``export`` and ``check``.
+
+        Raises
+        ------
+        InputError
+            If the thickness is not positive or not less than the gap, or the surface passes through itself.
+        PrecisionError
+            If the thickness, or what is left of the gap, is lost in rounding.
+        """
+        return thicken(self, thickness)
+
+    def export(
+        self,
+        path: str | os.PathLike[str],
+        force: bool = False,
+        title: str | None = None,
+        *,
+        colours: Colouring = "layers",
+        unwrapped: bool | None = None,
+    ) -> None:
+        """Write the surface to a file.
+
+        Parameters
+        ----------
+        path : path
+            The ending chooses the format: ``.glb``, ``.obj``, ``.ply``, ``.stl``, ``.3mf``, or ``.html`` for a 3D page
+            that works in any browser with no network; or ``.gif``, or ``.mp4`` where ffmpeg is installed, for a film of
+            the round disk that unwinds onto the drawing and rises to the surface.
+        force : bool, optional
+            Replace an existing file.
+        title : str, optional
+            Heading of the page; the file's name by default.
+        colours : {"layers", "sheets"}
+            In a GLB, PLY or 3MF, a colour for each layer, in smooth transition, or a material for each sheet, named
+            like ``sheet_3_level_2``. With ``"sheets"``, an OBJ gets its materials in an ``.mtl`` file beside it.
+        unwrapped : bool, optional
+            In a GLB, OBJ or PLY, texture coordinates from :meth:`unwrap`; in a GLB, moreover, the surface flat on the
+            table and unwound to a disk, as morph targets ``flat`` and ``disk`` and an animation. By default, if double
+            precision can hold that disk.
+
+        Raises
+        ------
+        InputError
+            If the ending is none of these.
+        FileExistsError
+            If the file exists and ``force`` is not set.
+        PrecisionError
+            If the numbers of the format cannot hold the surface, or doubles cannot hold the disk that is asked for.
+        """
+        suffix = refuse_ending(path, (".html", ".gif", ".mp4"))
+        if suffix == ".html":
+            save_bytes(path, self._page(title or Path(path).stem), force)
+        elif suffix in (".gif", ".mp4"):
+            from plyfold.draw.film import save_film
+
+            save_film(self, path, force)
+        else:
+            save_model(lambda: model_of_surface(self, colours, unwrapped), path, force)
+
+    def show(self) -> None:
+        """Open the 3D page in the browser, from a temporary file that stays until the system cleans up."""
+        import tempfile
+        import webbrowser
+
+        with tempfile.NamedTemporaryFile("wb", prefix="plyfold-", suffix=".html", delete=False) as file:
+            file.write(self._page("plyfold"))
+        webbrowser.open(Path(file.name).as_uri())
+
+    def _page(self, title: str) -> bytes:
+        from plyfold.draw.viewer import page
+
+        return page(self, title=title).encode()
+
+    def _repr_html_(self) -> str:
+        from plyfold.draw.viewer import frame
+
+        return str(frame(self, "plyfold"))
+
+
+def lift(  # noqa: PLR0913 - each option is keyword-only and independent
+    curve: CurveLike | Immersion | Layering | IntersectingLayering,
+    *,
+    allow_intersections: bool = False,
+    gap: float | None = None,
+    triangles: int = DEFAULT_TRIANGLES,
+    max_area: float | None = None,
+    size: float | None = None,
+    stiffness: float = DEFAULT_STIFFNESS,
+    pins: Mapping[PinKey, float] | None = None,
+    flat: bool | float = False,
+    time_limit: float | None = None,
+    progress: Progress | None = None,
+) -> Surface:
+    """Lift a closed curve to a layered surface that does not cut itself: the whole way (§2 to §4 of [MGR11]_).
+
+    Parameters
+    ----------
+    curve : Curve, (n, 2) array_like, shapely geometry, Arrangement, Immersion, Layering or IntersectingLayering
+        Of a curve the first immersion that can be layered is lifted.
+    allow_intersections : bool, optional
+        If no immersion can be layered, lift the one that does with the shortest self-intersections, as far as is known
+        (``surface.layering.optimal``), and report them.
+    gap : float, optional
+        Least distance of sheets over the same point, in units of the drawing; 1/20 of its larger side by default.
+    triangles : int, optional
+        Roughly how many triangles to make; curves with many points or crossings have more.
+    max_area : float, optional
+        Largest area of a triangle seen from above, instead of ``triangles``.
+    size : float, optional
+        Usual length of the edges, in units of the drawing, instead of ``triangles`` or ``max_area``.
+    stiffness : float, optional
+        The length below which the cloth resists bending more than sloping, as a fraction of its mean width: stiffer
+        cloth swings out further, softer cloth creases where sheets touch.
+    pins : mapping, optional
+        Heights that are given, in units of the drawing: ``{sheet: z}`` holds a whole sheet level, ``{(x, y): z}`` a
+        point where a single sheet lies, and ``{(x, y, sheet): z}`` one of several sheets. Without pins the lowest
+        vertex has the height 0.
+    flat : bool or float, optional
+        Keep those parts level that nothing overlaps: they are so many times as stiff (at least 1), or 100 times if
+        true. The way up and down is made where sheets overlap, as far as it can be.
+    time_limit : float, optional
+        Seconds for all of it; none by default. What ends it is given back within a second, even where a library's
+        routine is still to come to its end. With ``allow_intersections``, half of the time is for the search.
+    progress : callable, optional
+        Called with the name of the stage and the fraction of it done: "finding the crossings", "finding an immersion",
+        "layering immersion 1", "looking for short intersections", "triangulating the cells", "gluing the sheets",
+        "smoothing heights".
+
+    Returns
+    -------
+    Surface
+
+    Raises
+    ------
+    NotImmersibleError
+        If the curve bounds no immersed disk; ``error.obstruction`` says why.
+    NotEmbeddableError
+        If none of its immersions can be layered; ``error.obstruction`` belongs to the first. Not with
+        ``allow_intersections``.
+    TimeLimitError
+        If the time limit was reached: the answer is unknown. ``error.stage`` is the stage that was going on.
+    PrecisionError
+        If double precision cannot hold the mesh; it names the place. What is returned passes :meth:`Surface.check`:
+        its parts that rounding can break have been checked.
+    InputError
+        If an option is of the wrong kind, ``gap`` or a size is not positive, or the triangles would be more than ten
+        million; if pins name no place of the surface, or leave less room than the gap somewhere.
+
+    References
+    ----------
+    .. [MGR11] U. Mukherjee, M. Gopi, J. Rossignac, "Immersion and Embedding of Self-Crossing Loops",
+       Sketch-Based Interfaces and Modeling, 2011.
+
+    Examples
+    --------
+    >>> flat = lift([(0, 0), (4, 0), (0, 3)], max_area=10.0)
+    >>> flat.vertices.tolist(), flat.faces.tolist()
+    ([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]], [[0, 1, 2]])
+    """
+    _refuse_wrong_kinds(allow_intersections, stiffness, pins, flat)
+    watch = Watch(Clock(time_limit), progress)
+    layering = layering_of(curve, allow_intersections, watch)
+    drawn = layering.immersion.arrangement
+    distance = _distance(drawn, gap)
+    max_area = area_of_edge(size, max_area)
+    refuse_sizes(cast(Curve, drawn.curve).points, triangles, max_area)
+    refuse_stiffness(stiffness)
+    weight = flat_weight(flat)
+    cells = triangulate_cells(drawn, max_area, triangles, watch)
+    if isinstance(layering, IntersectingLayering):
+        cells = split_chords(cells, layering.intersections[:, 0])
+        refuse_broken(drawn, cells)
+    mesh = stack_sheets(layering, cells, watch)
+    heights = smooth_heights(cells.points, mesh, distance, stiffness=stiffness, pins=pins, flat=weight, watch=watch)
+    vertices = np.column_stack([cells.points[mesh.planar_vertex], heights])
+    curves = intersection_curves(vertices, mesh)
+    return Surface(layering, vertices, mesh.faces, mesh.sheet, mesh.boundary, distance, mesh.passing, curves)
+
+
+def _refuse_wrong_kinds(allow_intersections: object, stiffness: object, pins: object, flat: object) -> None:
+    """Refuse options of the wrong kind before any work; those of sizes are refused where these are."""
+    refuse_unless_flag("allow_intersections", allow_intersections)
+    refuse_unless_number("stiffness", stiffness)
+    if not isinstance(flat, bool):
+        refuse_unless_number("flat", flat)
+    if pins is not None and not isinstance(pins, Mapping):
+        raise InputError(f"pins must be a mapping from sheets or points to heights, not {pins!r}")
+
+
+def _distance(drawn: Arrangement, gap: float | None) -> float:
+    if drawn.curve is None:
+        raise PlyfoldError(
+            "a surface needs a drawing, and this is a Gauss code alone", hint="build it from points to lift it"
+        )
+    size = float(np.ptp(drawn.curve.points, axis=0).max())
+    if gap is None:
+        return _DEFAULT_GAP * size
+    refuse_unless_number("gap", gap)
+    if not 0 < gap <= _LARGEST_GAP * size:
+        raise InputError(f"the gap must be positive and at most {_LARGEST_GAP * size:g}, not {gap!r}")
+    return float(gap)
+
+
+def layering_of(
+    curve: CurveLike | Immersion | Layering | IntersectingLayering,
+    allow_intersections: bool,
+    watch: Watch = UNWATCHED,
+) -> Layering | IntersectingLayering:
+    """Return the layering that :func:`lift` lifts, with its options and errors."""
+    if isinstance(curve, Layering | IntersectingLayering):
+        require_disk(curve.immersion)
+        return curve
+    choose = _least_intersecting if allow_intersections else _liftable
+    if isinstance(curve, Obstruction):
+        raise (NotImmersibleError if curve.reason in IMMERSION_REASONS else NotEmbeddableError)(curve)
+    if isinstance(curve, Immersion):
+        return choose([require_disk(curve)], watch)
+    drawn = watched_arrangement(curve, "perturb", watch)
+    candidates = watched_immersions(drawn, watch)
+    first = next(candidates, None)
+    if first is None:
+        raise NotImmersibleError(cast(Obstruction, find_immersion(drawn)))
+    return choose(chain([first], candidates), watch)
+
+
+def _liftable(candidates: Iterable[Immersion], watch: Watch) -> Layering:
+    found, examined = first_layering(candidates, watch.clock.left, watch.progress)
+    if isinstance(found, Layering):
+        return found
+    raise NotEmbeddableError(found, hint=f"{examined} immersion(s) were examined")
+
+
+def _least_intersecting(candidates: Iterable[Immersion], watch: Watch) -> Layering | IntersectingLayering:
+    """Return a layering of the first immersion that has one, or else the best of those examined in time."""
+    clock = watch.clock.share(1 / 2)
+    examined: list[Immersion] = []
+    try:
+        return _liftable(_noted(candidates, examined), replace(watch, clock=clock.share(1 / 2)))
+    except (NotEmbeddableError, TimeLimitError):
+        watch.begin("looking for short intersections")
+    best = least_intersecting_layering(examined[0], clock.left)
+    for immersion in examined[1:]:
+        if not clock.over:
+            best = min(best, least_intersecting_layering(immersion, clock.left), key=lambda found: found.total_length)
+    return best
+
+
+def _noted(candidates: Iterable[Immersion], examined: list[Immersion]) -> Iterator[Immersion]:
+    for immersion in candidates:
+        examined.append(immersion)
+        yield immersion

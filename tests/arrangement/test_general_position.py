@@ -1,0 +1,87 @@
+"""General position: what touches comes apart, nothing else changes, and the answer does not depend on the frame."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import plyfold as pf
+from plyfold.errors import CurveError, GeneralPositionError
+from reference import crossings as reference
+
+TOUCHING = {
+    "vertex touches an edge": ([(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)], 0),
+    "vertex runs through an edge": ([(0, 0), (4, 0), (4, 4), (2, 4), (2, 0), (2, -2), (1, -2), (1, 4), (0, 4)], 2),
+    "three edges through one point": (
+        [(-1, -1), (1, 1), (2, 1), (2, -1), (1, -1), (-1, 1), (-2, 1), (-2, 0), (3, 0)],
+        6,
+    ),
+    "a spike": ([(0, 0), (4, 0), (8, 0), (4, 0), (4, 4)], 0),
+    "a square run through twice": ([(0, 0), (4, 0), (4, 4), (0, 4)] * 2, 1),
+    "two corners touch": ([(0, 0), (2, 2), (4, 0), (4, 4), (2, 2), (0, 4)], 0),
+}
+
+
+@pytest.mark.parametrize("name", TOUCHING)
+def test_strands_come_apart(name):
+    points, crossings = TOUCHING[name]
+    drawn = pf.arrange(points)
+    drawn.check()
+    assert drawn.n_crossings == crossings
+    code, _, _ = reference.crossings(drawn.curve.points.tolist())
+    assert (drawn.partner.tolist(), drawn.ccw.tolist()) == (list(code.partner), list(map(bool, code.ccw)))
+
+
+@pytest.mark.parametrize("name", TOUCHING)
+def test_every_move_is_reported_and_small(name):
+    points = np.array(TOUCHING[name][0], dtype=float)
+    drawn = pf.arrange(points)
+    moves = [repair for repair in drawn.curve.repairs if repair.kind == "vertex moved"]
+    kept = {tuple(p) for p in points.tolist()} & {tuple(p) for p in drawn.curve.points.tolist()}
+    assert moves
+    assert all(0 < move.size < 1e-4 for move in moves)
+    assert {move.where for move in moves} | kept == {tuple(p) for p in points.tolist()}
+
+
+@pytest.mark.parametrize("name", TOUCHING)
+def test_raise_names_the_places(name):
+    with pytest.raises(GeneralPositionError) as caught:
+        pf.arrange(TOUCHING[name][0], general_position="raise")
+    assert caught.value.where
+    assert "perturb" in caught.value.hint
+
+
+def test_touching_place_is_the_place():
+    with pytest.raises(GeneralPositionError) as caught:
+        pf.arrange(TOUCHING["vertex touches an edge"][0], general_position="raise")
+    assert caught.value.where == ((2.0, 0.0),)
+
+
+def test_unknown_policy_is_refused():
+    with pytest.raises(ValueError, match="general_position"):
+        pf.arrange([(0, 0), (1, 0), (0, 1)], general_position="ignore")
+
+
+def summary(points):
+    drawn = pf.arrange(points)
+    drawn.check()
+    return drawn.n_crossings, abs(drawn.turning_number), pf.count_immersions(drawn)
+
+
+grid = st.lists(st.tuples(st.integers(-2, 2), st.integers(-2, 2)), min_size=4, max_size=8)
+
+
+@settings(max_examples=150, deadline=None)
+@given(grid, st.integers(0, 7))
+def test_the_answer_does_not_depend_on_the_frame(points, start):
+    points = np.array(points, dtype=float)
+    try:
+        expected = summary(points)
+    except CurveError:
+        return
+    assert summary(points * 2.0**26) == expected
+    assert summary(points * 2.0**-26) == expected
+    assert summary(points * 1e8) == expected
+    assert summary(points + np.array([12345, -777])) == expected
+    assert summary(np.roll(points, start, axis=0)) == expected
+    assert summary(points[::-1]) == expected

@@ -1,0 +1,5 @@
+"""The gallery with fewer points: the same curves, for tests that would take long with many."""
+
+from plyfold import gallery
+
+CURVES = {name: named.coarse() for name, named in gallery.CURVES.items()}
