@@ -35,6 +35,7 @@ EXCEPTIONS = {
     "pip install ": "loads packages from the network: the extras must exist",
     "python -m pytest ": "runs the slow tests, which make test-slow runs: its files must exist",
     "python docs/": "draws for minutes, and make pictures runs it: its file must exist",
+    "python tools/": "measures the source, and tests/test_house.py does it: its file must exist",
     "python benchmarks/": "measures for minutes, and the tests of the benchmarks run it: its file must exist",
     "plyfold sketch": "serves until it is interrupted: it is interrupted when it has said where",
 }

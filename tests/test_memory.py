@@ -155,5 +155,5 @@ def test_limits_of_a_container_count(monkeypatch):
 
 
 def test_the_page_hears_of_it():
-    error = answers.error_answer(answers._kind(MemoryLimitError("it would not fit")), "it would not fit")
+    error = answers.error_reply(answers._kind(MemoryLimitError("it would not fit")), "it would not fit")
     assert error.status == 413

@@ -209,6 +209,6 @@ def limits():
 
 @pytest.mark.parametrize("name", limits())
 def test_what_is_raised_is_well_said(name):
-    with pytest.raises(InputError) as caught:
+    with pytest.raises(PlyfoldError) as caught:
         limits()[name]()
     assert well_said(caught.value)

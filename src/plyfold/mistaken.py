@@ -56,8 +56,6 @@ def _code_in_text(text: str) -> Mistake | None:
         return None
     if _SIGNED_CODE.search(text):
         return _SIGNED
-    if _CODE_WITHOUT_OUTER.fullmatch(text):
-        return _WITHOUT_OUTER
     if _PD_CODE.match(text):
         return _PD
     return _UNSIGNED if _names_crossings_twice(text) or _KNOT_CODE.fullmatch(text) else None
@@ -118,6 +116,8 @@ def _mistaken_object(value: object) -> Mistake | None:
 
 
 def _mistaken_text(text: str) -> Mistake:
+    if _CODE_WITHOUT_OUTER.fullmatch(text):
+        return _WITHOUT_OUTER
     shown = text if len(text) <= 60 else f"{text[:60]}…"
     if text.startswith("gallery:"):
         hint = f"pf.gallery.named_curve({shown.removeprefix('gallery:')!r}) has that curve"

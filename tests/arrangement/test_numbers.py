@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import plyfold as pf
+from coarse import CURVES
 from plyfold.errors import PlyfoldError
-from plyfold.gallery import CURVES
 from reference import crossings, planar_maps, random_curves
 
 STORED = json.loads((Path(__file__).parent / "gallery_numbers.json").read_text())

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import plyfold as pf
-from coarse import CURVES
 from plyfold.cli.commands import main
+from plyfold.gallery import CURVES
 from plyfold.sketch.look import look_at
 from plyfold.sketch.schema import Look, Stroke
 from reference import crossings
