@@ -166,6 +166,7 @@ def test_a_drawing_that_cannot_be_kept_can_be_left_behind_or_saved_as_a_file(ske
     assert len(sketch.evaluate(KEPT)) == count
 
 
+@pytest.mark.slow
 def test_a_page_with_work_that_is_not_kept_asks_before_it_closes(sketch):
     sketch.evaluate(FILL)
     draw(sketch, eight())
@@ -258,7 +259,10 @@ def test_a_duplicated_tab_goes_on_with_a_drawing_of_its_own(sketch):
     assert saved(sketch)["strokes"] == first
 
 
-@pytest.mark.parametrize("tool", ["edit", "erase", "hand"])
+SLOW = pytest.mark.slow
+
+
+@pytest.mark.parametrize("tool", ["erase", pytest.param("edit", marks=SLOW), pytest.param("hand", marks=SLOW)])
 def test_after_new_something_can_be_drawn(sketch, tool):
     draw(sketch, named("exit-ramp"))
     verdict(sketch, WORD["immersible"])
@@ -275,6 +279,7 @@ def test_points_stay_chosen_for_a_new_drawing(sketch):
     assert sketch.locator(".rail [data-action=points]").get_attribute("aria-pressed") == "true"
 
 
+@pytest.mark.slow
 def test_the_gap_slider_shows_the_gap_that_is_kept(sketch):
     draw(sketch, named("exit-ramp"))
     verdict(sketch, WORD["immersible"])

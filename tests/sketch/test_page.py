@@ -253,7 +253,7 @@ def test_the_gallery_opens_a_curve(sketch):
     verdict(sketch, WORD["none"])
 
 
-@pytest.mark.parametrize("format", ["svg", "png", "json"])
+@pytest.mark.parametrize("format", [pytest.param("svg", marks=pytest.mark.slow), "png", "json"])
 def test_exports_open_again(sketch, format, tmp_path):
     draw(sketch, named("exit-ramp"))
     verdict(sketch, WORD["immersible"])
@@ -414,6 +414,7 @@ def test_a_dragged_point_of_a_smooth_loop_takes_its_neighbours_along(sketch):
     sketch.keyboard.up("Alt")
 
 
+@pytest.mark.slow
 def test_kept_drawings_are_told_apart_by_picture_and_time(sketch):
     for points in (named("exit-ramp"), eight()):
         draw(sketch, points)
