@@ -109,13 +109,14 @@ def find_embedding(curve: OutlineLike, time_limit: float | None = None) -> Layer
 
 def _over_immersions(arranged: Arrangement, clock: Clock) -> Layering | Obstruction | Unknown:
     """Return a layering of one of the first immersions, or else ask the curve itself. May raise TimeLimitError."""
-    candidates = list(islice(watched_immersions(arranged, Watch(clock)), 1))
-    if not candidates:
-        return cast("Obstruction", find_immersion(arranged))
-    for immersion in islice(immersions(arranged), _FEW):
+    examined = 0
+    for immersion in islice(watched_immersions(arranged, Watch(clock)), _FEW):
+        examined += 1
         found = find_layering(immersion, clock.left)
         if not isinstance(found, Obstruction):
             return found
+    if not examined:
+        return cast("Obstruction", find_immersion(arranged))
     number = count_immersions(arranged)
     if number > _FEW:
         return _from_levels(arranged, clock, f"none of the {_written(number)} immersions lifts; ")
