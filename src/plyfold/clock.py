@@ -41,7 +41,9 @@ class Clock:
     started: float = field(default_factory=_now)
 
     def __post_init__(self) -> None:
-        if self.limit is not None and not (isinstance(self.limit, int | float) and self.limit >= 0):
+        if self.limit is None:
+            return
+        if isinstance(self.limit, bool) or not (isinstance(self.limit, int | float) and self.limit >= 0):
             raise InputError(f"a time limit is a number of seconds from 0 on, not {self.limit!r}")
 
     @property

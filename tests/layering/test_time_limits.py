@@ -96,3 +96,9 @@ def test_setting_up_is_done_once_in_time():
         limited, free = (pf.find_layering(immersion, time_limit=limit) for limit in (1000, None))
         assert bool(limited) == bool(free)
         assert not free or limited.level.tolist() == free.level.tolist()
+
+
+@pytest.mark.parametrize("limit", [True, -1, "5", float("nan")])
+def test_limits_that_are_no_seconds(limit):
+    with pytest.raises(InputError, match="a number of seconds"):
+        pf.find_embedding([(0, 0), (1, 0), (0, 1)], time_limit=limit)
