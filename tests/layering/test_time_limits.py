@@ -100,5 +100,5 @@ def test_setting_up_is_done_once_in_time():
 
 @pytest.mark.parametrize("limit", [True, -1, "5", float("nan")])
 def test_limits_that_are_no_seconds(limit):
-    with pytest.raises(InputError, match="a number of seconds"):
+    with pytest.raises(pf.errors.InputError, match="a number of seconds"):
         pf.find_embedding([(0, 0), (1, 0), (0, 1)], time_limit=limit)
