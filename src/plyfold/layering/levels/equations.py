@@ -25,8 +25,8 @@ from plyfold.arrangement.base_visit import begun_at, numbered_from, visits_from_
 from plyfold.arrays import Bools, Ints, freeze
 from plyfold.clock import Clock
 from plyfold.errors import PlyfoldError
+from plyfold.immersion.obstructions import negative_winding
 from plyfold.immersion.shorter_loops import place_of_turning
-from plyfold.immersion.solve import negative_winding
 from plyfold.memory import require_memory
 from plyfold.obstruction import Obstruction
 from plyfold.ragged import count_each, starts_of
