@@ -18,8 +18,20 @@ class Foot(NamedTuple):
     on_left: bool
 
 
+class Drawing(NamedTuple):
+    """The code of an outline, and the place of each visit."""
+
+    code: OutlineCode
+    places: tuple[Place, ...]
+
+
 def outline_code(polygons: Sequence[Sequence[Sequence[float]]], cusps: Sequence[Sequence[int]] = ()) -> OutlineCode:
-    """The code of several polygons, or DegenerateError; `cusps` has the index of each vertex, loop by loop.
+    """The code of several polygons, or DegenerateError; `cusps` has the index of each vertex, loop by loop."""
+    return drawing(polygons, cusps).code
+
+
+def drawing(polygons: Sequence[Sequence[Sequence[float]]], cusps: Sequence[Sequence[int]] = ()) -> Drawing:
+    """The code of several polygons and the places of its visits.
 
     A bridge starts at the last vertex of each group of loops that hang together, in a fixed direction, and ends at the
     first edge that it meets. Groups of which it meets none lie on the outside.
@@ -37,7 +49,7 @@ def outline_code(polygons: Sequence[Sequence[Sequence[float]]], cusps: Sequence[
     number = {place: visit for visit, place in enumerate(places)}
     other = dict(pairs) | {b: a for a, b in pairs}
     counts = tuple(sum(place.loop == i for place in places) for i in range(len(loops)))
-    return OutlineCode(
+    code = OutlineCode(
         counts,
         tuple(number[other.get(place, place)] for place in places),
         tuple(place in dict(pairs) for place in places),
@@ -45,6 +57,16 @@ def outline_code(polygons: Sequence[Sequence[Sequence[float]]], cusps: Sequence[
         tuple((dart(counts, number, first), dart(counts, number, second)) for first, second in bridges),
         tuple(dart(counts, number, foot) for foot in outside),
     )
+    return Drawing(code, tuple(places))
+
+
+def places_on_borders(found: Drawing) -> list[Place]:
+    """A place inside each border: on the edge on which it starts, half way to where it or the edge ends."""
+    middles = []
+    for start in found.places:
+        later = [p.along for p in found.places if p[:2] == start[:2] and p.along > start.along]
+        middles.append(start._replace(along=(start.along + min(later, default=1)) / 2))
+    return middles
 
 
 def dart(counts: Sequence[int], number: dict[Place, int], foot: Foot) -> int:
