@@ -93,7 +93,7 @@ def test_levels_obey_the_rules_where_a_patch_does_not_cut_itself():
         if patch.cuts_itself:
             continue
         own = dict(enumerate(level.tolist()))
-        assert all(agrees(found.code, vertex, own) for vertex in range(len(planar.around)))
+        assert all(agrees(planar, vertex, own) for vertex in range(len(planar.around)))
         compared += 1
         if max(planar.winding) < 4:
             assert tuple(level.tolist()) in level_solutions(found.code)

@@ -14,16 +14,16 @@ from reference.outlines import OutlineCode, OutlineMap, outline_map
 Levels = tuple[int, ...]
 
 
-def agrees(code: OutlineCode, vertex: int, level: dict[int, int]) -> bool:
+def agrees(found: OutlineMap, vertex: int, level: dict[int, int]) -> bool:
     """The rule at a crossing, a cusp or the foot of a bridge.
 
     The strands of a crossing have different levels in its top cell; the higher one has one less past the other. At a
     cusp the surface climbs or falls by one level for each full turn. At a foot nothing happens.
     """
-    found, visits = outline_map(code), outline_map(code).at[vertex]
+    visits = found.at[vertex]
     if len(visits) == 1:
         (visit,) = visits
-        return abs(level[found.before[visit]] - level[found.after[visit]]) == code.index[visit]
+        return abs(level[found.before[visit]] - level[found.after[visit]]) == found.index[visit]
     first, second = visits
     a, a_past = level[found.before[first]], level[found.after[first]]
     b, b_past = level[found.after[second]], level[found.before[second]]
@@ -47,7 +47,7 @@ def level_solutions(code: OutlineCode) -> list[Levels]:
             return
         for choice in range(1, found.winding[found.left(order[depth])] + 1):
             level[order[depth]] = choice
-            if all(agrees(code, vertex, level) for vertex in complete[depth]):
+            if all(agrees(found, vertex, level) for vertex in complete[depth]):
                 yield from extend(level, depth + 1)
 
     return list(extend({}, 0))
