@@ -216,17 +216,19 @@ def seen(rng: np.random.Generator, kind: str) -> Body:
 
 
 def patches(seed: int, kinds: tuple[str, ...] = tuple(KINDS), least: int = 8) -> Iterator[Patch]:
-    """Patches of at least so many triangles, of one body after the other, for ever; the same for the same seed.
-
-    Those with a boundary that passes a vertex twice are left out.
-    """
+    """The patches of one body after the other, for ever; the same for the same seed."""
     rng = np.random.default_rng(seed)
     while True:
-        kind = kinds[int(rng.integers(len(kinds)))]
-        body = seen(rng, kind)
-        for faces in fronts(body):
-            if len(faces) >= least and (found := patch(kind, body.vertices, faces)):
-                yield found
+        yield from patches_of_body(rng, kinds, least)
+
+
+def patches_of_body(rng: np.random.Generator, kinds: tuple[str, ...] = tuple(KINDS), least: int = 8) -> Iterator[Patch]:
+    """The patches of a random body that have at least so many triangles, and whose boundary passes no vertex twice."""
+    kind = kinds[int(rng.integers(len(kinds)))]
+    body = seen(rng, kind)
+    for faces in fronts(body):
+        if len(faces) >= least and (found := patch(kind, body.vertices, faces)):
+            yield found
 
 
 def fronts(body: Body) -> list[np.ndarray]:
