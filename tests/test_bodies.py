@@ -49,6 +49,7 @@ def test_patches_are_of_all_sorts():
     assert {patch.kind for patch in found} == set(KINDS)
     assert min(map(len, (several, handles, [patch for patch in found if patch.cuts_itself]))) > 15
     assert len(cusped) > 120
+    assert {1, 2, 3} <= {index for patch in found for cusps in patch.cusps for index in cusps.tolist()}
     again = some(3, 150)
     assert all((one.vertices == other.vertices).all() for one, other in zip(found, again, strict=True))
 
