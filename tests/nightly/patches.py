@@ -1,20 +1,13 @@
-"""Patches of bodies that face a viewer: ``python -m nightly.patches`` (in tests/).
+"""Patches of bodies that face a viewer, and everything that must hold for one.
 
 Each is a surface in space, so its outline, with its cusps, must bound one with that Euler characteristic. Where it does
 not cut itself, the levels that its depths give must be levels, and the surface with its over and under must be found.
 """
 
-import argparse
-import math
-import sys
-import time
-import traceback
-from collections.abc import Iterator
-
 import numpy as np
 
 import plyfold as pf
-from bodies import Patch, levels_beside, patches_of_body
+from bodies import Patch, levels_beside
 from plyfold.errors import GeneralPositionError
 from plyfold.layering.levels.equations import level_equations
 from reference.mesh_outlines import least_turned
@@ -113,41 +106,3 @@ def casing(arranged: pf.Arrangement, level: np.ndarray) -> np.ndarray:
     before, after, ccw = level[arranged.border_before], level[arranged.border_after], arranged.ccw
     at_top = np.where(ccw, before, after)
     return at_top > at_top[arranged.partner]
-
-
-# ---- many of them ----------------------------------------------------------------------------------------------------
-
-
-def judged(first_seed: int, count: int, seconds: float) -> Iterator[tuple[int, str | None]]:
-    """The seed of the body of each of so many patches, and what is wrong with the answers about it."""
-    end, done, seed = time.monotonic() + seconds, 0, first_seed
-    while done < count and time.monotonic() < end:
-        for patch in patches_of_body(np.random.default_rng(seed)):
-            try:
-                judge_patch(patch)
-            except Exception:  # an error of any kind is a finding
-                yield seed, traceback.format_exc()
-            else:
-                yield seed, None
-            done += 1
-        seed += 1
-
-
-def main(words: list[str] | None = None) -> int:
-    """Return 0 if all is well, 1 if anything failed."""
-    parser = argparse.ArgumentParser(prog="nightly.patches", description=__doc__)
-    parser.add_argument("--patches", type=int, default=10_000)
-    parser.add_argument("--seconds", type=float, default=math.inf, help="stop after so long; default: never")
-    parser.add_argument("--first", type=int, default=0, metavar="SEED", help="the first seed; default 0")
-    options = parser.parse_args(words)
-    done = failed = 0
-    for seed, problem in judged(options.first, options.patches, options.seconds):
-        done, failed = done + 1, failed + (problem is not None)
-        if problem:
-            print(f"\nseed {seed}:\n{problem}")
-    print(f"{done:,} patches of bodies judged, {failed} failed")
-    return int(failed > 0)
-
-
-if __name__ == "__main__":
-    sys.exit(main())
