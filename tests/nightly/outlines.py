@@ -18,7 +18,7 @@ import plyfold as pf
 from bodies import patches_of_body
 from codes import code_of
 from nightly.patches import judge_patch
-from plyfold.errors import GeneralPositionError
+from plyfold.errors import CurveError, GeneralPositionError
 from plyfold.layering.levels.equations import level_equations
 from reference.outline_gluings import key_of, pieces, surfaces
 from reference.outline_levels import layerings, level_solutions
@@ -51,7 +51,7 @@ def judge_outline(loops: list[Polygon], cusps: Cusps) -> int | None:
     """Everything that must hold for an outline; the number of its immersions, None if the references do not tell."""
     try:
         arranged = pf.arrange(pf.Outline(loops, cusps), general_position="raise")
-    except GeneralPositionError:
+    except (CurveError, GeneralPositionError):
         return None
     if arranged.winding.min() < 0:
         assert pf.find_immersion(arranged).reason == "negative winding"
