@@ -24,6 +24,7 @@ from plyfold.immersion.grouping import (
 from plyfold.immersion.immersion import Immersion, glue_sheets, require_memory_for_gluing
 from plyfold.immersion.propagation import Conflict
 from plyfold.immersion.shorter_loops import place_of_turning
+from plyfold.immersion.visible import negative_winding
 from plyfold.immersion.word import write_word
 from plyfold.obstruction import Obstruction
 
@@ -34,7 +35,6 @@ __all__ = [
     "find_immersion",
     "immersions",
     "is_visibly_no_disk",
-    "negative_winding",
     "nth_immersion",
     "sample_immersion",
     "visible_obstruction",
@@ -339,18 +339,6 @@ def visible_obstruction(arranged: Arrangement) -> Obstruction | None:
         sentence = f"The curve turns {turning} times, and the outline of a disk turns once."
         return Obstruction("turning number", sentence, place_of_turning(arranged), turning, arranged)
     return negative_winding(arranged)
-
-
-def negative_winding(arranged: Arrangement) -> Obstruction | None:
-    """Return the obstruction of a negative winding number, if there is one: the lowest of them."""
-    lowest = int(np.argmin(arranged.winding))
-    winding = int(arranged.winding[lowest])
-    if winding >= 0:
-        return None
-    who = "curve winds" if arranged.n_loops == 1 else "curves wind"
-    sentence = f"The {who} {winding} times around a cell, and cloth cannot cover it a negative number of times."
-    subject = arranged if arranged.n_loops == 1 else None
-    return Obstruction("negative winding", sentence, _places(arranged, [lowest]), winding, subject)
 
 
 def _no_grouping(arranged: Arrangement) -> Obstruction:
