@@ -6,8 +6,8 @@ bottom cell to the top one lead two ways, and every sheet must come out the same
 
     b_top ∘ a_bottom = a_top ∘ b_bottom.
 
-A *bridge* is a strand without sheets of its own. It begins or ends at a loop, so one of its two halves there is missing,
-and what is glued along that is glued to itself.
+A *bridge* is a strand without sheets of its own. It begins or ends at a loop, so one of its halves is missing there:
+along that, every sheet is glued to itself.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 
-__all__ = ["NO_SEAM", "corners", "corners_at_feet"]
+__all__ = ["NO_SEAM", "corners", "corners_at_feet", "feet"]
 
 # In place of the half of a bridge that is not there.
 NO_SEAM = -1
@@ -31,21 +31,23 @@ def corners(arrangement: Arrangement) -> Ints:
     return np.stack([before[a], after[a], after[b], before[b]], axis=1)
 
 
+def feet(arrangement: Arrangement) -> Ints:
+    """Return the visits at which the feet of bridges are: all first feet, then all second ones, shape (2 b,)."""
+    dart = arrangement.bridges.T.ravel()
+    border = dart // 2
+    return np.asarray(arrangement.start_visit[np.where(dart % 2 == 0, border, arrangement.next_border[border])])
+
+
 def corners_at_feet(arrangement: Arrangement) -> Ints:
-    """Return the same for both feet of each bridge, shape (2 b, 4); bridge j has number n_borders + j.
+    """Return the same for the feet of bridges, shape (2 b, 4); bridge j has number n_borders + j.
 
     A bridge that sets out to the left of a loop, or comes to it from the right, crosses it as strand b; the other way
     round it is strand a.
     """
-    bridges = len(arrangement.bridges)
-    dart = arrangement.bridges.T.ravel()
-    bridge = arrangement.n_borders + np.tile(np.arange(bridges), 2)
-    sets_out = np.arange(2 * bridges) < bridges
-    on_left = dart % 2 == 0
-    before = np.where(on_left, arrangement.border_before[arrangement.start_visit[dart // 2]], dart // 2)
-    after = arrangement.next_border[before]
-    nothing = np.full_like(dart, NO_SEAM)
+    visits, bridges = feet(arrangement), len(arrangement.bridges)
+    before, after = arrangement.border_before[visits], arrangement.border_after[visits]
+    bridge, nothing = arrangement.n_borders + np.tile(np.arange(bridges), 2), np.full(2 * bridges, NO_SEAM)
+    sets_out, on_left = np.arange(2 * bridges) < bridges, arrangement.bridges.T.ravel() % 2 == 0
     upper, lower = np.where(on_left, bridge, nothing), np.where(on_left, nothing, bridge)
-    crosses = sets_out == on_left
     as_b, as_a = np.stack([before, after, upper, lower], axis=1), np.stack([upper, lower, after, before], axis=1)
-    return np.where(crosses[:, None], as_b, as_a)
+    return np.where((sets_out == on_left)[:, None], as_b, as_a)

@@ -1,10 +1,10 @@
 """Cusps drawn out as curls: a planar map without cusps that has the same immersions (§2.3 of the paper goes on there).
 
-A *cusp* of index m is a point of the boundary round which the surface turns m times more than one sees. Cut a small disk
-round it off: the boundary then winds m times clockwise around the point and leaves straight, through m crossings
-x₁ … x_m, x_m … x₁ that it meets in this order. At the first visits the other strand crosses from right to left. The cell
-on the left stays the highest one at x₁, that on the right lies on both sides of x₁, and inside are m new cells, each
-wound round once less than the one before it.
+A *cusp* of index m is a point of the boundary round which the surface turns m times more than one sees. Cut off a small
+disk round it: the boundary then winds m times clockwise around the point and leaves straight, through m crossings
+x₁ … x_m, x_m … x₁ that it meets in this order. At the first visits the other strand crosses from right to left. At x₁
+the cell on the left is the top one, that on the right lies on both sides, and inside are m new cells, each wound round
+once less than the one before it.
 
 So every question about sheets can be asked of curves without cusps. The curl is only a way to speak: it has no place in
 the drawing, and what comes back has the borders and cells of the drawing alone.
@@ -17,9 +17,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrangement.planar_map import borders_at_visits, cell_boundaries, next_darts
+from plyfold.arrangement.planar_map import cell_boundaries, next_darts
 from plyfold.arrays import Bools, Ints
-from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.immersion import Immersion, loop_characteristics
 from plyfold.ragged import count_each, starts_of
 
 __all__ = ["DrawnOut", "draw_out_cusps", "without_curls"]
@@ -40,6 +40,10 @@ class DrawnOut:
     arrangement: Arrangement
     border: Ints
 
+    def border_at(self, borders: Ints) -> Ints:
+        """Return the borders of the drawing at which some borders are: for those of a curl, the one after the cusp."""
+        return np.searchsorted(self.border, borders)
+
 
 def draw_out_cusps(arrangement: Arrangement) -> DrawnOut:
     """Draw all cusps out as curls. Cost: O(k + Σ m); nothing where there is no cusp."""
@@ -54,8 +58,6 @@ def draw_out_cusps(arrangement: Arrangement) -> DrawnOut:
     cell_of_dart, winding = _cells(arrangement, border)
     following, outer = next_darts(partner, ccw, first_visit), _renumbered(arrangement.outer, border)
     cell_start, cell_darts = _boundaries(following, int(outer), cell_of_dart)
-    loops = np.repeat(np.arange(arrangement.n_loops), np.diff(arrangement.first_visit))
-    turns = np.bincount(loops, arrangement.cusp_index, minlength=arrangement.n_loops).astype(int).tolist()
     drawn_out = replace(
         arrangement,
         partner=partner,
@@ -67,12 +69,13 @@ def draw_out_cusps(arrangement: Arrangement) -> DrawnOut:
         cell_start=cell_start,
         cell_darts=cell_darts,
         winding=winding,
-        turning_numbers=tuple(a - b for a, b in zip(arrangement.turning_numbers, turns, strict=True)),
+        turning_numbers=tuple(loop_characteristics(arrangement)),
         crossing_of_visit=np.full(len(partner), -1),
         bridges=_renumbered(arrangement.bridges, border),
         cusp_index=np.zeros(len(partner), dtype=np.int64),
         outline=None,
         crossings=np.empty((0, 2)),
+        marks=np.empty((0, 2)),
         visit_edge=np.empty(0, dtype=np.int64),
     )
     return DrawnOut(drawn_out, border)
@@ -142,7 +145,3 @@ def without_curls(immersion: Immersion, drawn_out: DrawnOut, arrangement: Arrang
         own_sheet=immersion.own_sheet[drawn_out.border],
         gluing=gluing[number_of_row >= 0],
     )
-
-
-def _unused() -> None:
-    borders_at_visits

@@ -2,15 +2,15 @@
 
 The chords of several loops, or of one loop that bounds a handle, may cross like the arcs on a surface with holes, so no
 word tells which choices fit together. But the conditions are plain: every open port of a seam leads to one open sheet,
-and around each crossing both ways from the bottom cell to the top cell lead to the same sheet. Names of sheets are fixed
-along the dual tree, so every surface is one solution, and the own sheets of the ascending links determine it.
+and around each crossing both ways from the bottom cell to the top cell lead to the same sheet. The names of sheets are
+fixed along the dual tree, so every surface is one solution, and the own sheets of the ascending links determine it.
 
 Open seams that meet nowhere have nothing to do with each other: they form *parts*, whose numbers multiply.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, combinations, count
@@ -101,24 +101,23 @@ class OpenPart:
     def clauses(self) -> Iterator[list[int]]:
         """Yield all clauses."""
         fresh = count(self.n_variables + 1)
-        yield [_TRUE]
-        for seam in self._options:
-            yield from self._of_seam(seam, fresh)
+        yield from self.of_seams(fresh)
         for number in self.meetings.tolist():
             yield from self.of_meeting(number, fresh)
         # It says nothing, and makes the solver's models name every variable.
         last = next(fresh)
         yield [last, -last]
 
-    def _of_seam(self, seam: int, fresh: Iterator[int]) -> Iterator[list[int]]:
-        """Yield what holds along a seam: each port leads to one sheet, and to each sheet leads one port."""
-        ports = self._options[seam]
-        to_sheet: list[list[int]] = [[] for _ in ports]
-        for sheet, literal in chain.from_iterable(ports):
-            to_sheet[sheet].append(literal)
-        for literals in chain(([literal for _, literal in options] for options in ports), to_sheet):
-            yield literals or [-_TRUE]
-            yield from _at_most_one(literals, fresh)
+    def of_seams(self, fresh: Iterator[int]) -> Iterator[list[int]]:
+        """Yield what holds along every seam: each port leads to one sheet, and to each sheet leads one port."""
+        yield [_TRUE]
+        for ports in self._options.values():
+            to_sheet: list[list[int]] = [[] for _ in ports]
+            for sheet, literal in chain.from_iterable(ports):
+                to_sheet[sheet].append(literal)
+            for literals in chain(([literal for _, literal in options] for options in ports), to_sheet):
+                yield literals or [-_TRUE]
+                yield from _at_most_one(literals, fresh)
 
     def of_meeting(self, number: int, fresh: Iterator[int]) -> Iterator[list[int]]:
         """Yield what holds at a crossing or foot: both ways from the bottom to the top lead to the same sheet."""
@@ -153,14 +152,38 @@ class OpenPart:
             for sheet, other in self._leads(seam, side)
         ]
 
+    def choice(self, model: Sequence[int]) -> dict[int, int]:
+        """Return the own sheets of the open ascending links in a solution, as counted in their cells."""
+        links = [seam for seam in self._options if self.seams.in_tree[seam]]
+        return {seam: _chosen(self._options[seam][-1], model) for seam in links}
+
+    def some_of(self, wanted: Callable[[int, int, int], bool]) -> list[int]:
+        """Return the clause that some pair of sheets is glued, among those wanted: told by seam, port and sheet."""
+        literals = [
+            literal
+            for seam, ports in self._options.items()
+            for port, options in enumerate(ports[: self._sheets_below(seam)])
+            for sheet, literal in options
+            if literal != _TRUE and wanted(seam, port, sheet)
+        ]
+        return literals or [-_TRUE]
+
+    def _sheets_below(self, seam: int) -> int:
+        """Return how many ports of a seam are sheets: all, but for the own sheet of a border."""
+        return int(self.seams.size[seam]) - (seam < self.seams.arrangement.n_borders)
+
     def upper(self, model: Sequence[int]) -> Ints:
         """Return the sheets to which all ports lead in a solution."""
         upper = self.known.upper.copy()
         for seam, ports in self._options.items():
             start = int(self.seams.start[seam])
             for port, options in enumerate(ports, start):
-                upper[port] = next(sheet for sheet, literal in options if model[literal - 1] > 0)
+                upper[port] = _chosen(options, model)
         return upper
+
+
+def _chosen(options: Options, model: Sequence[int]) -> int:
+    return next(sheet for sheet, literal in options if model[literal - 1] > 0)
 
 
 def _true_left_out(*literals: int) -> list[int]:

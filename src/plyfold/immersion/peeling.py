@@ -2,8 +2,8 @@
 
 A *seam* is what happens over a border or a bridge. It takes its *ports*, the sheets on the right and last the border's
 own sheet, one-to-one to the sheets on the left. Around a crossing every sheet over the top cell goes on over the cells
-beside it: it is glued there to one sheet each, or the boundary passes. So four places, one in each cell, are joined in a
-ring by four pairs of the four seams, and where three of the pairs are known, so is the fourth. The same holds at the
+beside it: it is glued there to one sheet each, or the boundary passes. So four corners, one in each cell, are joined in
+a ring by four pairs of the four seams, and where three of the pairs are known, so is the fourth. The same holds at the
 feet of bridges. And a seam of which all pairs but one are known has no choice for the last one.
 
 The seams of the dual tree are known from the names of the sheets: a cell behind a descending link has the sheets of its
@@ -14,9 +14,9 @@ contradiction. Often they follow from fewer choices, or from none.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -28,9 +28,11 @@ from plyfold.immersion.dual_tree import grow_tree
 from plyfold.immersion.immersion import Immersion
 from plyfold.ragged import starts_of
 
-__all__ = ["NOT_KNOWN", "Peeled", "OutlineSeams", "immersion_of", "peel", "outline_seams"]
+__all__ = ["NOT_KNOWN", "OutlineSeams", "Peeled", "immersion_of", "outline_seams", "peel"]
 
 NOT_KNOWN = -1
+# Among reasons: the other pairs of the seam.
+LEFT_OVER = -2
 # Equal to no port and no sheet: the own sheet of a bridge.
 _NONE = -9
 
@@ -120,13 +122,22 @@ class Peeled:
         The sheet on the left to which each port leads, as counted in its cell.
     port : (ports,) int
         The port that leads to each sheet on the left, seam by seam.
+    because : (ports,) int
+        The crossing or foot from which each pair follows, −1 for those known from the start, −2 for those that are left
+        over in their seam by others.
     failed : int
         A crossing or foot at which something contradicts it, or −1.
     """
 
     upper: Ints
     port: Ints
+    because: Ints
     failed: int
+
+    @property
+    def is_contradiction(self) -> bool:
+        """Whether something contradicts itself, so that there is no immersion."""
+        return self.failed != NOT_KNOWN
 
     @property
     def is_complete(self) -> bool:
@@ -141,8 +152,9 @@ def peel(seams: OutlineSeams, chosen: Mapping[int, int] | None = None) -> Peeled
         own[list(chosen.keys())] = list(chosen.values())
     ports = int(seams.start[-1])
     nothing = np.full(ports, NOT_KNOWN)
-    results = run_loop(_peel, 4 * ports, _given(seams, own), _Found(nothing, nothing.copy(), np.array([NOT_KNOWN])))
-    return Peeled(results.upper, results.port, int(results.failed[0]))
+    room = _Found(nothing, nothing.copy(), nothing.copy(), np.array([NOT_KNOWN]))
+    found = run_loop(_peel, 4 * ports, _given(seams, own), room)
+    return Peeled(found.upper, found.port, found.because, int(found.failed[0]))
 
 
 class _Rings(NamedTuple):
@@ -163,7 +175,8 @@ class _Rings(NamedTuple):
 class _Work(NamedTuple):
     """``missing`` ports of each seam are open; the sums of their numbers, and of the sheets not yet reached.
 
-    ``stack[:top]`` holds the ports found from which nothing has been concluded yet.
+    ``stack[:top]`` holds the ports found from which nothing has been concluded yet. ``reason`` says from where
+    something is being concluded.
     """
 
     start: Ints
@@ -176,12 +189,19 @@ class _Work(NamedTuple):
     sum_upper: Ints
     stack: Ints
     top: Ints
+    reason: Ints
 
 
 class _Found(NamedTuple):
+    """See :class:`Peeled`."""
+
     upper: Ints
     port: Ints
+    because: Ints
     failed: Ints
+
+
+_State: TypeAlias = tuple[_Rings, _Work, _Found]
 
 
 def _given(seams: OutlineSeams, own: Ints) -> tuple[_Rings, _Work]:
@@ -207,6 +227,7 @@ def _given(seams: OutlineSeams, own: Ints) -> tuple[_Rings, _Work]:
         sum_upper=total.copy(),
         stack=np.zeros(int(seams.start[-1]), dtype=np.int64),
         top=np.zeros(1, dtype=np.int64),
+        reason=np.array([NOT_KNOWN]),
     )
     return rings, work
 
@@ -227,7 +248,7 @@ def _peel(given: tuple[_Rings, _Work], found: _Found) -> int:
     """Write down what is known of each seam, and conclude, until nothing new comes; 0 at a contradiction."""
     rings, work = given
     for seam in range(len(work.size)):
-        known = 1
+        known, work.reason[0] = 1, NOT_KNOWN
         if work.own[seam] >= 0:
             known = _glue(work, found, seam, work.size[seam] - 1, work.own[seam])
         elif work.size[seam] == 1:
@@ -248,10 +269,12 @@ def _glue(work: _Work, found: _Found, seam: int, port: int, sheet: int) -> int:
         return 0
     if found.upper[start + port] == sheet:
         return 1
+    reason = work.reason[0]
     while True:
         if found.upper[start + port] >= 0 or found.port[start + sheet] >= 0:
             return 0
         found.upper[start + port], found.port[start + sheet] = sheet, port
+        found.because[start + port], reason = reason, LEFT_OVER
         work.stack[work.top[0]] = start + port
         work.top[0] += 1
         work.missing[seam] -= 1
@@ -265,17 +288,19 @@ def _glue(work: _Work, found: _Found, seam: int, port: int, sheet: int) -> int:
 @called_from_loops
 def _conclude(rings: _Rings, work: _Work, found: _Found) -> int:
     """Go round the crossings at both ends of all seams with something new; 0 at a contradiction."""
+    state = rings, work, found
     while work.top[0] > 0:
         work.top[0] -= 1
         here = work.stack[work.top[0]]
         seam, sheet = work.seam[here], found.upper[here]
         port = here - work.start[seam]
+        work.reason[0] = LEFT_OVER
         if work.in_tree[seam] == 1 and _keep_order(work, found, seam, port, sheet) == 0:
             found.failed[0] = rings.at[2 * seam]
             return 0
         for end in range(2):
-            at = rings.at[2 * seam + end]
-            if at >= 0 and _go_round(rings, work, found, at, rings.place[2 * seam + end], port, sheet) == 0:
+            at = work.reason[0] = rings.at[2 * seam + end]
+            if at >= 0 and _go_round(state, at, rings.place[2 * seam + end], port, sheet) == 0:
                 found.failed[0] = at
                 return 0
     return 1
@@ -296,57 +321,56 @@ def _keep_order(work: _Work, found: _Found, seam: int, port: int, sheet: int) ->
 
 
 @called_from_loops
-def _go_round(
-    rings: _Rings, work: _Work, found: _Found, at: int, place: int, port: int, sheet: int
-) -> int:
+def _go_round(state: _State, at: int, place: int, port: int, sheet: int) -> int:
     """Conclude the fourth pair around a crossing, where with a new one three are known; 0 at a contradiction.
 
-    The ring has four corners: top, the side of a's left and b's right, bottom, the other side; the seam at place i leads
-    from corner i to corner i + 1 or back.
+    The corners are in the top cell, on a's left and b's right, in the bottom cell, and on the other side; the seam at
+    place i lies between corners i and i + 1.
     """
-    bottom = rings.bottom[at]
+    bottom = state[0].bottom[at]
     lower = bottom + 1 if place == 2 and port == bottom else port
     here, there = (sheet, lower) if place < 2 else (lower, sheet)
-    after = _step(rings, work, found, at, (place + 1) % 4, there, 1)
-    before = _step(rings, work, found, at, (place + 3) % 4, here, 0)
+    after = _step(state, at, (place + 1) % 4, there, 1)
+    before = _step(state, at, (place + 3) % 4, here, 0)
     if after >= 0 and before >= 0:
-        return _join(rings, work, found, at, (place + 2) % 4, after, before)
+        return _join(state, at, (place + 2) % 4, after, before)
     if after >= 0:
-        after = _step(rings, work, found, at, (place + 2) % 4, after, 1)
-        return 1 if after < 0 else _join(rings, work, found, at, (place + 3) % 4, after, here)
+        after = _step(state, at, (place + 2) % 4, after, 1)
+        return 1 if after < 0 else _join(state, at, (place + 3) % 4, after, here)
     if before >= 0:
-        before = _step(rings, work, found, at, (place + 2) % 4, before, 0)
-        return 1 if before < 0 else _join(rings, work, found, at, (place + 1) % 4, there, before)
+        before = _step(state, at, (place + 2) % 4, before, 0)
+        return 1 if before < 0 else _join(state, at, (place + 1) % 4, there, before)
     return 1
 
 
 @called_from_loops
-def _step(rings: _Rings, work: _Work, found: _Found, at: int, place: int, sheet: int, onward: int) -> int:
+def _step(state: _State, at: int, place: int, sheet: int, onward: int) -> Any:
     """Go from a sheet at one corner across a seam to the next corner, or back; −1 if that is not known.
 
     Over the bottom cell, a's boundary has the number of sheets there, and b's one more. Over the side that a has left,
     b's boundary goes on as the port of b's own sheet, and over the other side a's.
     """
+    rings, work, found = state
     seam, bottom = rings.around[4 * at + place], rings.bottom[at]
-    start = work.start[seam]
     if (place < 2) == (onward == 1):  # down
         if place == 1 and sheet == rings.own_b[at]:
             return bottom + 1
         if place == 2 and sheet == rings.own_a[at]:
             return bottom
-        down = sheet if seam < 0 else found.port[start + sheet]
+        down = sheet if seam < 0 else found.port[work.start[seam] + sheet]
         return bottom + 1 if place == 2 and down == bottom else down
     if place == 1 and sheet == bottom + 1:
         return rings.own_b[at]
     if place == 2 and sheet == bottom:
         return rings.own_a[at]
     port = bottom if place == 2 and sheet == bottom + 1 else sheet
-    return port if seam < 0 else found.upper[start + port]
+    return port if seam < 0 else found.upper[work.start[seam] + port]
 
 
 @called_from_loops
-def _join(rings: _Rings, work: _Work, found: _Found, at: int, place: int, here: int, there: int) -> int:
+def _join(state: _State, at: int, place: int, here: int, there: int) -> int:
     """Note that two sheets at neighbouring corners are glued; 0 if they cannot be."""
+    rings, work, found = state
     seam, bottom = rings.around[4 * at + place], rings.bottom[at]
     lower, upper = (there, here) if place < 2 else (here, there)
     if place == 1 and (lower == bottom + 1 or upper == rings.own_b[at]):
@@ -355,6 +379,67 @@ def _join(rings: _Rings, work: _Work, found: _Found, at: int, place: int, here: 
         return int(lower == bottom and upper == rings.own_a[at])
     port = bottom if place == 2 and lower == bottom + 1 else lower
     return int(port == upper) if seam < 0 else _glue(work, found, seam, port, upper)
+
+
+def reasons(seams: OutlineSeams, known: Peeled) -> Ints:
+    """Return crossings and feet that contradict each other, given what peeling found until it failed.
+
+    From where it failed, back over all pairs from which something follows, to those known from the start.
+    """
+    state = *_given(seams, seams.own), _Found(known.upper, known.port, known.because, np.array([known.failed]))
+    waiting = _pairs_at(seams, known, known.failed)
+    seen, found = set(waiting), {known.failed}
+    while waiting:
+        pair = waiting.pop()
+        because = int(known.because[pair])
+        if because >= 0:
+            found.add(because)
+        fresh = set(_pairs_before(seams, state, pair, because)) - seen
+        seen |= fresh
+        waiting += fresh
+    return np.array(sorted(found))
+
+
+def _pairs_at(seams: OutlineSeams, known: Peeled, at: int) -> list[int]:
+    """Return all known pairs of the seams around a crossing."""
+    around = [seam for seam in seams.around[at].tolist() if seam != NO_SEAM]
+    ports = np.concatenate([np.arange(seams.start[seam], seams.start[seam + 1]) for seam in around])
+    pairs: list[int] = ports[known.upper[ports] >= 0].tolist()
+    return pairs
+
+
+def _pairs_before(seams: OutlineSeams, state: _State, pair: int, because: int) -> list[int]:
+    """Return the pairs from which a pair follows, and perhaps more."""
+    rings, work, found = state
+    if because == NOT_KNOWN:
+        return []
+    seam = int(work.seam[pair])
+    start, end = seams.start[seam : seam + 2].tolist()
+    if because == LEFT_OVER:
+        return [other for other in range(start, end) if found.upper[other] >= 0]
+    places = [rings.place[2 * seam + end] for end in range(2) if rings.at[2 * seam + end] == because]
+    return [other for place in places for other in _ring(state, because, int(place), pair) if found.upper[other] >= 0]
+
+
+def _ring(state: _State, at: int, place: int, pair: int) -> Iterator[int]:
+    """Yield the pairs around a crossing that are in a ring with a given one, at a place, as far as they are known."""
+    rings, work, found = state
+    port, sheet = pair - int(work.start[work.seam[pair]]), int(found.upper[pair])
+    lower = rings.bottom[at] + 1 if place == 2 and port == rings.bottom[at] else port
+    corner = np.full(4, NOT_KNOWN)
+    corner[[place, (place + 1) % 4]] = (sheet, lower) if place < 2 else (lower, sheet)
+    for step in (1, 2, 3, 2, 1):
+        here, there = (place + step) % 4, (place + step + 1) % 4
+        if corner[there] < 0 <= corner[here]:
+            corner[there] = _step(state, at, here, int(corner[here]), 1)
+        elif corner[here] < 0 <= corner[there]:
+            corner[here] = _step(state, at, here, int(corner[there]), 0)
+    for here in range(4):
+        lower = int(corner[(here + 1) % 4 if here < 2 else here])
+        seam, bottom = rings.around[4 * at + here], rings.bottom[at]
+        port = bottom if here == 2 and lower == bottom + 1 else lower
+        if seam >= 0 and 0 <= port < work.size[seam] and (here, lower) not in ((1, bottom + 1), (2, bottom)):
+            yield int(work.start[seam]) + int(port)
 
 
 def immersion_of(seams: OutlineSeams, upper: Ints) -> Immersion:

@@ -25,8 +25,8 @@ from plyfold.arrangement.base_visit import borders_numbered_back
 from plyfold.arrays import Ints
 from plyfold.clock import Clock, Watch
 from plyfold.errors import TimeLimitError
+from plyfold.immersion.obstructions import may_bound_disk, obstruction, visible_obstruction
 from plyfold.immersion.solve import bounds_disk, count_immersions, find_immersion, immersions, watched_immersions
-from plyfold.immersion.visible import no_surface
 from plyfold.layering.layering import Layering, layering_of_levels
 from plyfold.layering.levels.casing import casing_of_visits
 from plyfold.layering.levels.counting import count_level_solutions
@@ -91,11 +91,11 @@ def find_embedding(
 
     Notes
     -----
-    Exact in both directions. The first immersions of a disk without cusps are tried one by one with
-    :func:`~plyfold.find_layering`; if none of them lifts and there are more, and for all other outlines, the levels of
-    all borders are a SAT problem with O(Σ w) variables and clauses, over borders. Whether an embedded disk can be
-    decided in polynomial time is open [EM09]_. A chain of a hundred disks with 5 immersions each, 1,200 crossings,
-    takes about 0.2 s. Surfaces of several pieces are left out one kind after the other where one piece is demanded.
+    Exact in both directions. The first immersions of a disk are tried one by one with :func:`~plyfold.find_layering`;
+    if none of them lifts and there are more, and for all other outlines, the levels of all borders are a SAT problem
+    with O(Σ w) variables and clauses, over borders. Whether an embedded disk can be decided in polynomial time is open
+    [EM09]_. A chain of a hundred disks with 5 immersions each, 1,200 crossings, takes about 0.2 s. Surfaces of several
+    pieces are left out one kind after the other where one piece is demanded.
 
     References
     ----------
@@ -117,9 +117,9 @@ def find_embedding(
     clock = Clock(time_limit)
     try:
         arranged = watched_arrangement(curve, "perturb", Watch(clock))
-        if not _has_words(arranged):
-            obstruction = no_surface(arranged)
-            return _from_levels(arranged, clock, connected) if obstruction is None else obstruction
+        if not may_bound_disk(arranged):
+            visible = visible_obstruction(arranged, connected)
+            return _from_levels(arranged, clock, connected) if visible is None else visible
         return _over_immersions(arranged, clock)
     except TimeLimitError:
         return undecided("time limit", "whether there is an embedding", clock)
@@ -140,15 +140,6 @@ def _over_immersions(arranged: Arrangement, clock: Clock) -> Layering | Obstruct
         return _from_levels(arranged, clock, because=f"none of the {_written(number)} immersions lifts; ")
     which = "the only immersion does not lift" if number == 1 else f"none of the {number} immersions lifts"
     return no_levels(arranged, level_clauses(arranged), clock, f"{which}; ")
-
-
-def _may_be_disk(arranged: Arrangement) -> bool:
-    return arranged.n_loops == 1 == arranged.euler_characteristic
-
-
-def _has_words(arranged: Arrangement) -> bool:
-    """Tell whether words list the immersions."""
-    return _may_be_disk(arranged) and not arranged.cusp_index.any()
 
 
 def _from_levels(
@@ -174,7 +165,7 @@ def _several_pieces(arranged: Arrangement, clauses: LevelClauses) -> Lacking:
 def _not_in_one_piece(found: Layering) -> Obstruction:
     pieces = tuple(piece.loops for piece in found.pieces)
     sentence = f"No embedding in one piece: those that there are fall into pieces, such as {len(pieces)}."
-    return Obstruction("pieces", sentence, (), pieces)
+    return obstruction(found.immersion.arrangement, "pieces", sentence, (), pieces)
 
 
 def embeddings(curve: OutlineLike, over: npt.ArrayLike | None = None, connected: bool = False) -> Iterator[Layering]:
@@ -206,7 +197,7 @@ def embeddings(curve: OutlineLike, over: npt.ArrayLike | None = None, connected:
     """
     arranged = arrange(curve)
     casing = None if over is None else casing_of_visits(arranged, over)
-    if no_surface(arranged) is not None or (_has_words(arranged) and not bounds_disk(arranged)):
+    if visible_obstruction(arranged, connected) is not None or (may_bound_disk(arranged) and not bounds_disk(arranged)):
         return
     if casing is None and _has_few_immersions(arranged):
         for immersion in immersions(arranged):
@@ -219,7 +210,7 @@ def embeddings(curve: OutlineLike, over: npt.ArrayLike | None = None, connected:
 
 
 def _has_few_immersions(arranged: Arrangement) -> bool:
-    return _has_words(arranged) and count_immersions(arranged) <= _FEW
+    return may_bound_disk(arranged) and count_immersions(arranged) <= _FEW
 
 
 def count_embeddings(curve: OutlineLike, time_limit: float | None = None, connected: bool = False) -> int | Unknown:
@@ -264,7 +255,7 @@ def count_embeddings(curve: OutlineLike, time_limit: float | None = None, connec
 
 def _count(arranged: Arrangement, clock: Clock, connected: bool) -> int | Unknown:
     """Return the number of embeddings. May raise TimeLimitError."""
-    if no_surface(arranged) is not None or (_has_words(arranged) and not bounds_disk(arranged)):
+    if visible_obstruction(arranged, connected) is not None or (may_bound_disk(arranged) and not bounds_disk(arranged)):
         return 0
     if connected and arranged.n_loops > 1:
         return _count_in_one_piece(arranged, clock)
@@ -303,7 +294,7 @@ def _count_levels(arranged: Arrangement, clock: Clock) -> int | Unknown:
 def _unknown(question: str, arranged: Arrangement, clock: Clock, reason: str = "time limit") -> Unknown:
     left_open = undecided(reason, question, clock)
     known, sentence = dict(left_open.established) | {"crossings": arranged.n_crossings}, left_open.sentence
-    if _has_words(arranged):
+    if may_bound_disk(arranged):
         known["immersions"] = count_immersions(arranged)
         sentence += f" Number of immersions: {_written(count_immersions(arranged))}."
     return Unknown(reason, sentence, known)

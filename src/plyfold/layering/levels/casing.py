@@ -18,7 +18,7 @@ from plyfold.arrangement.base_visit import borders_numbered_back
 from plyfold.arrays import Bools, Ints
 from plyfold.clock import Clock, Watch
 from plyfold.errors import InputError, TimeLimitError
-from plyfold.immersion.visible import no_surface
+from plyfold.immersion.obstructions import visible_obstruction
 from plyfold.layering.layering import Layering, layering_of_levels
 from plyfold.layering.levels.equations import (
     LevelClauses,
@@ -96,7 +96,7 @@ def embed_cased(
 
 def _embed(arranged: Arrangement, over: npt.ArrayLike, clock: Clock) -> Layering | Obstruction | Unknown:
     casing = casing_of_visits(arranged, over)
-    obstruction = no_surface(arranged)
+    obstruction = visible_obstruction(arranged)
     if obstruction is not None:
         return obstruction
     if arranged.n_loops > 1 or len(arranged.crossing_visits) < len(casing):

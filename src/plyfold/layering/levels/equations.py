@@ -28,6 +28,7 @@ from plyfold.arrangement.base_visit import begun_at, numbered_from, visits_from_
 from plyfold.arrays import Bools, Ints, freeze
 from plyfold.clock import NO_LIMIT, Clock
 from plyfold.errors import PlyfoldError
+from plyfold.immersion.obstructions import obstruction
 from plyfold.memory import require_memory
 from plyfold.obstruction import Obstruction
 from plyfold.ragged import count_each, starts_of
@@ -373,9 +374,4 @@ def no_levels(arranged: Arrangement, clauses: LevelClauses, clock: Clock, becaus
     sentence = f"No embedding: {because}no levels of the strands fit together at {at}."
     places = np.concatenate([arranged.crossings[crossings], arranged.visit_point[cusps]]) if arranged.outline else ()
     where, value = tuple((x, y) for x, y in places), (*crossings, *(("cusp", visit) for visit in cusps))
-    return Obstruction("no embedding", sentence, where, value, _subject(arranged))
-
-
-def _subject(arranged: Arrangement) -> Arrangement | None:
-    """Return what a picture of an obstruction shows; there is none yet of several curves."""
-    return arranged if arranged.n_loops == 1 else None
+    return obstruction(arranged, "no embedding", sentence, where, value)
