@@ -1,8 +1,8 @@
 """Closed meshes in space, and the patches of them that face a viewer: outlines whose surface is known.
 
-Tubes round random closed curves, bumpy balls that are twisted, and sheets with bands on them, made thick: their fronts
-have handles. Each is seen from a random direction, along z from above. All coordinates are whole numbers, so every sign
-below is exact.
+Tubes round random closed curves; bumpy balls that are twisted; sheets with bands on them, made thick, whose fronts have
+handles; stairs that wind round a point several times. Each is seen from a random direction, along z from above. All
+coordinates are whole numbers, so every sign below is exact.
 """
 
 from collections.abc import Callable, Iterator
@@ -188,8 +188,23 @@ def thickened(sheet: Body, thick: float) -> Body:
     )
 
 
-KINDS: dict[str, Callable[[np.random.Generator], Body]] = {"tube": tube, "ball": ball, "banded": banded}
-MOST_TILTED = {"banded": 0.6}
+def stair(rng: np.random.Generator) -> Body:
+    """A thick stair that winds round a point and thins out towards it: its front has a cusp of a high index there."""
+    steps = int(rng.integers(8, 40))
+    angle = np.linspace(0, steps * rng.uniform(0.4, 0.9), steps + 1)
+    radius = 1 + rng.uniform(0, 0.5, steps + 1)
+    rise = rng.uniform(0.05, 0.2) * angle
+    top = np.stack([radius * np.cos(angle), radius * np.sin(angle), rise], axis=1)
+    low = top - [0, 0, rng.uniform(0.05, 0.3)]
+    a, b = 1 + np.arange(steps), 2 + np.arange(steps)
+    c, d, eye, last = a + steps + 1, b + steps + 1, np.zeros_like(a), steps + 1
+    faces = [np.stack(three, axis=1) for three in ((eye, a, b), (eye, d, c), (a, c, d), (a, d, b))]
+    ends = [(0, last + 1, 1), (0, last, last + last)]
+    return Body(np.concatenate([[(0.0, 0.0, 0.0)], top, low]), np.concatenate([*faces, ends]))
+
+
+KINDS: dict[str, Callable[[np.random.Generator], Body]] = {"tube": tube, "ball": ball, "banded": banded, "stair": stair}
+MOST_TILTED = {"banded": 0.6, "stair": 0.3}
 """Radians by which the direction may differ from the vertical; others are seen from anywhere."""
 
 
@@ -216,17 +231,19 @@ def seen(rng: np.random.Generator, kind: str) -> Body:
 
 
 def patches(seed: int, kinds: tuple[str, ...] = tuple(KINDS), least: int = 8) -> Iterator[Patch]:
-    """Patches of at least so many triangles, of one body after the other, for ever; the same for the same seed.
-
-    Those with a boundary that passes a vertex twice are left out.
-    """
+    """The patches of one body after the other, for ever; the same for the same seed."""
     rng = np.random.default_rng(seed)
     while True:
-        kind = kinds[int(rng.integers(len(kinds)))]
-        body = seen(rng, kind)
-        for faces in fronts(body):
-            if len(faces) >= least and (found := patch(kind, body.vertices, faces)):
-                yield found
+        yield from patches_of_body(rng, kinds, least)
+
+
+def patches_of_body(rng: np.random.Generator, kinds: tuple[str, ...] = tuple(KINDS), least: int = 8) -> Iterator[Patch]:
+    """The patches of a random body that have at least so many triangles, and whose boundary passes no vertex twice."""
+    kind = kinds[int(rng.integers(len(kinds)))]
+    body = seen(rng, kind)
+    for faces in fronts(body):
+        if len(faces) >= least and (found := patch(kind, body.vertices, faces)):
+            yield found
 
 
 def fronts(body: Body) -> list[np.ndarray]:

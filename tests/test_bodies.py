@@ -49,6 +49,7 @@ def test_patches_are_of_all_sorts():
     assert {patch.kind for patch in found} == set(KINDS)
     assert min(map(len, (several, handles, [patch for patch in found if patch.cuts_itself]))) > 15
     assert len(cusped) > 120
+    assert {1, 2, 3} <= {index for patch in found for cusps in patch.cusps for index in cusps.tolist()}
     again = some(3, 150)
     assert all((one.vertices == other.vertices).all() for one, other in zip(found, again, strict=True))
 
@@ -93,7 +94,7 @@ def test_levels_obey_the_rules_where_a_patch_does_not_cut_itself():
         if patch.cuts_itself:
             continue
         own = dict(enumerate(level.tolist()))
-        assert all(agrees(found.code, vertex, own) for vertex in range(len(planar.around)))
+        assert all(agrees(planar, vertex, own) for vertex in range(len(planar.around)))
         compared += 1
         if max(planar.winding) < 4:
             assert tuple(level.tolist()) in level_solutions(found.code)

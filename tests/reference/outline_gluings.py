@@ -53,15 +53,14 @@ def corner_of_boundary(
         walk.append((place, sheet))
 
 
-def fits(code: OutlineCode, phi: dict[int, Phi], vertex: int) -> bool:
+def fits(found: OutlineMap, phi: dict[int, Phi], vertex: int) -> bool:
     """Whether the gluings of the edges at a vertex obey the rule."""
-    found = outline_map(code)
     darts = found.around[vertex]
     on_boundary: set[tuple[int, int]] = set()
     for visit in found.at[vertex]:
         walk = corner_of_boundary(found, phi, darts, visit)
         start, end = darts.index(2 * found.after[visit]), darts.index(2 * found.before[visit] + 1)
-        turn = (end - start) % len(darts) + code.index[visit] * len(darts)
+        turn = (end - start) % len(darts) + found.index[visit] * len(darts)
         if len(walk) != turn:  # so it ends at the right border too
             return False
         on_boundary.update(walk)
@@ -141,7 +140,7 @@ def families(code: OutlineCode, choices: Sequence[Sequence[Phi]]) -> Iterator[di
             return
         for choice in choices[order[depth]]:
             phi[order[depth]] = choice
-            if all(fits(code, phi, vertex) for vertex in complete[depth]):
+            if all(fits(found, phi, vertex) for vertex in complete[depth]):
                 yield from extend(phi, depth + 1)
         phi.pop(order[depth], None)
 
@@ -220,7 +219,7 @@ def key_of(code: OutlineCode, own_sheet: Sequence[int], rows: Sequence[Row]) -> 
     own_sheet = [int(sheet) for sheet in own_sheet]
     rows = [(int(edge), int(right), int(left)) for edge, right, left in rows]
     found, phi = outline_map(code), family(code, own_sheet, rows)
-    if not all(fits(code, phi, vertex) for vertex in range(len(found.around))):
+    if not all(fits(found, phi, vertex) for vertex in range(len(found.around))):
         raise ValueError("not a surface: around a vertex")
     name: dict[int, Phi] = {0: ()}  # the new number of each sheet
     for edge, parent, child in dual_tree(found):

@@ -9,21 +9,21 @@ from itertools import permutations
 
 from reference.gluings import Row
 from reference.outline_gluings import Phi, dual_tree, edge_order, families, family, sheets_by_cell
-from reference.outlines import OutlineCode, OutlineMap, outline_map
+from reference.outlines import OutlineCode, OutlineMap, outline_map, with_cusps
 
 Levels = tuple[int, ...]
 
 
-def agrees(code: OutlineCode, vertex: int, level: dict[int, int]) -> bool:
+def agrees(found: OutlineMap, vertex: int, level: dict[int, int]) -> bool:
     """The rule at a crossing, a cusp or the foot of a bridge.
 
     The strands of a crossing have different levels in its top cell; the higher one has one less past the other. At a
     cusp the surface climbs or falls by one level for each full turn. At a foot nothing happens.
     """
-    found, visits = outline_map(code), outline_map(code).at[vertex]
+    visits = found.at[vertex]
     if len(visits) == 1:
         (visit,) = visits
-        return abs(level[found.before[visit]] - level[found.after[visit]]) == code.index[visit]
+        return abs(level[found.before[visit]] - level[found.after[visit]]) == found.index[visit]
     first, second = visits
     a, a_past = level[found.before[first]], level[found.after[first]]
     b, b_past = level[found.after[second]], level[found.before[second]]
@@ -47,7 +47,7 @@ def level_solutions(code: OutlineCode) -> list[Levels]:
             return
         for choice in range(1, found.winding[found.left(order[depth])] + 1):
             level[order[depth]] = choice
-            if all(agrees(code, vertex, level) for vertex in complete[depth]):
+            if all(agrees(found, vertex, level) for vertex in complete[depth]):
                 yield from extend(level, depth + 1)
 
     return list(extend({}, 0))
@@ -107,3 +107,22 @@ def order_keeper(found: OutlineMap, phi: dict[int, Phi]) -> Callable[[int, dict[
         return images == sorted(images)
 
     return keeps
+
+
+# ---- where cusps would help ------------------------------------------------------------------------------------------
+
+
+def sums(total: int, count: int) -> Iterator[tuple[int, ...]]:
+    """All rows of so many numbers from 0 up with a given sum."""
+    if count == 0:
+        yield from [()] if total == 0 else []
+        return
+    for first in range(total + 1):
+        yield from ((first, *rest) for rest in sums(total - first, count - 1))
+
+
+def cusps_that_lift(code: OutlineCode, total: int) -> list[tuple[int, ...]]:
+    """The indices of one cusp more on each border, 0 on most, with a given sum, with which there are levels."""
+    borders = range(outline_map(code).n_borders)
+    marked = {m: with_cusps(code, [(b, m[b]) for b in borders if m[b]]) for m in sums(total, len(borders))}
+    return [m for m, cusped in marked.items() if level_solutions(cusped)]

@@ -35,8 +35,8 @@ class OutlineMap(NamedTuple):
     """The planar map of an outline. Its vertices are crossings and marks.
 
     before[v], after[v]: the borders that end and start at visit v. around[i]: the darts that leave vertex i, counter-
-    clockwise. at[i]: the visits at vertex i. cell_of_dart: the cell on the left of each dart; cell 0 is the unbounded
-    one. winding: the winding number of each cell.
+    clockwise. at[i]: the visits at vertex i. index[v]: that of a cusp at visit v. cell_of_dart: the cell on the left of
+    each dart; cell 0 is the unbounded one. winding: the winding number of each cell.
     """
 
     n_borders: int
@@ -45,6 +45,7 @@ class OutlineMap(NamedTuple):
     after: tuple[int, ...]
     around: tuple[tuple[int, ...], ...]
     at: tuple[tuple[int, ...], ...]
+    index: tuple[int, ...]
     cell_of_dart: tuple[int, ...]
     winding: tuple[int, ...]
 
@@ -87,7 +88,7 @@ def outline_map(code: OutlineCode) -> OutlineMap:
     cell_of_dart = cells_of_darts(orbits, code.outside)
     winding = windings(cell_of_dart, len(loop_of_border))
     return OutlineMap(
-        len(loop_of_border), loop_of_border, before, after, tuple(around), tuple(at), cell_of_dart, winding
+        len(loop_of_border), loop_of_border, before, after, tuple(around), tuple(at), code.index, cell_of_dart, winding
     )
 
 

@@ -11,9 +11,9 @@ from reference.loops import level_solutions as levels_by_borders
 from reference.loops import loop_borders
 from reference.outline_drawings import outline_code
 from reference.outline_gluings import count_by_labels, key_of, pieces, surfaces
-from reference.outline_levels import layerings, level_solutions, levels_by_gluings
+from reference.outline_levels import cusps_that_lift, layerings, level_solutions, levels_by_gluings
 from reference.outlines import of_gauss, outline_map, to_gauss, with_curls, with_cusps
-from reference.planar_maps import border_count, census, gauss_code, reversed_code, windings
+from reference.planar_maps import border_count, gauss_code, nonnegative_curves, windings
 from reference.random_curves import random_polygon, without_repeats
 
 HANDLE = gauss_code([1, 0, 3, 2, 5, 4, 7, 6], [1, 0] * 4, 13)
@@ -25,12 +25,6 @@ LIMACON = gauss_code([1, 0], [True, False], 1)
 BIG = [(0, 0), (90, 0), (0, 90)]
 INSIDE = [(5, 5), (25, 6), (6, 25)]
 HOLE = [(20, 20), (20, 30), (30, 21)]
-
-
-def curves(k):
-    """All plane curves with k crossings, in both directions, without negative winding numbers."""
-    both = {copy for code in census(k) for copy in (code, reversed_code(code))}
-    return [code for code in sorted(both) if min(windings(code)) >= 0]
 
 
 def count_of_curls(code, sites):
@@ -58,25 +52,27 @@ def assert_levels_agree(code, found):
 class TestPlaneCurves:
     @pytest.mark.parametrize("k", range(5))
     def test_without_cusps_as_by_the_reference_for_curves(self, k):
-        for code in curves(k):
+        for code in nonnegative_curves(k):
             assert len(surfaces(of_gauss(code))) == len(list(gluings.families(code)))
 
     @pytest.mark.parametrize(("k", "expected"), [(0, 0), (1, 1), (2, 1), (3, 14), (4, 26)])
     def test_a_cusp_on_each_border(self, k, expected):
-        sites = [(code, border, m) for code in curves(k) for border in range(border_count(code)) for m in (1, 2)]
+        sites = [
+            (code, border, m) for code in nonnegative_curves(k) for border in range(border_count(code)) for m in (1, 2)
+        ]
         found = [assert_three_ways_agree(of_gauss(code), [(border, m)]) for code, border, m in sites]
         assert sum(map(bool, found)) == expected
 
     @pytest.mark.slow
     def test_a_cusp_on_each_border_of_curves_with_five_crossings(self):
-        for code in curves(5):
+        for code in nonnegative_curves(5):
             for border in range(border_count(code)):
                 for m in (1, 2, 3):
                     assert_three_ways_agree(of_gauss(code), [(border, m)])
 
     def test_pairs_of_cusps(self):
         rng, bound = np.random.default_rng(9), 0
-        every = [code for k in (2, 3, 4) for code in curves(k)]
+        every = [code for k in (2, 3, 4) for code in nonnegative_curves(k)]
         for _ in range(600):
             code = every[rng.integers(len(every))]
             sites = [(int(rng.integers(border_count(code))), int(rng.integers(1, 3))) for _ in range(2)]
@@ -85,7 +81,7 @@ class TestPlaneCurves:
 
     def test_cusps_in_a_row_are_not_one_of_higher_index(self):
         """Two of index 1 on one border may climb and fall; one of index 2 goes up or down by two levels."""
-        sites = [(of_gauss(code), border) for k in (2, 3) for code in curves(k) for border in range(2 * k)]
+        sites = [(of_gauss(code), border) for k in (2, 3) for code in nonnegative_curves(k) for border in range(2 * k)]
         differ = [
             len(surfaces(with_cusps(code, [(border, 1)] * 2))) != len(surfaces(with_cusps(code, [(border, 2)])))
             for code, border in sites
@@ -95,7 +91,7 @@ class TestPlaneCurves:
     def test_labels_divided_by_their_number(self):
         rng, bound = np.random.default_rng(4), 0
         for _ in range(150):
-            code = (every := curves(int(rng.integers(1, 4))))[rng.integers(len(every))]
+            code = (every := nonnegative_curves(int(rng.integers(1, 4))))[rng.integers(len(every))]
             cusped = with_cusps(of_gauss(code), [(int(rng.integers(border_count(code))), 1)])
             if prod(map(factorial, outline_map(cusped).winding)) <= 24:
                 bound += bool(count := len(surfaces(cusped)))
@@ -118,6 +114,13 @@ class TestKnownAnswers:
         assert [len(surfaces(with_cusps(code, [(border, 1)]))) for border in range(2)] == [0, 1]
         assert len(level_solutions(with_cusps(code, [(1, 1)]))) == 2
         assert not surfaces(code)
+
+    def test_cusps_that_would_help_a_limacon(self):
+        code = of_gauss(LIMACON)
+        assert cusps_that_lift(code, 0) == []
+        assert cusps_that_lift(code, 1) == [(0, 1)]
+        assert cusps_that_lift(code, 2) == []
+        assert cusps_that_lift(of_gauss(gauss_code([], [], 1)), 0) == [(0,)]
 
     def test_loops_inside_others(self):
         assert len(level_solutions(outline_code([BIG, INSIDE]))) == 2

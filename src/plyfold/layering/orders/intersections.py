@@ -28,9 +28,9 @@ from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.orders.maxsat import fewest_failures
 from plyfold.layering.orders.search import OrderProblem, independent_orders
-from plyfold.layering.sat import StoppableSolver, in_time, solver_of
 from plyfold.memory import number_of_tuples, require_memory
 from plyfold.ragged import count_each, pairs_in_each
+from plyfold.sat import StoppableSolver, in_time, solver_of
 
 __all__ = ["IntersectingLayering", "border_lengths", "least_intersecting_layering"]
 

@@ -25,8 +25,8 @@ from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering, meeting_sheets
 from plyfold.layering.orders.maxsat import fewest_failures
 from plyfold.layering.orders.search import OrderProblem, order_problem, solve_orders, undecided
-from plyfold.layering.sat import StoppableSolver, in_time, solver_of
 from plyfold.obstruction import Obstruction, Unknown
+from plyfold.sat import StoppableSolver, in_time, solver_of
 
 __all__ = ["nicest_layering"]
 

@@ -27,11 +27,11 @@ from plyfold.errors import InputError, TimeLimitError
 from plyfold.graphs import components, shortest_path
 from plyfold.immersion.immersion import Immersion, require_immersion
 from plyfold.layering.layering import Layering, meeting_sheets
-from plyfold.layering.sat import minimal_core, solve
 from plyfold.loading import FOR_LAYERINGS, load_libraries
 from plyfold.memory import number_of_tuples, require_memory
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.ragged import count_each, starts_of
+from plyfold.sat import minimal_core, solve
 
 __all__ = [
     "FixedOrders",
