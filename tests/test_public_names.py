@@ -25,6 +25,7 @@ def test_public_names():
         "IntersectingLayering",
         "Layering",
         "Obstruction",
+        "Outline",
         "Surface",
         "Unknown",
         "UnwoundDisk",

@@ -44,6 +44,7 @@ from .layering.orders.search import find_layering as find_layering
 from .obstruction import Obstruction as Obstruction
 from .obstruction import Unknown as Unknown
 from .outline.curve import Curve as Curve
+from .outline.curve import Outline as Outline
 from .surface.lift import Surface as Surface
 from .surface.lift import lift as lift
 

@@ -17,7 +17,8 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.errors import InputError
-from plyfold.outline.curve import Curve, as_curve
+from plyfold.outline.curve import Curve
+from plyfold.outline.given import as_curve
 
 __all__ = ["CURVES", "NamedCurve", "chain", "named_curve", "ribbon", "rounded"]
 

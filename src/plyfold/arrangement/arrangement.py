@@ -30,7 +30,8 @@ from plyfold.arrays import Bools, Floats, Ints, freeze
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GaussCodeError, InputError, PlyfoldError
 from plyfold.graphs import components
-from plyfold.outline.curve import Coded, Curve, CurveLike, OutlineLike, are_several, as_curve, as_curves
+from plyfold.outline.curve import Curve
+from plyfold.outline.given import Coded, CurveLike, OutlineLike, are_several, as_curve, as_curves
 from plyfold.predicates import cross_sign
 
 __all__ = ["Arrangement", "CurveLike", "arrange", "require_one_loop", "watched_arrangement"]

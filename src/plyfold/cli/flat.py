@@ -73,7 +73,7 @@ def _direction(arranged: Arrangement) -> str:
 def _triangulate(options: argparse.Namespace) -> int:
     from plyfold.flat.triangulate import triangulate
     from plyfold.io.pieces import TRIANGLE_WRITERS
-    from plyfold.outline.curve import as_curve
+    from plyfold.outline.given import as_curve
 
     watch = Stopwatch()
     arranged = prepare(options, tuple(TRIANGLE_WRITERS), watch)

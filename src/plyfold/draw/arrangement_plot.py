@@ -22,7 +22,7 @@ from plyfold.draw.placement import (
     label_circle,
     line_weight,
 )
-from plyfold.outline.curve import CurveLike
+from plyfold.outline.given import CurveLike
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

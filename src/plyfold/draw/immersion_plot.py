@@ -15,7 +15,7 @@ from plyfold.draw.placement import Frame, closed, drawn_points, label_circle, li
 from plyfold.immersion.immersion import Immersion, require_immersion
 from plyfold.immersion.solve import count_immersions, find_immersion, immersions
 from plyfold.options import refuse_unless_count
-from plyfold.outline.curve import CurveLike
+from plyfold.outline.given import CurveLike
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

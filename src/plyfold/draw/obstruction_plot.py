@@ -21,7 +21,7 @@ from plyfold.immersion.immersion import Immersion
 from plyfold.immersion.solve import find_immersion
 from plyfold.layering.orders.search import find_layering
 from plyfold.obstruction import Obstruction
-from plyfold.outline.curve import CurveLike
+from plyfold.outline.given import CurveLike
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from plyfold.errors import FileFormatError
-from plyfold.outline.curve import Curve, as_curve
+from plyfold.outline.curve import Curve
+from plyfold.outline.given import as_curve
 
 __all__ = ["read_geojson", "read_wkt"]
 

@@ -40,7 +40,7 @@ from plyfold.layering.orders.listing import layerings
 from plyfold.layering.orders.search import find_layering, undecided
 from plyfold.layering.tables import TooLargeError
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.outline.curve import OutlineLike
+from plyfold.outline.given import OutlineLike
 
 __all__ = ["count_embeddings", "embeddings", "find_embedding"]
 

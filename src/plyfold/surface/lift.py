@@ -28,7 +28,8 @@ from plyfold.layering.orders.search import first_layering
 from plyfold.mesh.cells import DEFAULT_TRIANGLES, area_of_edge, refuse_broken, refuse_sizes, triangulate_cells
 from plyfold.obstruction import IMMERSION_REASONS, Obstruction
 from plyfold.options import refuse_unless_flag, refuse_unless_number
-from plyfold.outline.curve import Curve, CurveLike
+from plyfold.outline.curve import Curve
+from plyfold.outline.given import CurveLike
 from plyfold.surface.chords import split_chords
 from plyfold.surface.files import Colouring, model_of_surface
 from plyfold.surface.glue import intersection_curves, stack_sheets

@@ -25,7 +25,7 @@ from plyfold.layering.levels.equations import (
 )
 from plyfold.layering.orders.search import undecided
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.outline.curve import OutlineLike
+from plyfold.outline.given import OutlineLike
 
 __all__ = ["casing_of_visits", "embed_cased"]
 
