@@ -14,11 +14,11 @@ import numpy as np
 
 from plyfold.arrangement.crossings import Contacts, Visits, edge_ends, find_contacts, order_visits
 from plyfold.arrangement.general_position import touching_places
+from plyfold.arrangement.marks import Mark
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GeneralPositionError
 from plyfold.graphs import components
-from plyfold.outline.curve import Curve
 from plyfold.predicates import cross_sign, exact_parameter
 from plyfold.ragged import starts_of
 
@@ -32,25 +32,28 @@ class Nest:
     Parameters
     ----------
     visits : Visits
-        Along one loop after the other; each edge is one of its own loop.
+        Along one loop after the other; edges are counted over all loops.
     first_visit : (loops + 1,) int
         The number of each loop's first visit, and last the number of visits.
-    outside : tuple of int
+    outside : (o,) int
         Darts of the unbounded cell, one of each group that lies in it with nothing on its left; that of the leftmost
         vertex of all first.
     bridges : (b, 2) int
         For each other group the dart at its leftmost vertex, and the dart met to the left of it. Both have the cell
         between them on their left.
+    feet : list of pairs of Mark
+        Where each bridge starts and ends.
     """
 
     visits: Visits
     first_visit: Ints
-    outside: tuple[int, ...]
+    outside: Ints
     bridges: Ints
+    feet: list[tuple[Mark, Mark]]
 
 
-def nest(curves: Sequence[Curve], watch: Watch = UNWATCHED) -> Nest:
-    """Find the crossings of several closed curves with themselves and each other, and which lies inside which.
+def nest(loops: Sequence[Floats], watch: Watch = UNWATCHED) -> Nest:
+    """Find the crossings of several closed polylines with themselves and each other, and which lies inside which.
 
     Raises
     ------
@@ -63,25 +66,29 @@ def nest(curves: Sequence[Curve], watch: Watch = UNWATCHED) -> Nest:
     -----
     As for one curve, plus O(n) for each group.
     """
-    polyline = _one_after_the_other(curves)
+    polyline = _one_after_the_other(loops)
     visits = _visits(polyline, watch)
-    first_visit = np.searchsorted(polyline.loop[visits.edge], np.arange(len(curves) + 1))
+    first_visit = np.searchsorted(polyline.loop[visits.edge], np.arange(len(loops) + 1))
     plan = _Plan(polyline, visits, first_visit)
     loop = polyline.loop[visits.edge]
-    group = components(len(curves), loop, loop[visits.partner])
-    outside, bridges = [], []
-    for corner, own in sorted(_corners(polyline, group), key=lambda found: tuple(polyline.points[found[0]])):
+    group = components(len(loops), loop, loop[visits.partner])
+    outside, bridges, feet = [], [], []
+    corners = sorted(_corners(polyline, group), key=lambda found: tuple(polyline.points[found[0]]))
+    for number, (corner, own) in enumerate(corners):
         watch.step()
-        dart, beyond = _outer_dart(plan, corner), _dart_on_the_left(plan, corner, own)
+        dart, beyond = _outer_dart(plan, corner), _met_on_the_left(plan, corner, own)
         if beyond is None:
             outside.append(dart)
         else:
-            bridges.append((dart, beyond))
+            foot = _foot_on_edge(plan, beyond, corner, number)
+            bridges.append((dart, 2 * plan.border(beyond, foot.at) + _is_upward(polyline, beyond)))
+            feet.append((_foot_at_vertex(plan, corner), foot))
     return Nest(
-        visits=replace(visits, edge=visits.edge - polyline.first_edge[loop]),
+        visits=replace(visits, edge=visits.edge - loop),
         first_visit=first_visit,
-        outside=tuple(outside),
+        outside=np.array(outside),
         bridges=np.array(bridges, dtype=np.int64).reshape(-1, 2),
+        feet=feet,
     )
 
 
@@ -95,8 +102,6 @@ class _Polyline:
     Parameters
     ----------
     points : (n, 2) float
-    first_edge : (loops,) int
-        Where each loop starts.
     loop : (n,) int
         The loop of each point and of the edge that starts there.
     vertex : (n,) int
@@ -106,21 +111,19 @@ class _Polyline:
     """
 
     points: Floats
-    first_edge: Ints
     loop: Ints
     vertex: Ints
     is_jump: Bools
 
 
-def _one_after_the_other(curves: Sequence[Curve]) -> _Polyline:
-    lengths = np.array([len(curve) + 1 for curve in curves])
+def _one_after_the_other(loops: Sequence[Floats]) -> _Polyline:
+    lengths = np.array([len(points) + 1 for points in loops])
     last = np.cumsum(lengths) - 1
     vertex = np.arange(int(lengths.sum()))
     vertex[last] -= lengths - 1
     return _Polyline(
-        points=np.concatenate([points for curve in curves for points in (curve.points, curve.points[:1])]),
-        first_edge=starts_of(lengths),
-        loop=np.repeat(np.arange(len(curves)), lengths),
+        points=np.concatenate([part for points in loops for part in (points, points[:1])]),
+        loop=np.repeat(np.arange(len(loops)), lengths),
         vertex=vertex,
         is_jump=np.isin(np.arange(len(vertex)), last),
     )
@@ -188,39 +191,68 @@ def _outer_dart(plan: _Plan, corner: int) -> int:
     return 2 * border + int(cross_sign(before, here, here, after) > 0)
 
 
-def _dart_on_the_left(plan: _Plan, corner: int, own: Bools) -> int | None:
-    """Return the dart of the other groups that a ray from a vertex to the left meets first, on the side that it meets.
+def _foot_at_vertex(plan: _Plan, corner: int) -> Mark:
+    """Return the foot of the bridge that leaves a leftmost vertex; it comes after a cusp there."""
+    x, y = plan.polyline.points[corner].tolist()
+    loop = int(plan.polyline.loop[corner])
+    return Mark(corner - loop, Fraction(0), 1, int(np.searchsorted(plan.visits.edge, corner)), loop, (x, y))
+
+
+def _foot_on_edge(plan: _Plan, edge: int, corner: int, number: int) -> Mark:
+    """Return the foot of the bridge from a vertex to an edge on its left: a little higher than the vertex.
+
+    Later ones, which come from further right, are higher if the vertices have one height: they pass above.
+    """
+    height, loop = float(plan.polyline.points[corner, 1]), int(plan.polyline.loop[edge])
+    ends = edge_ends(plan.polyline.points)[edge]
+    start, end = map(Fraction, ends[:, 1].tolist())
+    share, upward = (Fraction(height) - start) / (end - start), start < end
+    tie = 2 + number if upward else -2 - number
+    point = (float(_place_and_slope(ends, height)[0]), height)
+    return Mark(edge - loop, share, tie, _visits_passed(plan, edge, share, upward), loop, point)
+
+
+def _is_upward(polyline: _Polyline, edge: int) -> bool:
+    return bool(polyline.points[edge, 1] < polyline.points[edge + 1, 1])
+
+
+def _met_on_the_left(plan: _Plan, corner: int, own: Bools) -> int | None:
+    """Return the edge of the other groups that a ray from a vertex to the left meets first.
 
     The ray runs a little higher than the vertex, by less than any other difference in height. So it meets no vertices
     and no crossings.
     """
     polyline = plan.polyline
-    x, height = polyline.points[corner]
+    x, height = polyline.points[corner].tolist()
     ends = edge_ends(polyline.points)
     low = ends[:, :, 1] <= height
-    met = ~own & ~polyline.is_jump & (low[:, 0] != low[:, 1]) & (ends[:, :, 0].min(axis=1) < x)
-    places = {edge: _place_and_slope(ends[edge], height) for edge in np.flatnonzero(met).tolist()}
-    here = Fraction(float(x))
-    passed = [edge for edge, (place, _) in places.items() if place < here]
-    if not passed:
-        return None
-    edge = max(passed, key=places.__getitem__)
-    upward = bool(low[edge, 0])
-    return 2 * plan.border(edge, _visits_passed(plan.visits, ends, edge, height, upward)) + upward
+    met = np.flatnonzero(~own & ~polyline.is_jump & (low[:, 0] != low[:, 1]) & (ends[:, :, 0].min(axis=1) < x))
+    places = {edge: _place_and_slope(ends[edge], height) for edge in _nearest(ends[met], x, height, met)}
+    passed = [edge for edge, (place, _) in places.items() if place < x]
+    return max(passed, key=places.__getitem__, default=None)
+
+
+def _nearest(ends: Floats, x: float, height: float, edges: Ints) -> list[int]:
+    """Return those of some edges that a ray to the left may meet first, as far as rounded places tell."""
+    (start_x, start_y), (end_x, end_y) = ends.transpose(1, 2, 0)
+    place = start_x + (height - start_y) / (end_y - start_y) * (end_x - start_x)
+    error = 16 * np.finfo(np.float64).eps * (np.abs(start_x) + np.abs(end_x)) + np.finfo(np.float64).tiny
+    surely = (place - error)[place + error < x].max(initial=-np.inf)
+    nearest: list[int] = edges[(place + error >= surely) & (place - error < x)].tolist()
+    return nearest
 
 
 def _place_and_slope(edge: Floats, height: float) -> tuple[Fraction, Fraction]:
     """Return the x at which an edge passes a height, and the growth of x with the height."""
     (x, y), (end_x, end_y) = [[Fraction(value) for value in point] for point in edge.tolist()]
     slope = (end_x - x) / (end_y - y)
-    return x + (Fraction(float(height)) - y) * slope, slope
+    return x + (Fraction(height) - y) * slope, slope
 
 
-def _visits_passed(visits: Visits, ends: Floats, edge: int, height: float, upward: bool) -> int:
-    """Return how many visits come before the place at which an edge passes a little above a height."""
-    (_, y), (_, end_y) = [[Fraction(value) for value in point] for point in ends[edge].tolist()]
-    here = (Fraction(float(height)) - y) / (end_y - y)
+def _visits_passed(plan: _Plan, edge: int, share: Fraction, upward: bool) -> int:
+    """Return how many visits come before the place on an edge a little above a share of it."""
+    ends, visits = edge_ends(plan.polyline.points), plan.visits
     first, last = np.searchsorted(visits.edge, [edge, edge + 1]).tolist()
     other = visits.edge[visits.partner[first:last]].tolist()
     places = [exact_parameter(*ends[edge], *ends[crossing]) for crossing in other]
-    return int(first) + sum(place < here or (upward and place == here) for place in places)
+    return int(first) + sum(place < share or (upward and place == share) for place in places)

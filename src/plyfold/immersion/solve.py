@@ -366,7 +366,7 @@ def _no_grouping(arranged: Arrangement) -> Obstruction:
 
 
 def _places(arranged: Arrangement, cells: list[int]) -> tuple[tuple[float, float], ...]:
-    return tuple(arranged.cell_point(cell) for cell in cells if arranged.curves)
+    return tuple(arranged.cell_point(cell) for cell in cells if arranged.outline)
 
 
 def _conflict(tree: DualTree) -> list[int]:

@@ -57,7 +57,7 @@ class Layering:
         # A Gauss code alone has no picture, several curves none yet.
         from plyfold.draw.over_under_files import over_under_svg
 
-        return over_under_svg(self, colours="sheets") if len(self.immersion.arrangement.curves) == 1 else None
+        return over_under_svg(self, colours="sheets") if self.immersion.arrangement.outline else None
 
     @property
     def euler_characteristic(self) -> int:

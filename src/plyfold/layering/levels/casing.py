@@ -119,7 +119,7 @@ def _require_only(arranged: Arrangement, clauses: LevelClauses, level: Ints, clo
         free = np.unique(arranged.loop_of_border[level != other]).tolist()
         raise InputError(
             f"several surfaces have this casing: it does not determine the level of curve {', '.join(map(str, free))}",
-            where=[arranged.curves[loop].points[0] for loop in free],
+            where=[arranged.outline.loops[loop][0] for loop in free] if arranged.outline else [],
             hint="embeddings(curves, over) lists them all",
         )
 

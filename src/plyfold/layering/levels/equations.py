@@ -309,7 +309,7 @@ def no_levels(arranged: Arrangement, clauses: LevelClauses, clock: Clock, becaus
     from_base = list(dict.fromkeys(arranged.crossing_of_visit[visits_from_base(arranged)].tolist()))
     crossings = tuple(sorted(from_base[crossing] for crossing in contradicting_crossings(clauses, clock)))
     sentence = f"No embedding: {because}no levels of the strands fit together at {len(crossings)} crossings."
-    places = tuple((x, y) for x, y in arranged.crossings[list(crossings)].tolist()) if arranged.curves else ()
+    places = tuple((x, y) for x, y in arranged.crossings[list(crossings)].tolist()) if arranged.outline else ()
     return Obstruction("no embedding", sentence, places, crossings, _subject(arranged))
 
 

@@ -169,7 +169,7 @@ def _levels_in_time(immersion: Immersion, clock: Clock) -> tuple[Ints, bool]:
 
 def border_lengths(arrangement: Arrangement) -> Floats:
     """Return the length of each border in units of the drawing; 1 for a Gauss code."""
-    if not arrangement.curves:
+    if arrangement.outline is None:
         return np.ones(arrangement.n_borders)
     steps = (np.diff(arrangement.border_points(border), axis=0) for border in range(arrangement.n_borders))
     return np.array([np.hypot(*step.T).sum() for step in steps])
