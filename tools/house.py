@@ -25,7 +25,7 @@ ORDER = [
     ["arrays", "errors"],
     ["obstruction"],
     ["options", "clock", "compiled", "colours", "ragged", "graphs", "loading", "memory", "mistaken", "certify"],
-    ["predicates", "halfedges", "matrices"],
+    ["predicates", "halfedges", "matrices", "sat"],
     ["outline"],
     ["io"],
     ["arrangement"],

@@ -169,6 +169,8 @@ def are_several(value: object) -> bool:
     >>> are_several(triangle), are_several([triangle]), are_several([Curve(triangle), triangle])
     (False, True, True)
     """
+    if isinstance(value, np.ndarray) and value.dtype != object:
+        return value.ndim > 2 and len(value) > 0
     return isinstance(value, list | tuple | np.ndarray) and any(map(_is_curve, value))
 
 
