@@ -23,7 +23,7 @@ from plyfold.immersion.grouping import (
 )
 from plyfold.immersion.immersion import Immersion, glue_sheets, require_memory_for_gluing
 from plyfold.immersion.propagation import Conflict
-from plyfold.immersion.shorter_loops import place_of_turning
+from plyfold.immersion.shorter_lobes import place_of_turning
 from plyfold.immersion.word import write_word
 from plyfold.obstruction import Obstruction
 

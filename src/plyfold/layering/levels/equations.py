@@ -25,7 +25,7 @@ from plyfold.arrangement.base_visit import begun_at, numbered_from, visits_from_
 from plyfold.arrays import Bools, Ints, freeze
 from plyfold.clock import Clock
 from plyfold.errors import PlyfoldError
-from plyfold.immersion.shorter_loops import place_of_turning
+from plyfold.immersion.shorter_lobes import place_of_turning
 from plyfold.immersion.solve import negative_winding
 from plyfold.layering.sat import Clauses, minimal_core, solutions_by_choice, solve
 from plyfold.memory import require_memory
