@@ -20,6 +20,7 @@ from plyfold.colours import CLOTH_HIGH, PAPER, layer_colour, mix, sheet_colour
 from plyfold.draw.casing_gaps import cut_strands, strand_with_gaps
 from plyfold.draw.placement import Frame, line_weight
 from plyfold.errors import InputError
+from plyfold.graphs import components
 from plyfold.layering.layering import Layering
 
 __all__ = ["ClothColours", "ClothPiece", "Hidden", "OverUnder", "Strand", "over_under"]
@@ -180,14 +181,9 @@ def _colour(colours: ClothColours, sheet: int, level: int, levels: int) -> str:
 
 def _glued_on_one_level(layering: Layering) -> Ints:
     """Return a number for each sheet, the same for those that are connected by gluings within their level."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     _, right, left = layering.immersion.gluing.T
     same = layering.level[right] == layering.level[left]
-    count = len(layering.level)
-    links = coo_array((np.ones(same.sum()), (right[same], left[same])), shape=(count, count))
-    return np.asarray(connected_components(links, directed=False)[1])
+    return components(len(layering.level), right[same], left[same])
 
 
 def _rings(arrangement: Arrangement, owner: Ints) -> Iterator[tuple[int, Floats]]:

@@ -310,15 +310,10 @@ class OrderProblem:
 
     def components(self) -> list[list[int]]:
         """Return the variables that constraints tie together, and those that are free each alone, in order."""
-        from scipy.sparse import coo_array
-        from scipy.sparse.csgraph import connected_components
-
-        n = self.n_variables
         variable = np.abs(self.triples) - 1
         ends = np.concatenate([variable[:, :2], variable[:, 1:]])
-        tied = coo_array((np.ones(len(ends), dtype=bool), ends.T), shape=(n, n))
         groups: dict[int, list[int]] = {}
-        for number, label in enumerate(connected_components(tied, directed=False)[1].tolist(), 1):
+        for number, label in enumerate(components(self.n_variables, *ends.T).tolist(), 1):
             groups.setdefault(label, []).append(number)
         return list(groups.values())
 
