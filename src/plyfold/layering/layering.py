@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +12,7 @@ from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import Immersion, Piece, require_memory_for_gluing
 from plyfold.ragged import count_each, starts_of
 
-__all__ = ["Layering", "layering_of_levels", "meeting_sheets"]
+__all__ = ["Layering", "check_levels", "layering_of_levels", "meeting_sheets"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,21 +105,23 @@ class Layering:
         -----
         O(Σ w log w).
         """
-        for condition, holds in self._conditions():
-            if not holds:
-                raise PlyfoldError(f"internal check failed: {condition}")
-
-    def _conditions(self) -> Iterator[tuple[str, bool]]:
-        cell = self.immersion.sheet_cell
-        upward = np.lexsort((self.level, cell))
-        wrong = np.flatnonzero(self.level[upward] != 1 + count_each(self.immersion.arrangement.winding))
-        where = f"the sheets of cell {cell[upward[wrong[0]]]}" if len(wrong) else "the sheets of every cell"
-        yield f"{where} have levels 1 to its winding number", not len(wrong)
+        check_levels(self.immersion, self.level)
         border, right, left = self.immersion.gluing.T
         order = np.lexsort((self.level[right], border))
         rises = np.diff(self.level[left[order]]) > 0
         elsewhere = np.diff(border[order]) > 0
-        yield "every gluing keeps the order of the sheets", bool((rises | elsewhere).all())
+        if not (rises | elsewhere).all():
+            raise PlyfoldError("internal check failed: every gluing keeps the order of the sheets")
+
+
+def check_levels(immersion: Immersion, level: Ints) -> None:
+    """Check that the sheets over every cell have the levels 1 … w. Raises PlyfoldError, naming the cell."""
+    cell, winding = immersion.sheet_cell, immersion.arrangement.winding
+    upward = np.lexsort((level, cell))
+    wrong = np.flatnonzero(level[upward] != 1 + count_each(winding))
+    if len(wrong):
+        where = int(cell[upward[wrong[0]]])
+        raise PlyfoldError(f"internal check failed: the sheets of cell {where} have levels 1 to {winding[where]}")
 
 
 def meeting_sheets(immersion: Immersion) -> tuple[Ints, Ints]:

@@ -24,8 +24,8 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Floats, Ints, freeze
 from plyfold.clock import Clock
-from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import Immersion
+from plyfold.layering.layering import check_levels
 from plyfold.layering.orders.maxsat import fewest_failures
 from plyfold.layering.orders.search import OrderProblem, independent_orders
 from plyfold.layering.sat import StoppableSolver, in_time, solver_of
@@ -101,9 +101,7 @@ class IntersectingLayering:
         PlyfoldError
             Naming the cell. That would be a mistake in plyfold.
         """
-        for cell, sheets in enumerate(self.immersion.sheets):
-            if sorted(self.level[list(sheets)].tolist()) != list(range(1, len(sheets) + 1)):
-                raise PlyfoldError(f"internal check failed: the sheets of cell {cell} have levels 1 to {len(sheets)}")
+        check_levels(self.immersion, self.level)
 
 
 def least_intersecting_layering(immersion: Immersion, time_limit: float | None = None) -> IntersectingLayering:
