@@ -12,7 +12,7 @@ from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import Immersion, Piece, require_memory_for_gluing
 from plyfold.ragged import count_each, starts_of
 
-__all__ = ["Layering", "check_levels", "layering_of_levels", "meeting_sheets"]
+__all__ = ["Layering", "borders_beside_top", "check_levels", "layering_of_levels", "meeting_sheets"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,15 +125,18 @@ def check_levels(immersion: Immersion, level: Ints) -> None:
 
 
 def meeting_sheets(immersion: Immersion) -> tuple[Ints, Ints]:
-    """Return for every visit the sheets, over the top cell of the crossing, of its strand and of the other strand.
+    """Return for every visit the sheets, over the top cell of the crossing, of its strand and of the other strand."""
+    here = immersion.own_sheet[borders_beside_top(immersion.arrangement)]
+    return here, here[immersion.arrangement.partner]
+
+
+def borders_beside_top(arrangement: Arrangement) -> Ints:
+    """Return for every visit the border of its strand that runs along the top cell of the crossing.
 
     The top cell is on the left of both strands. One of them crosses the other from right to left: that one leaves
     along the top cell, the other one comes along it.
     """
-    arrangement = immersion.arrangement
-    beside_top = np.where(arrangement.ccw, arrangement.border_before, arrangement.border_after)
-    here = immersion.own_sheet[beside_top]
-    return here, here[arrangement.partner]
+    return np.where(arrangement.ccw, arrangement.border_before, arrangement.border_after)
 
 
 def layering_of_levels(arranged: Arrangement, level: Ints) -> Layering:
