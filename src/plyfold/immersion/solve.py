@@ -37,8 +37,10 @@ __all__ = [
     "negative_winding",
     "nth_immersion",
     "sample_immersion",
+    "subject_of",
     "visible_obstruction",
     "watched_immersions",
+    "wrong_turning",
 ]
 
 # Above this many ascending links, the conflict that an obstruction names is not made minimal.
@@ -337,8 +339,14 @@ def visible_obstruction(arranged: Arrangement) -> Obstruction | None:
     turning = arranged.turning_number
     if turning != 1:
         sentence = f"The curve turns {turning} times, and the outline of a disk turns once."
-        return Obstruction("turning number", sentence, place_of_turning(arranged), turning, arranged)
+        return wrong_turning(arranged, sentence)
     return negative_winding(arranged)
+
+
+def wrong_turning(arranged: Arrangement, sentence: str) -> Obstruction:
+    """Return the obstruction of a turning number that is not the one looked for, as a sentence says."""
+    place = place_of_turning(arranged)
+    return Obstruction("turning number", sentence, place, arranged.turning_number, subject_of(arranged))
 
 
 def negative_winding(arranged: Arrangement) -> Obstruction | None:
@@ -349,8 +357,12 @@ def negative_winding(arranged: Arrangement) -> Obstruction | None:
         return None
     who = "curve winds" if arranged.n_loops == 1 else "curves wind"
     sentence = f"The {who} {winding} times around a cell, and cloth cannot cover it a negative number of times."
-    subject = arranged if arranged.n_loops == 1 else None
-    return Obstruction("negative winding", sentence, _places(arranged, [lowest]), winding, subject)
+    return Obstruction("negative winding", sentence, _places(arranged, [lowest]), winding, subject_of(arranged))
+
+
+def subject_of(arranged: Arrangement) -> Arrangement | None:
+    """Return what a picture of an obstruction shows; there is none yet of several curves."""
+    return arranged if arranged.n_loops == 1 else None
 
 
 def _no_grouping(arranged: Arrangement) -> Obstruction:

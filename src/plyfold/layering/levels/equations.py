@@ -25,8 +25,7 @@ from plyfold.arrangement.base_visit import begun_at, numbered_from, visits_from_
 from plyfold.arrays import Bools, Ints, freeze
 from plyfold.clock import Clock
 from plyfold.errors import PlyfoldError
-from plyfold.immersion.shorter_lobes import place_of_turning
-from plyfold.immersion.solve import negative_winding
+from plyfold.immersion.solve import negative_winding, subject_of, wrong_turning
 from plyfold.layering.sat import Clauses, minimal_core, solutions_by_choice, solve
 from plyfold.memory import require_memory
 from plyfold.obstruction import Obstruction
@@ -136,7 +135,7 @@ def no_surface(arranged: Arrangement) -> Obstruction | None:
     if turning > loops or (loops - turning) % 2:
         who, most = ("curve turns", "once") if loops == 1 else (f"{loops} curves together turn", f"{loops} times")
         sentence = f"The {who} {turning} times; what bounds a surface turns {most}, or less by an even number."
-        return Obstruction("turning number", sentence, place_of_turning(arranged), turning, _subject(arranged))
+        return wrong_turning(arranged, sentence)
     return negative_winding(arranged)
 
 
@@ -310,9 +309,4 @@ def no_levels(arranged: Arrangement, clauses: LevelClauses, clock: Clock, becaus
     crossings = tuple(sorted(from_base[crossing] for crossing in contradicting_crossings(clauses, clock)))
     sentence = f"No embedding: {because}no levels of the strands fit together at {len(crossings)} crossings."
     places = tuple((x, y) for x, y in arranged.crossings[list(crossings)].tolist()) if arranged.curves else ()
-    return Obstruction("no embedding", sentence, places, crossings, _subject(arranged))
-
-
-def _subject(arranged: Arrangement) -> Arrangement | None:
-    """Return what a picture of an obstruction shows; there is none yet of several curves."""
-    return arranged if arranged.n_loops == 1 else None
+    return Obstruction("no embedding", sentence, places, crossings, subject_of(arranged))
