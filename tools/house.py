@@ -22,7 +22,7 @@ SOURCE = Path(__file__).resolve().parent.parent / "src" / "plyfold"
 # The rooms from the ground floor up, each a package or a module that stands alone; those on one line do not read each
 # other.
 ORDER = [
-    ["arrays", "errors"],
+    ["arrays", "errors", "wording"],
     ["obstruction"],
     ["options", "clock", "compiled", "colours", "ragged", "graphs", "loading", "memory", "mistaken", "certify"],
     ["predicates", "halfedges", "matrices"],

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from plyfold.cli.inputs import DISK, NO_DISK, add_command, add_outputs, prepare, read_arrangement, write_texts
 from plyfold.cli.progress import Stopwatch
 from plyfold.loading import FOR_MESHES, load_libraries
+from plyfold.wording import counted
 
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
@@ -105,7 +106,8 @@ def _unwrap(options: argparse.Namespace) -> int:
     for path in options.output:
         unwound.export(path, options.force)
     watch.stop()
-    print(f"{len(unwound.faces):,} triangles in {unwound.immersion.n_sheets} sheets, none of them flipped in the disk")
+    sheets = counted(unwound.immersion.n_sheets, "sheet")
+    print(f"{len(unwound.faces):,} triangles in {sheets}, none of them flipped in the disk")
     for path in options.output:
         print(f"  wrote {path}")
     return DISK

@@ -38,6 +38,7 @@ from plyfold.mesh.cells import DEFAULT_TRIANGLES, refuse_sizes, triangulate_cell
 from plyfold.mesh.sheets import glue_copies
 from plyfold.outline.curve import CurveLike
 from plyfold.outline.points import as_points
+from plyfold.wording import counted
 
 __all__ = ["DISK_ENDINGS", "UnwoundDisk", "map_disk", "model_of_disk", "unwrap"]
 
@@ -90,7 +91,7 @@ class UnwoundDisk:
         freeze(self)
 
     def __repr__(self) -> str:
-        return f"<UnwoundDisk: {len(self.faces)} triangles in {self.immersion.n_sheets} sheets>"
+        return f"<UnwoundDisk: {counted(len(self.faces), 'triangle')} in {counted(self.immersion.n_sheets, 'sheet')}>"
 
     def _repr_png_(self) -> bytes:
         from plyfold.draw.notebook import unwound_png

@@ -11,6 +11,7 @@ from plyfold.arrays import Bools, Ints, freeze
 from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import Immersion, Piece, require_memory_for_gluing
 from plyfold.ragged import count_each, starts_of
+from plyfold.wording import counted
 
 __all__ = ["Layering", "borders_beside_top", "check_levels", "layering_of_levels", "meeting_sheets"]
 
@@ -50,7 +51,8 @@ class Layering:
         freeze(self)
 
     def __repr__(self) -> str:
-        return f"<Layering: {self.immersion.n_sheets} sheets on up to {self.level.max(initial=0)} levels>"
+        sheets, levels = counted(self.immersion.n_sheets, "sheet"), counted(self.level.max(initial=0), "level")
+        return f"<Layering: {sheets} on up to {levels}>"
 
     def _repr_svg_(self) -> str | None:
         # A Gauss code alone has no picture, several curves none yet.

@@ -31,6 +31,7 @@ from plyfold.layering.orders.search import OrderProblem, independent_orders
 from plyfold.layering.sat import StoppableSolver, in_time, solver_of
 from plyfold.memory import number_of_tuples, require_memory
 from plyfold.ragged import count_each, pairs_in_each
+from plyfold.wording import counted
 
 __all__ = ["IntersectingLayering", "border_lengths", "least_intersecting_layering"]
 
@@ -69,7 +70,7 @@ class IntersectingLayering:
         freeze(self)
 
     def __repr__(self) -> str:
-        found = f"{len(self.intersections)} intersections along borders"
+        found = f"{counted(len(self.intersections), 'intersection')} along borders"
         return f"<IntersectingLayering: {found}, {'' if self.optimal else 'maybe not '}the least possible>"
 
     @cached_property
