@@ -123,7 +123,7 @@ def _on_circle(points: Floats) -> Bools:
     x, y = (on_grid / _GRID).T.astype(np.int64).astype(object)
     radius = int(1 / _GRID)
     near = np.asarray(np.abs(x * x + y * y - radius * radius) <= 3 * radius, dtype=bool)
-    return near & (points == on_grid).all(axis=1)
+    return np.asarray(near & (points == on_grid).all(axis=1))
 
 
 def _counter_clockwise(corners: Floats) -> Bools:

@@ -26,9 +26,9 @@ from plyfold.arrays import Floats, Ints, freeze
 from plyfold.clock import Clock
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import check_levels
-from plyfold.layering.orders.maxsat import fewest_failures
+from plyfold.layering.orders.maxsat import equal_or_failing, fewest_failures
 from plyfold.layering.orders.search import OrderProblem, independent_orders
-from plyfold.layering.sat import StoppableSolver, in_time, solver_of
+from plyfold.layering.sat import StoppableSolver, search_in_time
 from plyfold.memory import number_of_tuples, require_memory
 from plyfold.ragged import count_each, pairs_in_each
 from plyfold.wording import counted
@@ -59,7 +59,7 @@ class IntersectingLayering:
     >>> from plyfold import find_immersion
     >>> from plyfold.gallery import CURVES
     >>> least_intersecting_layering(find_immersion(CURVES["seven-flaps"].curve), time_limit=5.0)  # doctest: +ELLIPSIS
-    <IntersectingLayering: ... intersections along borders, ...the least possible>
+    <IntersectingLayering: ... along borders, ...the least possible>
     """
 
     immersion: Immersion
@@ -207,12 +207,7 @@ class _Wishes:
     @property
     def clauses(self) -> Iterator[list[int]]:
         """The constraints on orders, and that unequal literals are a failure."""
-        unequal = (
-            clause
-            for (a, b), failure in zip(self.literals, self.failure, strict=True)
-            for clause in ([-a, b, failure], [a, -b, failure])
-        )
-        return chain(self.problem.clauses, unequal)
+        return chain(self.problem.clauses, equal_or_failing(self.literals, self.failure))
 
 
 def _wishes(problem: OrderProblem, clock: Clock) -> _Wishes:
@@ -239,8 +234,7 @@ def _most_wishes(wishes: _Wishes, clock: Clock) -> list[int]:
 
 def _greedy(wishes: _Wishes, clock: Clock) -> list[int]:
     """Return the literals of a solution: fulfil wishes, the weightiest first, as long as there is time."""
-    with solver_of(wishes.clauses, clock) as solver:
-        return in_time(clock.left, solver, partial(_one_by_one, wishes, solver))
+    return search_in_time(wishes.clauses, clock, partial(_one_by_one, wishes))
 
 
 def _one_by_one(wishes: _Wishes, solver: StoppableSolver) -> list[int]:

@@ -106,11 +106,8 @@ def find_layering(
     [2, 1, 1, 1, 1]
     """
     clock = Clock(time_limit)
-    try:
-        problem = order_problem(immersion, clock)
-    except TimeoutError:
-        return undecided("time limit", _QUESTION, clock)
-    return problem if isinstance(problem, Obstruction) else solve_orders(problem, clock, fix or {})
+    problem = order_problem_in_time(immersion, clock, _QUESTION)
+    return solve_orders(problem, clock, fix or {}) if isinstance(problem, OrderProblem) else problem
 
 
 def solve_orders(problem: OrderProblem, clock: Clock, fix: FixedOrders = _NOTHING) -> Layering | Obstruction | Unknown:
@@ -346,6 +343,14 @@ def order_problem(immersion: Immersion, clock: Clock = NO_LIMIT) -> OrderProblem
     if len(contradictions):
         return _reversed_pair(immersion, graph, int(contradictions[0]))
     return _problem(immersion, graph, clock)
+
+
+def order_problem_in_time(immersion: Immersion, clock: Clock, question: str) -> OrderProblem | Obstruction | Unknown:
+    """Return the same, or at the time limit that a question is left open."""
+    try:
+        return order_problem(immersion, clock)
+    except TimeoutError:
+        return undecided("time limit", question, clock)
 
 
 def independent_orders(immersion: Immersion, clock: Clock = NO_LIMIT) -> OrderProblem:
