@@ -23,7 +23,17 @@ from plyfold.errors import InputError
 from plyfold.graphs import components
 from plyfold.layering.layering import Layering
 
-__all__ = ["ClothColours", "ClothPiece", "Hidden", "OverUnder", "Strand", "over_under"]
+__all__ = [
+    "DASHES",
+    "HIDDEN_OPACITY",
+    "HIDDEN_WIDTH",
+    "ClothColours",
+    "ClothPiece",
+    "Hidden",
+    "OverUnder",
+    "Strand",
+    "over_under",
+]
 
 ClothColours: TypeAlias = Literal["cloth", "layers", "sheets"]
 Hidden: TypeAlias = Literal["removed", "dashed"]
@@ -31,6 +41,10 @@ Hidden: TypeAlias = Literal["removed", "dashed"]
 # The width of lines, as a fraction of the larger side, and of gaps from the middle of the strand above, in widths.
 _STROKE = 0.005
 _GAP = 2.0
+
+# How hidden strands are drawn: dashes on and off, in widths of lines, and how much thinner and paler they are.
+DASHES = (2.2, 1.8)
+HIDDEN_WIDTH, HIDDEN_OPACITY = 0.7, 0.6
 
 
 @dataclass(frozen=True, eq=False)

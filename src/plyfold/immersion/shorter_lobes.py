@@ -15,6 +15,7 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.lobes import lobe_turning_numbers
 from plyfold.arrays import Bools, Floats, Ints
+from plyfold.graphs import spanning_tree
 
 __all__ = ["MOST_CROSSINGS", "Lobe", "is_inside", "lobes_to_leave_out", "place_of_turning", "places_of"]
 
@@ -145,15 +146,9 @@ def _choices(lobes: list[Lobe], inside: Bools) -> Iterator[list[int]]:
 
 def _windings(drawn: Arrangement, inside: Bools) -> Ints:
     """Return how often lobes wind around each cell, shape (lobes, cells): left of their borders once more."""
+    parent, border, order = spanning_tree(drawn.n_cells, drawn.left_cell, drawn.right_cell)
+    more = np.where(drawn.left_cell[border] == np.arange(drawn.n_cells), 1, -1) * inside[:, border]
     winding = np.zeros((len(inside), drawn.n_cells), dtype=np.int64)
-    reached, waiting = {0}, [0]
-    cell_of = drawn.cell_of_dart.tolist()
-    while waiting:
-        cell = waiting.pop()
-        for dart in drawn.cells[cell]:
-            beyond = cell_of[dart ^ 1]
-            if beyond not in reached:
-                reached.add(beyond)
-                waiting.append(beyond)
-                winding[:, beyond] = winding[:, cell] + (1 if dart % 2 else -1) * inside[:, dart // 2]
+    for cell in order[1:].tolist():
+        winding[:, cell] = winding[:, parent[cell]] + more[:, cell]
     return winding
