@@ -43,8 +43,6 @@ def add_flat_commands(commands: Any) -> None:
 
 
 def _split(options: argparse.Namespace) -> int:
-    from plyfold.flat.coverage import coverage
-    from plyfold.flat.decompose import decompose
     from plyfold.io.pieces import POLYGON_WRITERS
 
     watch = Stopwatch()
@@ -52,10 +50,14 @@ def _split(options: argparse.Namespace) -> int:
     load_libraries(() if options.cells else FOR_MESHES, watch)
     watch("cutting")
     if options.cells:
+        from plyfold.flat.coverage import coverage
+
         cells = coverage(arranged)
         polygons = [cell.polygon for cell in cells]
         told = [{"winding": cell.winding, "reversed": arranged.reversed} for cell in cells]
     else:
+        from plyfold.flat.decompose import decompose
+
         polygons = decompose(arranged)
         told = [{"piece": number} for number in range(len(polygons))]
     watch.stop()

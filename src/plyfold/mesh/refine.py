@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+import pythoncdt as cdt
 
 from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
@@ -79,8 +80,6 @@ class _Covered:
 
     def add_points(self, criterion: str, threshold: float, shortest: float, limit: int) -> int:
         """Split bad triangles, but no edge below the shortest length; return how many points were added."""
-        import pythoncdt as cdt
-
         before = self.library.vertices_count()
         named = getattr(cdt.RefinementCriterion, criterion)
         self.watch.wait_for(
@@ -212,8 +211,6 @@ def _corners(library: Any, triangles: Ints) -> tuple[Ints, Floats]:
 
 def _bad_sides(covered: _Covered) -> Floats:
     """Return the shortest sides of triangles with sharp angles that no sharp corner of the drawing makes."""
-    import pythoncdt as cdt
-
     threshold = float(np.radians(_SMALLEST_ANGLE))
     found = covered.library.find_unrefined_triangles(cdt.RefinementCriterion.SMALLEST_ANGLE, threshold)
     found = [number for number in found if number not in covered.uncovered]
@@ -371,8 +368,6 @@ def _unit_square(points: Floats) -> tuple[Floats, Floats, float]:
 
 def constrained(outline: NodedCurve, watch: Watch = UNWATCHED) -> Any:
     """Return the constrained Delaunay triangulation; its first three vertices are those of an enclosing triangle."""
-    import pythoncdt as cdt
-
     edges = np.stack([outline.chain, np.roll(outline.chain, -1)], axis=1)
     mesh = cdt.Triangulation(cdt.VertexInsertionOrder.AUTO, cdt.IntersectingConstraintEdges.NOT_ALLOWED, 0.0)
     try:

@@ -13,6 +13,8 @@ References
 from __future__ import annotations
 
 import numpy as np
+from scipy.sparse import coo_array, diags_array
+from scipy.sparse.linalg import splu
 
 from plyfold.arrays import Complexes, Ints
 
@@ -46,9 +48,6 @@ def tutte_drawing(triangles: Ints, boundary: Ints) -> Complexes:
     >>> bool(abs(tutte_drawing(fan, np.array([0, 1, 2]))[3]) < 1e-12)
     True
     """
-    from scipy.sparse import coo_array, diags_array
-    from scipy.sparse.linalg import splu
-
     n = int(triangles.max()) + 1
     tail, head = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     half = coo_array((np.ones(len(tail)), (tail, head)), shape=(n, n)).tocsr()
