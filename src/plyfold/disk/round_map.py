@@ -20,7 +20,7 @@ import numpy as np
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import PrecisionError
 from plyfold.halfedges import ends_of
-from plyfold.matrices import factorised
+from plyfold.matrices import diagonal_matrix, factorised, summed
 from plyfold.predicates import orient
 
 __all__ = ["boundary_angles", "cotangents", "cross", "round_map", "runs_once_round"]
@@ -144,13 +144,11 @@ def _weighted_means(weights: Floats, faces: Ints, disk: Floats, inner: Ints, bou
     ``weights[t, i]`` has what triangle t adds to the weight of the side opposite its corner i: from the corner that
     follows to the last one, and back.
     """
-    from scipy.sparse import csr_array, diags_array
-
     start, end = ends_of(faces[:, [1, 2, 0]])
     there, back = weights[..., 0].ravel(), weights[..., 1].ravel()
     row, column = np.concatenate([start, end]), np.concatenate([end, start])
-    whole = csr_array((np.concatenate([there, back]), (row, column)), shape=(len(disk), len(disk)))[inner]
-    total = diags_array(whole.sum(axis=1))
+    whole = summed(np.concatenate([there, back]), row, column, (len(disk), len(disk)))[inner]
+    total = diagonal_matrix(whole.sum(axis=1))
     return _solved(total - whole[:, inner], whole[:, boundary] @ disk[boundary])
 
 

@@ -18,10 +18,10 @@ from typing import Any, NamedTuple
 import numpy as np
 import shapely
 from scipy.sparse import coo_array, diags_array
-from scipy.sparse.linalg import splu
 
 from plyfold.arrangement.drawing.skeleton import Kind, Skeleton
 from plyfold.arrays import Complexes, Floats, Ints
+from plyfold.matrices import factorised
 
 __all__ = ["energy", "relaxed"]
 
@@ -112,10 +112,7 @@ def _newton(places: Complexes, skeleton: Skeleton) -> tuple[Complexes, float]:
     n = len(places)
     terms = (_triangle_terms(places, skeleton), _curve_terms(places, skeleton))
     gradient = sum(np.bincount(term.unknowns.ravel(), term.gradient.ravel(), minlength=2 * n) for term in terms)
-    # The symmetric mode of the solver and its order for symmetric matrices make it several times as fast.
-    options = {"SymmetricMode": True}
-    solver = splu(_assembled(terms, 2 * n), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
-    step = -solver.solve(gradient)
+    step = -factorised(_assembled(terms, 2 * n)).solve(gradient)
     return step[:n] + 1j * step[n:], float(gradient @ step)
 
 
