@@ -8,7 +8,7 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.graphs import components
 from plyfold.immersion.immersion import loop_characteristics
-from plyfold.immersion.shorter_loops import place_of_turning
+from plyfold.immersion.shorter_lobes import place_of_turning
 from plyfold.obstruction import Obstruction
 
 __all__ = [
