@@ -26,6 +26,7 @@ def test_public_names():
         "Layering",
         "Obstruction",
         "Outline",
+        "SuggestedCusps",
         "Surface",
         "Unknown",
         "UnwoundDisk",
@@ -62,6 +63,7 @@ def test_public_names():
         "paper",
         "read",
         "sample_immersion",
+        "suggest_cusps",
         "triangulate",
         "unwrap",
     ]
