@@ -64,6 +64,7 @@ def test_public_names():
         "read",
         "sample_immersion",
         "suggest_cusps",
+        "save",
         "triangulate",
         "unwrap",
     ]
