@@ -11,7 +11,7 @@ import numpy.typing as npt
 from plyfold.errors import CurveError, FileFormatError, StrokeError
 from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.direction import sense
-from plyfold.outline.given import outline_of_curves
+from plyfold.outline.given import outline_of_curves, outline_with
 from plyfold.outline.points import Repair, as_planar_points
 from plyfold.outline.strokes import join_strokes
 from plyfold.outline.vertices import naming_the_curve
@@ -142,7 +142,7 @@ def _outline_of_loops(loops: Sequence[Line], repairs: Sequence[Repair]) -> Outli
     if trouble is not None and not curves:
         raise trouble
     outline = outline_of_curves(curves)
-    return outline if not (flat or repairs) else _with_repairs(outline, [*repairs, *flat])
+    return outline_with(outline, repairs=(*repairs, *flat, *outline.repairs)) if flat or repairs else outline
 
 
 def _turned(curve: Curve, loop: Line) -> Curve:
@@ -157,9 +157,3 @@ def _flat_loop(loop: Line, error: CurveError) -> Repair:
         raise error
     x, y = points[0].tolist()
     return Repair("loop without area left out", (x, y), 0.0)
-
-
-def _with_repairs(outline: Outline, repairs: Sequence[Repair]) -> Outline:
-    if isinstance(outline, Curve):
-        return Curve(outline.points, (*repairs, *outline.repairs), outline.cusps[0])
-    return Outline(outline.loops, outline.cusps, (*repairs, *outline.repairs))
