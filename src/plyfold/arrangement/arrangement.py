@@ -466,11 +466,10 @@ class Arrangement:
         along_borders = self.winding[self.left_cell[visited]].sum()
         return int(at_crossings - along_borders + (self.winding * (2 - self.n_cycles)).sum())
 
-    def _repr_svg_(self) -> str | None:
-        # Several curves have no picture yet.
+    def _repr_svg_(self) -> str:
         from plyfold.draw.svg import arrangement_svg
 
-        return arrangement_svg(self) if self.n_loops == 1 else None
+        return arrangement_svg(self)
 
 
 def _theorems(arranged: Arrangement) -> Iterator[tuple[str, bool]]:

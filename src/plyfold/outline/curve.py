@@ -99,6 +99,11 @@ class Outline:
         loops = f"{self.n_loops} loop" + "s" * (self.n_loops > 1)
         return f"<Outline of {loops}, {len(self)} points{_cusps_in_words(self)}>"
 
+    def _repr_svg_(self) -> str:
+        from plyfold.draw.svg import outline_svg
+
+        return outline_svg(self)
+
     @property
     def n_loops(self) -> int:
         """Number of closed curves."""
@@ -248,11 +253,6 @@ class Curve(Outline):
 
     def __repr__(self) -> str:
         return f"<Curve of {len(self)} points{_cusps_in_words(self)}>"
-
-    def _repr_svg_(self) -> str:
-        from plyfold.draw.svg import curve_svg
-
-        return curve_svg(self.points)
 
     @classmethod
     def from_strokes(cls, strokes: Iterable[npt.ArrayLike], max_gap: float | None = None) -> Curve:
