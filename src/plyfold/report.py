@@ -24,7 +24,7 @@ __all__ = ["A_DISK", "Words", "describe", "in_words", "repair_lines", "surface_i
 A_DISK = "a disk of cloth"
 """What one curve without cusps bounds, if it bounds a surface without handles."""
 
-_SHOWN_REPAIRS = 5
+_SHOWN_REPAIRS = _SHOWN_CUSPS = 5
 _LONGEST_NUMBER = 12
 _UNDECIDED = "Whether it can be lifted was not decided in time."
 
@@ -246,14 +246,19 @@ def _rows(figures: dict[str, Any]) -> dict[str, str]:
         "crossings": f"{figures['crossings']:,}",
         "cells by winding number": cells,
         "turning number": f"{figures['turning_number']}{turned}",
-        "cusps": ", ".join(map(_cusp_and_place, figures["cusps"])),
-        "Euler characteristic": str(figures.get("euler_characteristic", 1)),
+        "cusps": _listed_cusps(figures["cusps"]),
+        "Euler characteristic": str(figures.get("euler_characteristic", "")),
         "immersions": "unknown" if figures["immersions"] is None else f"{figures['immersions']:,}",
         "layering": _layering_sentence(figures) if figures["immersible"] else "",
     }
     if rows["Euler characteristic"] == "1" and not rows["loops"]:
         rows["Euler characteristic"] = ""
     return {name: value for name, value in rows.items() if value}
+
+
+def _listed_cusps(cusps: list[dict[str, Any]]) -> str:
+    more = f" and {len(cusps) - _SHOWN_CUSPS} more" if len(cusps) > _SHOWN_CUSPS else ""
+    return ", ".join(map(_cusp_and_place, cusps[:_SHOWN_CUSPS])) + more
 
 
 def _cusp_and_place(cusp: dict[str, Any]) -> str:
