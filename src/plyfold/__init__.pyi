@@ -44,6 +44,8 @@ from .layering.orders.nicest import nicest_layering as nicest_layering
 from .layering.orders.search import find_layering as find_layering
 from .obstruction import Obstruction as Obstruction
 from .obstruction import Unknown as Unknown
+from .offers.cusps import SuggestedCusps as SuggestedCusps
+from .offers.cusps import suggest_cusps as suggest_cusps
 from .outline.curve import Curve as Curve
 from .outline.curve import Outline as Outline
 from .surface.lift import Surface as Surface
