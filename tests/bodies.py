@@ -238,7 +238,11 @@ def patches(seed: int, kinds: tuple[str, ...] = tuple(KINDS), least: int = 8) ->
 
 
 def patches_of_body(rng: np.random.Generator, kinds: tuple[str, ...] = tuple(KINDS), least: int = 8) -> Iterator[Patch]:
-    """The patches of a random body that have at least so many triangles, and whose boundary passes no vertex twice."""
+    """The patches of a random body that have at least so many triangles.
+
+    Left out are those whose boundary passes a vertex twice, and those that wind round an inner vertex twice: seldom,
+    where a coarse body cuts itself.
+    """
     kind = kinds[int(rng.integers(len(kinds)))]
     body = seen(rng, kind)
     for faces in fronts(body):
@@ -283,7 +287,7 @@ def boundary_sides(start: np.ndarray, end: np.ndarray) -> np.ndarray:
 
 
 def patch(kind: str, vertices: np.ndarray, faces: np.ndarray) -> Patch | None:
-    """The patch of these triangles, its vertices numbered anew; None if its boundary passes a vertex twice."""
+    """The patch of these triangles, its vertices numbered anew; None if it is to be left out."""
     used, numbers = np.unique(faces, return_inverse=True)
     faces, vertices = numbers.reshape(-1, 3), vertices[used]
     start, end, _ = sides_of(faces)
@@ -292,6 +296,8 @@ def patch(kind: str, vertices: np.ndarray, faces: np.ndarray) -> Patch | None:
         return None
     loops = loops_along(dict(zip(start[alone].tolist(), end[alone].tolist(), strict=True)))
     passages = passages_by_vertex(vertices, faces)
+    if (np.delete(passages, start[alone]) > 1).any():
+        return None
     cusps = tuple(passages[loop] - plain_passages(vertices, loop) for loop in loops)
     edges = (len(start) + len(alone)) // 2
     return Patch(kind, vertices, faces, loops, cusps, len(used) - edges + len(faces), cuts_itself(vertices, faces))

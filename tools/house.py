@@ -67,6 +67,7 @@ SAME_THINGS = {
     "Signs": "certify shares nothing with what it checks",
     "find_immersion": "the exact one, and that of the paper as pf.paper.find_immersion",
     "find_layering": "the exact one, and that of the paper as pf.paper.find_layering",
+    "save": "an outline, and a figure as pf.draw.save",
 }
 
 LIFT = """

@@ -17,13 +17,14 @@ import numpy as np
 import plyfold as pf
 from bodies import patches_of_body
 from codes import code_of
+from nightly.lists import nested, through_the_frame
 from nightly.patches import judge_patch
 from plyfold.errors import CurveError, GeneralPositionError
 from plyfold.layering.levels.equations import level_equations
 from reference.outline_gluings import key_of, pieces, surfaces
 from reference.outline_levels import layerings, level_solutions
 from reference.outlines import OutlineCode
-from reference.random_curves import Polygon, glued_disk, random_polygon, without_repeats
+from reference.random_curves import Polygon, random_polygon, without_repeats
 
 MOST_SHEETS = 4
 """Sheets over a cell up to which the references try all gluings."""
@@ -34,17 +35,22 @@ Cusps = list[np.ndarray]
 # ---- random outlines -------------------------------------------------------------------------------------------------
 
 
-def random_outline(rng: np.random.Generator) -> tuple[list[Polygon], Cusps]:
-    """Up to three loops of few edges on a frame, some of which lie apart or inside others; now and then a cusp."""
+def on_a_frame(rng: np.random.Generator) -> list[Polygon]:
+    """Up to three loops of few edges in a frame, some of which lie apart or inside others."""
     loops: list[Polygon] = [[(-40, -41), (42, -40), (40, 43), (-43, 40)]]
     for _ in range(int(rng.integers(1, 4))):
         size, (x, y) = int(rng.choice([4, 9, 20])), rng.integers(-20, 21, 2).tolist()
-        few = int(rng.integers(3, 6))
-        polygon = random_polygon(rng, few, size) if rng.random() < 0.7 else glued_disk(rng, few - 1, size)
-        loops.append([(x + a, y + b) for a, b in without_repeats(polygon)])
-    order = rng.permutation(len(loops))
-    cusps = [(rng.random(len(loops[i])) < 0.06) * rng.integers(1, 3, len(loops[i])) for i in order]
-    return [loops[i] for i in order], cusps
+        polygon = without_repeats(random_polygon(rng, int(rng.integers(3, 6)), size))
+        loops.append([(x + a, y + b) for a, b in polygon])
+    return [loops[i] for i in rng.permutation(len(loops))]
+
+
+def random_outline(rng: np.random.Generator) -> tuple[list[Polygon], Cusps]:
+    """A few loops, now and then with a cusp."""
+    draw = (on_a_frame, nested, through_the_frame)[int(rng.integers(3))]
+    loops = [without_repeats(loop) for loop in draw(rng)]
+    often = rng.choice([0, 0.06])
+    return loops, [(rng.random(len(loop)) < often) * rng.integers(1, 3, len(loop)) for loop in loops]
 
 
 def judge_outline(loops: list[Polygon], cusps: Cusps) -> int | None:
