@@ -70,7 +70,7 @@ def plot_obstruction(
     --------
     >>> ax = plot_obstruction([(0, 0), (2, 2), (2, 0), (0, 2)])
     >>> " ".join(ax.texts[-1].get_text().split())
-    'The curve turns 0 times, and the outline of a disk turns once.'
+    'The curve turns 0 times; what bounds a surface turns once, or less by an even number.'
     """
     why = _found(subject) if obstruction is None else obstruction
     if isinstance(subject, Immersion):

@@ -423,7 +423,7 @@ def constrained(outline: NodedCurve, watch: Watch = UNWATCHED) -> Any:
 
 
 def _insert(mesh: Any, points: Floats, edges: Any) -> None:
-    mesh.insert_vertices(points)
+    mesh.insert_vertices(np.ascontiguousarray(points))
     mesh.insert_edges(edges)
 
 
