@@ -52,8 +52,7 @@ def _cusp(text: str) -> CuspMark:
 def drawn_outline(options: argparse.Namespace, watch: Stopwatch) -> Outline:
     """Read the outline that is meant, and mark its cusps."""
     watch("reading")
-    outline = _with_cusps(_read(options), options.cusp)
-    return outline
+    return _with_cusps(_read(options), options.cusp)
 
 
 def _read(options: argparse.Namespace) -> Outline:

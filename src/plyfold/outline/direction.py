@@ -63,8 +63,8 @@ def _without_straight_points(points: list[list[float]]) -> list[list[float]]:
             del kept[-2]
         if len(kept) > 1 and kept[-1] == kept[-2]:
             kept.pop()
-    while len(kept) > 2 and not (orient(*kept[-2:], kept[0]) and orient(kept[-1], *kept[:2])):
-        straight = -1 if not orient(*kept[-2:], kept[0]) else 0
+    while len(kept) > 2 and not (orient(kept[-2], kept[-1], kept[0]) and orient(kept[-1], kept[0], kept[1])):
+        straight = -1 if not orient(kept[-2], kept[-1], kept[0]) else 0
         del kept[straight]
     return kept
 
