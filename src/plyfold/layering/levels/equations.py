@@ -39,6 +39,7 @@ __all__ = [
     "LevelClauses",
     "LevelEquations",
     "all_wanted",
+    "clauses_of",
     "contradiction",
     "level_clauses",
     "level_equations",
@@ -307,6 +308,11 @@ def _by_demand(number: int, demand: Ints, rows: Ints) -> list[list[list[int]]]:
     for place, clause in zip(demand[which].tolist(), clauses, strict=True):
         demands[place].append(clause)
     return demands
+
+
+def clauses_of(rows: Sequence[Sequence[Ints]]) -> list[list[int]]:
+    """Return the clauses of rows of literals, which are arrays as long as each other, without what is always so."""
+    return list(chain.from_iterable(_without_constants(np.stack(row, axis=1))[1] for row in rows))
 
 
 def _without_constants(rows: Ints) -> tuple[Ints, list[list[int]]]:
