@@ -86,7 +86,8 @@ def plot_surface(  # noqa: PLR0913 - each option is keyword-only and independent
     image = shade(mesh, _view(view), pixels, _paint(surface, colours))
     axes.imshow(image.colours, origin="lower", extent=image.extent, interpolation="antialiased", zorder=1)
     width = 1.4 * line_weight(surface.layering.immersion.arrangement.n_crossings)
-    _line_in_space(axes, mesh.vertices[closed(surface.boundary)], image, INK, width)
+    for loop in np.split(surface.boundary, surface.first_boundary[1:-1]):
+        _line_in_space(axes, mesh.vertices[closed(loop)], image, INK, width)
     for polyline in surface.intersections:
         _line_in_space(axes, unit(polyline), image, OBSTRUCTION, width)
     return axes

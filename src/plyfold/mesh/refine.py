@@ -387,7 +387,7 @@ def _border_after(arrangement: Arrangement, passed: Ints, first_piece: Ints) -> 
     loop = np.repeat(np.arange(arrangement.n_loops), np.diff(first_piece))
     first, last = arrangement.first_visit[loop], arrangement.first_visit[loop + 1]
     # Before its first visit a loop is on the border that its last visit begins; without visits it has one border.
-    border = np.searchsorted(arrangement.loop_of_border, loop)
+    border: Ints = np.searchsorted(arrangement.loop_of_border, loop)
     visited = last > first
     border[visited] = arrangement.border_after[np.where(passed > first, passed, last)[visited] - 1]
     return border
