@@ -62,6 +62,7 @@ def test_public_names():
         "paper",
         "read",
         "sample_immersion",
+        "save",
         "triangulate",
         "unwrap",
     ]

@@ -29,6 +29,7 @@ from .immersion.solve import count_immersions as count_immersions
 from .immersion.solve import find_immersion as find_immersion
 from .immersion.solve import immersions as immersions
 from .immersion.solve import sample_immersion as sample_immersion
+from .io.outline_files import save as save
 from .io.reading import read as read
 from .layering.embedding import count_embeddings as count_embeddings
 from .layering.embedding import embeddings as embeddings

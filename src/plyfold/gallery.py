@@ -73,6 +73,11 @@ class NamedCurve:
         """The curve itself, so fine that it looks smooth."""
         return Curve(self.draw())
 
+    @property
+    def outline(self) -> Curve:
+        """The curve as what everything takes that takes an outline."""
+        return self.curve
+
     def draw(self, a_turn: int = POINTS_A_TURN) -> Points:
         """Return the points, with so many on a full turn; polygons have their corners."""
         return self.sample(a_turn)

@@ -13,7 +13,16 @@ import numpy.typing as npt
 
 from plyfold.arrangement.general_position import in_general_position
 from plyfold.arrangement.leftmost import leftmost_crossing
-from plyfold.arrangement.maps import Code, Map, cell_of_each_dart, in_bounded_cells, oriented, walked_round
+from plyfold.arrangement.maps import (
+    Code,
+    Map,
+    cell_of_each_dart,
+    in_bounded_cells,
+    numbered_crossings,
+    oriented,
+    outer_dart,
+    walked_round,
+)
 from plyfold.arrangement.marks import cusps_of_outline, cusps_on_borders, with_marks
 from plyfold.arrangement.nesting import nest
 from plyfold.arrangement.planar_map import (
@@ -28,7 +37,6 @@ from plyfold.errors import GaussCodeError, InputError, PlyfoldError
 from plyfold.graphs import components
 from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.given import Coded, CurveLike, OutlineLike, are_several, as_outline
-from plyfold.predicates import cross_sign
 
 __all__ = ["Arrangement", "CurveLike", "arrange", "require_one_loop", "watched_arrangement"]
 
@@ -187,7 +195,7 @@ class Arrangement:
             cell_darts=boundaries[1],
             winding=winding,
             turning_numbers=turning,
-            crossing_of_visit=_number_crossings(code.partner),
+            crossing_of_visit=numbered_crossings(code.partner),
             cusp_index=code.cusp_index,
             bridges=drawn.bridges,
             outline=outline,
@@ -355,12 +363,16 @@ class Arrangement:
         first, n = outline.first_point[loop], len(outline.loops[loop])
         edge, last = self.visit_edge[[start, end]].tolist()
         inner = np.arange(edge + 1, last + 1 + n * (end <= start))
+        if len(inner) and self._is_vertex[end]:
+            inner = inner[:-1]
         points = outline.loops[loop][(inner - first) % n]
-        ends = self.visit_point[[start, end]]
-        # Some marks are vertices.
-        low = self.partner[start] == start and len(points) > 0 and (points[0] == ends[0]).all()
-        high = len(points) - (self.partner[end] == end and len(points) > 0 and (points[-1] == ends[1]).all())
-        return np.concatenate([ends[:1], points[int(low) : int(high)], ends[1:]])
+        return np.concatenate([self.visit_point[[start]], points, self.visit_point[[end]]])
+
+    @cached_property
+    def _is_vertex(self) -> Bools:
+        """Which visits are marks at vertices."""
+        there = self.visit_point == self._drawn().points[self.visit_edge]
+        return np.asarray(there.all(axis=1) & (self.crossing_of_visit < 0))
 
     def cell_outline(self, cell: int) -> Floats:
         """Return the boundary polygon of a cell, shape (m, 2), counter-clockwise for bounded cells.
@@ -387,7 +399,10 @@ class Arrangement:
         for dart in darts.tolist():
             points = self.border_points(dart // 2)
             points = points[::-1] if dart % 2 else points
-            pieces.append(points if self.start_visit[dart // 2] < 0 else points[:-1])
+            start = self.start_visit[self.next_border[dart // 2] if dart % 2 else dart // 2]
+            # A foot in the middle of an edge is no corner.
+            is_corner = start < 0 or self.partner[start] != start or self._is_vertex[start]
+            pieces.append(points[not is_corner : len(points) - (start >= 0)])
         return np.concatenate(pieces)
 
     def cell_point(self, cell: int) -> tuple[float, float]:
@@ -451,11 +466,10 @@ class Arrangement:
         along_borders = self.winding[self.left_cell[visited]].sum()
         return int(at_crossings - along_borders + (self.winding * (2 - self.n_cycles)).sum())
 
-    def _repr_svg_(self) -> str | None:
-        # Several curves have no picture yet.
+    def _repr_svg_(self) -> str:
         from plyfold.draw.svg import arrangement_svg
 
-        return arrangement_svg(self) if self.n_loops == 1 else None
+        return arrangement_svg(self)
 
 
 def _theorems(arranged: Arrangement) -> Iterator[tuple[str, bool]]:
@@ -480,12 +494,6 @@ def _theorems(arranged: Arrangement) -> Iterator[tuple[str, bool]]:
 
 def _same(first: npt.NDArray[np.int64], second: npt.NDArray[np.int64]) -> bool:
     return bool((first == second).all())
-
-
-def _number_crossings(partner: Ints) -> Ints:
-    visit = np.arange(len(partner))
-    number = np.cumsum(visit < partner) - 1
-    return np.where(visit == partner, -1, number[np.minimum(visit, partner)])
 
 
 def arrange(curve: OutlineLike, general_position: Literal["perturb", "raise"] = "perturb") -> Arrangement:
@@ -564,7 +572,7 @@ def _of_curve(curve: Curve, general_position: Literal["perturb", "raise"], watch
     separated, visits = in_general_position(curve, general_position, watch)
     watch.step()
     edge, point = visits.edge, visits.point
-    used, turning, turned_round = oriented(visits.partner, visits.ccw, _outer_dart(separated.points, edge))
+    used, turning, turned_round = oriented(visits.partner, visits.ccw, outer_dart(separated.points, edge))
     if turned_round:
         separated, edge, point = separated.reversed(), len(separated) - 1 - edge[::-1], point[::-1]
     drawn = used._replace(code=used.code._replace(edge=edge))
@@ -590,13 +598,3 @@ def _of_loops(outline: Outline, turned_round: bool, watch: Watch) -> Arrangement
     turning = tuple(map(polygon_turning_number, outline.loops))
     settled = {"exact_signs": visits.exact_signs, "reversed": turned_round}
     return Arrangement._of_map(drawn, turning, outline, crossings=crossings, **settled)
-
-
-def _outer_dart(points: Floats, visit_edge: Ints) -> int:
-    """Return a dart with the unbounded cell on its left: at the leftmost vertex, on its convex side."""
-    x, y = points.T
-    leftmost = np.flatnonzero(x == x.min())
-    corner = int(leftmost[y[leftmost].argmin()])
-    before, after = points[corner - 1], points[(corner + 1) % len(points)]
-    border = (int(np.searchsorted(visit_edge, corner)) - 1) % max(len(visit_edge), 1)
-    return 2 * border + int(cross_sign(before, points[corner], points[corner], after) > 0)

@@ -15,8 +15,18 @@ from plyfold.arrangement.planar_map import (
     whitney_turning_number,
 )
 from plyfold.arrays import Bools, Floats, Ints
+from plyfold.predicates import cross_sign
 
-__all__ = ["Code", "Map", "cell_of_each_dart", "in_bounded_cells", "oriented", "walked_round"]
+__all__ = [
+    "Code",
+    "Map",
+    "cell_of_each_dart",
+    "in_bounded_cells",
+    "numbered_crossings",
+    "oriented",
+    "outer_dart",
+    "walked_round",
+]
 
 
 class Code(NamedTuple):
@@ -83,3 +93,20 @@ def cell_of_each_dart(cell_start: Ints, cell_darts: Ints) -> Ints:
     cell_of_dart = np.empty_like(cell_darts)
     cell_of_dart[cell_darts] = np.repeat(np.arange(len(cell_start) - 1), np.diff(cell_start))
     return cell_of_dart
+
+
+def numbered_crossings(partner: Ints) -> Ints:
+    """Return the crossing of each visit, in the order of first visits; −1 at marks."""
+    visit = np.arange(len(partner))
+    number = np.cumsum(visit < partner) - 1
+    return np.where(visit == partner, -1, number[np.minimum(visit, partner)])
+
+
+def outer_dart(points: Floats, visit_edge: Ints) -> int:
+    """Return a dart with the unbounded cell on its left: at the leftmost vertex, on its convex side."""
+    x, y = points.T
+    leftmost = np.flatnonzero(x == x.min())
+    corner = int(leftmost[y[leftmost].argmin()])
+    before, after = points[corner - 1], points[(corner + 1) % len(points)]
+    border = (int(np.searchsorted(visit_edge, corner)) - 1) % max(len(visit_edge), 1)
+    return 2 * border + int(cross_sign(before, points[corner], points[corner], after) > 0)

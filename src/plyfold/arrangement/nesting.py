@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,6 +23,9 @@ from plyfold.errors import GeneralPositionError
 from plyfold.graphs import components
 from plyfold.predicates import cross_sign, exact_parameter
 from plyfold.ragged import starts_of
+
+if TYPE_CHECKING:
+    from shapely import STRtree
 
 __all__ = ["Nest", "nest"]
 
@@ -69,14 +74,13 @@ def nest(loops: Sequence[Floats], watch: Watch = UNWATCHED) -> Nest:
     polyline = _one_after_the_other(loops)
     visits = _visits(polyline, watch)
     first_visit = np.searchsorted(polyline.loop[visits.edge], np.arange(len(loops) + 1))
-    plan = _Plan(polyline, visits, first_visit)
     loop = polyline.loop[visits.edge]
     group = components(len(loops), loop, loop[visits.partner])
+    plan = _Plan(polyline, visits, first_visit, group[polyline.loop])
     outside, bridges, feet = [], [], []
-    corners = sorted(_corners(polyline, group), key=lambda found: tuple(polyline.points[found[0]]))
-    for number, (corner, own) in enumerate(corners):
+    for number, corner in enumerate(_corners(plan)):
         watch.step()
-        dart, beyond = _outer_dart(plan, corner), _met_on_the_left(plan, corner, own)
+        dart, beyond = _outer_dart(plan, corner), _met_on_the_left(plan, corner)
         if beyond is None:
             outside.append(dart)
         else:
@@ -159,34 +163,56 @@ def _own_touches_left_out(polyline: _Polyline, touches: Ints) -> Ints:
 
 @dataclass(frozen=True, eq=False)
 class _Plan:
-    """The polyline with its visits, to find the border at a place."""
+    """The polyline with its visits, to find the border at a place.
+
+    Loops that hang together by crossings are a group; ``group`` has that of each edge.
+    """
 
     polyline: _Polyline
     visits: Visits
     first_visit: Ints
+    group: Ints
+
+    @cached_property
+    def ends(self) -> Floats:
+        """Start and end of each edge."""
+        return edge_ends(self.polyline.points)
+
+    @cached_property
+    def first_border(self) -> Ints:
+        """The first border of each loop."""
+        return starts_of(np.maximum(np.diff(self.first_visit), 1))
+
+    @cached_property
+    def boxes(self) -> STRtree:
+        """The bounding boxes of all edges."""
+        from shapely import STRtree, linestrings
+
+        return STRtree(linestrings(self.ends))
 
     def border(self, edge: int, visits_passed: int) -> int:
         """Return the border at a place on an edge, given how many visits come before it, on earlier loops too."""
         loop = int(self.polyline.loop[edge])
-        start, count = int(self.first_visit[loop]), np.diff(self.first_visit)
-        return int(starts_of(np.maximum(count, 1))[loop] + (visits_passed - start - 1) % max(int(count[loop]), 1))
+        start, count = int(self.first_visit[loop]), int(self.first_visit[loop + 1] - self.first_visit[loop])
+        return int(self.first_border[loop]) + (visits_passed - start - 1) % max(count, 1)
 
 
-def _corners(polyline: _Polyline, group: Ints) -> list[tuple[int, Bools]]:
-    """Return the leftmost vertex of each group, the lowest of several, and which edges are the group's."""
-    group_of_edge = group[polyline.loop]
-    x, y = polyline.points.T
+def _corners(plan: _Plan) -> list[int]:
+    """Return the leftmost vertex of each group, the lowest of several, from left to right."""
+    x, y = plan.polyline.points.T
     order = np.lexsort([y, x])
-    order = order[~polyline.is_jump[order]]
-    corner = order[np.unique(group_of_edge[order], return_index=True)[1]]
-    return [(int(vertex), group_of_edge == number) for number, vertex in enumerate(corner)]
+    order = order[~plan.polyline.is_jump[order]]
+    corners: list[int] = order[np.sort(np.unique(plan.group[order], return_index=True)[1])].tolist()
+    return corners
 
 
 def _outer_dart(plan: _Plan, corner: int) -> int:
     """Return the dart that has the outside of its group on its left at a leftmost vertex."""
-    polyline = plan.polyline
-    copies = np.flatnonzero(polyline.vertex == corner)
-    before, here, after = polyline.points[[copies[-1] - 1, corner, corner + 1]]
+    points = plan.polyline.points
+    is_first = corner == 0 or plan.polyline.is_jump[corner - 1]
+    # The first vertex of a loop comes again at its end.
+    last = int(np.searchsorted(plan.polyline.loop, plan.polyline.loop[corner], side="right")) - 1
+    before, here, after = points[[(last if is_first else corner) - 1, corner, corner + 1]]
     border = plan.border(corner, int(np.searchsorted(plan.visits.edge, corner)))
     return 2 * border + int(cross_sign(before, here, here, after) > 0)
 
@@ -204,7 +230,7 @@ def _foot_on_edge(plan: _Plan, edge: int, corner: int, number: int) -> Mark:
     Later ones, which come from further right, are higher if the vertices have one height: they pass above.
     """
     height, loop = float(plan.polyline.points[corner, 1]), int(plan.polyline.loop[edge])
-    ends = edge_ends(plan.polyline.points)[edge]
+    ends = plan.ends[edge]
     start, end = map(Fraction, ends[:, 1].tolist())
     share, upward = (Fraction(height) - start) / (end - start), start < end
     tie = 2 + number if upward else -2 - number
@@ -216,18 +242,19 @@ def _is_upward(polyline: _Polyline, edge: int) -> bool:
     return bool(polyline.points[edge, 1] < polyline.points[edge + 1, 1])
 
 
-def _met_on_the_left(plan: _Plan, corner: int, own: Bools) -> int | None:
+def _met_on_the_left(plan: _Plan, corner: int) -> int | None:
     """Return the edge of the other groups that a ray from a vertex to the left meets first.
 
     The ray runs a little higher than the vertex, by less than any other difference in height. So it meets no vertices
     and no crossings.
     """
-    polyline = plan.polyline
-    x, height = polyline.points[corner].tolist()
-    ends = edge_ends(polyline.points)
-    low = ends[:, :, 1] <= height
-    met = np.flatnonzero(~own & ~polyline.is_jump & (low[:, 0] != low[:, 1]) & (ends[:, :, 0].min(axis=1) < x))
-    places = {edge: _place_and_slope(ends[edge], height) for edge in _nearest(ends[met], x, height, met)}
+    from shapely import linestrings
+
+    x, height = plan.polyline.points[corner].tolist()
+    near = plan.boxes.query(linestrings([(plan.polyline.points[:, 0].min(), height), (x, height)]))
+    low = plan.ends[near, :, 1] <= height
+    met = near[(plan.group[near] != plan.group[corner]) & ~plan.polyline.is_jump[near] & (low[:, 0] != low[:, 1])]
+    places = {edge: _place_and_slope(plan.ends[edge], height) for edge in _nearest(plan.ends[met], x, height, met)}
     passed = [edge for edge, (place, _) in places.items() if place < x]
     return max(passed, key=places.__getitem__, default=None)
 
@@ -251,7 +278,7 @@ def _place_and_slope(edge: Floats, height: float) -> tuple[Fraction, Fraction]:
 
 def _visits_passed(plan: _Plan, edge: int, share: Fraction, upward: bool) -> int:
     """Return how many visits come before the place on an edge a little above a share of it."""
-    ends, visits = edge_ends(plan.polyline.points), plan.visits
+    ends, visits = plan.ends, plan.visits
     first, last = np.searchsorted(visits.edge, [edge, edge + 1]).tolist()
     other = visits.edge[visits.partner[first:last]].tolist()
     places = [exact_parameter(*ends[edge], *ends[crossing]) for crossing in other]

@@ -39,7 +39,7 @@ def plot_surface(  # noqa: PLR0913 - each option is keyword-only and independent
     stretch: float | None = None,
     pixels: int = 900,
 ) -> Axes:
-    """Draw the lifted surface, shaded, the curve as a dark line, dashed where it is hidden.
+    """Draw the lifted surface, shaded, the outline as a dark line, dashed where it is hidden.
 
     Light comes from the upper left; sheets darken what lies close below them, and stand out from it by a pale rim.
     Where sheets pass through each other, there is a red line.

@@ -129,7 +129,7 @@ def mesh_data(surface: Surface) -> dict[str, Any]:
 def _frames(surface: Surface) -> list[Floats]:
     """Return where the vertices are on their way from the round disk to the drawing, at equal times from 0 to 1.
 
-    None if the surface is no disk, or doubles cannot hold it: then the page shows no way.
+    None if it is no disk, or if doubles cannot hold that: then the page shows no way.
     """
     if not surface.layering.immersion.is_disk:
         return []

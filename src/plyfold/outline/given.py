@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from plyfold.errors import CurveError
 from plyfold.outline.curve import Curve, Outline
+from plyfold.outline.direction import sense
 from plyfold.outline.points import Repair, left_out
 from plyfold.outline.strokes import join_strokes
 from plyfold.outline.vertices import naming_the_curve
@@ -28,6 +29,7 @@ __all__ = [
     "as_curve",
     "as_curves",
     "as_outline",
+    "left_out_coordinates",
     "outline_of_curves",
 ]
 
@@ -169,6 +171,8 @@ def are_several(value: object) -> bool:
     >>> are_several(triangle), are_several([triangle]), are_several([Curve(triangle), triangle])
     (False, True, True)
     """
+    if isinstance(value, np.ndarray) and value.dtype != object:
+        return value.ndim > 2 and len(value) > 0
     return isinstance(value, list | tuple | np.ndarray) and any(map(_is_curve, value))
 
 
@@ -207,14 +211,14 @@ def _outline_of_geometry(geometry: BaseGeometry) -> Outline:
     parts = getattr(geometry, "geoms", [])
     match geometry.geom_type:
         case "Polygon" if not len(geometry.interiors):
-            return Curve(_planar(geometry.exterior), _left_out(geometry))
+            return Curve(_planar(geometry.exterior), left_out_coordinates(geometry))
         case "Polygon" | "MultiPolygon" if len(parts) != 1:
             return outline_of_curves([loop for polygon in parts or [geometry] for loop in _loops_of_polygon(polygon)])
         case "LinearRing":
-            return Curve(_planar(geometry), _left_out(geometry))
+            return Curve(_planar(geometry), left_out_coordinates(geometry))
         case "LineString" | "MultiLineString":
             points, repairs = join_strokes(map(_planar, parts or [geometry]))
-            return Curve(points, (*_left_out(geometry), *repairs))
+            return Curve(points, (*left_out_coordinates(geometry), *repairs))
     if len(parts) == 1:
         return as_outline(parts[0])
     hint = "give a LinearRing, a LineString, a Polygon or a MultiPolygon"
@@ -223,9 +227,9 @@ def _outline_of_geometry(geometry: BaseGeometry) -> Outline:
 
 def _loops_of_polygon(polygon: BaseGeometry) -> list[Curve]:
     """Return shell and holes in the directions that leave the polygon on the left."""
-    curves = [Curve(_planar(ring), _left_out(ring)) for ring in (polygon.exterior, *polygon.interiors)]
-    counter_clockwise = [polygon.exterior.is_ccw, *(not ring.is_ccw for ring in polygon.interiors)]
-    return [curve if kept else curve.reversed() for curve, kept in zip(curves, counter_clockwise, strict=True)]
+    curves = [Curve(_planar(ring), left_out_coordinates(ring)) for ring in (polygon.exterior, *polygon.interiors)]
+    wrong = [-1, *(1 for _ in polygon.interiors)]
+    return [curve.reversed() if sense(curve.points) == way else curve for curve, way in zip(curves, wrong, strict=True)]
 
 
 def _planar(geometry: BaseGeometry) -> npt.NDArray[np.float64]:
@@ -235,7 +239,7 @@ def _planar(geometry: BaseGeometry) -> npt.NDArray[np.float64]:
     return places
 
 
-def _left_out(geometry: BaseGeometry) -> tuple[Repair, ...]:
+def left_out_coordinates(geometry: BaseGeometry) -> tuple[Repair, ...]:
     """Return the record of the altitudes and measures that a geometry has and a curve has not."""
     import shapely
 
