@@ -27,10 +27,11 @@ test-busy: $(READY)  ## The same beside eight busy processes: no test depends on
 test-slow: $(READY)  ## The tests that take minutes: every curve with six crossings
 	$(BIN)/python -m pytest -n 2 -m slow
 
-nightly: $(READY)  ## 100,000 random curves and lists of curves against the slow references: about an hour; OPTIONS="--seconds 60" for a taste
+nightly: $(READY)  ## 100,000 random curves and lists of curves, and 10,000 fronts of bodies, against the slow references: about an hour; OPTIONS="--seconds 60" for a taste
 	PYTHONPATH=tests $(BIN)/python -m nightly $(OPTIONS)
 	PYTHONPATH=tests $(BIN)/python -m nightly.disturbed
 	PYTHONPATH=tests $(BIN)/python -m nightly.scales
+	PYTHONPATH=tests $(BIN)/python -m nightly.outlines
 
 browser:  ## A browser for the tests of the pages, where there is none: Debian's Chromium, if this is root on Debian
 	@for program in chromium chromium-browser google-chrome; do \

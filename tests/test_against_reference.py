@@ -7,7 +7,8 @@ from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.errors import CurveError, GeneralPositionError
 from plyfold.immersion.solve import bounds_disk, count_immersions, find_immersion, immersions
 from plyfold.layering.orders.search import find_layering
-from reference import crossings, gluings, layerings, planar_maps, random_curves
+from reference import crossings, gluings, layerings, outline_gluings, outline_levels, planar_maps, random_curves
+from reference.outlines import of_gauss
 from reference.planar_maps import census, gauss_code, may_bound_disk, oriented, plane_codes, windings
 
 SMALLEST_WITHOUT_LAYERING = [
@@ -25,7 +26,10 @@ def code_of(arranged):
 
 
 def key_of(immersion):
-    return gluings.key_of(*code_of(immersion.arrangement), immersion.own_sheet, immersion.gluing)
+    code = code_of(immersion.arrangement)
+    if immersion.is_disk:
+        return gluings.key_of(*code, immersion.own_sheet, immersion.gluing)
+    return outline_gluings.key_of(of_gauss(code), immersion.own_sheet, immersion.gluing)
 
 
 def directed(code):
@@ -47,13 +51,24 @@ def assert_same_map(arranged, code):
     assert arranged.cell_of_dart[arranged.outer] == 0
 
 
+def expected_keys(arranged):
+    """The immersions by the reference for disks, or else by that for all outlines: disks with handles."""
+    code = code_of(arranged)
+    if arranged.turning_number == 1:
+        return gluings.keys(*code)
+    if min(windings(code)) < 0:
+        return set()
+    outline = of_gauss(code)
+    return {outline_gluings.key_of(outline, *surface) for surface in outline_gluings.surfaces(outline)}
+
+
 def assert_same_immersions(arranged):
     """Decision, count and set of immersions are those of the reference, which works on the same Gauss code."""
-    expected = gluings.keys(*code_of(arranged)) if arranged.turning_number == 1 else set()
+    expected = expected_keys(arranged)
     found = list(immersions(arranged))
     assert {key_of(immersion) for immersion in found} == expected
     assert count_immersions(arranged) == len(found) == len(expected)
-    assert bounds_disk(arranged) == bool(expected)
+    assert bounds_disk(arranged) == (arranged.turning_number == 1 and bool(expected))
     first = find_immersion(arranged)
     assert bool(first) == bool(expected)
     assert not expected or key_of(first) in expected
@@ -64,8 +79,13 @@ def assert_right_layering(immersion):
     """There is a layering if and only if brute force finds one, and it is one of those."""
     code = code_of(immersion.arrangement)
     rows = [tuple(int(value) for value in row) for row in immersion.gluing]
-    expected = layerings.layerings(*code, immersion.own_sheet.tolist(), rows)
     found = find_layering(immersion)
+    if not immersion.is_disk:
+        expected = outline_levels.layerings(of_gauss(code), immersion.own_sheet.tolist(), rows)
+        assert not found or tuple(found.border_level.tolist()) in expected
+        assert bool(found) == bool(expected)
+        return bool(found)
+    expected = layerings.layerings(*code, immersion.own_sheet.tolist(), rows)
     assert bool(found) == bool(expected)
     if found:
         assert dict(enumerate(found.level.tolist())) in expected

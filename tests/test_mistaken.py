@@ -9,7 +9,7 @@ from matplotlib.path import Path as Outline
 
 import plyfold as pf
 from plyfold.errors import CurveError, GaussCodeError, InputError, PlyfoldError
-from plyfold.outline.curve import as_curve
+from plyfold.outline.given import as_curve
 
 SQUARE = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
 TREFOIL_PD = [[1, 4, 2, 5], [3, 6, 4, 1], [5, 2, 6, 3]]

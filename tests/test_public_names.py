@@ -25,6 +25,8 @@ def test_public_names():
         "IntersectingLayering",
         "Layering",
         "Obstruction",
+        "Outline",
+        "SuggestedCusps",
         "Surface",
         "Unknown",
         "UnwoundDisk",
@@ -61,6 +63,8 @@ def test_public_names():
         "paper",
         "read",
         "sample_immersion",
+        "suggest_cusps",
+        "save",
         "triangulate",
         "unwrap",
     ]

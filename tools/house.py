@@ -26,7 +26,7 @@ ORDER = [
     ["arrays", "errors", "wording"],
     ["obstruction"],
     ["options", "clock", "compiled", "colours", "ragged", "graphs", "loading", "memory", "mistaken", "certify"],
-    ["predicates", "halfedges", "matrices"],
+    ["predicates", "halfedges", "matrices", "sat"],
     ["outline"],
     ["io"],
     ["arrangement"],
@@ -68,6 +68,7 @@ SAME_THINGS = {
     "Signs": "certify shares nothing with what it checks",
     "find_immersion": "the exact one, and that of the paper as pf.paper.find_immersion",
     "find_layering": "the exact one, and that of the paper as pf.paper.find_layering",
+    "save": "an outline, and a figure as pf.draw.save",
 }
 
 _SMALL = "small drawings are arranged and decided before it is imported, or without it"

@@ -29,6 +29,7 @@ from .immersion.solve import count_immersions as count_immersions
 from .immersion.solve import find_immersion as find_immersion
 from .immersion.solve import immersions as immersions
 from .immersion.solve import sample_immersion as sample_immersion
+from .io.outline_files import save as save
 from .io.reading import read as read
 from .layering.embedding import count_embeddings as count_embeddings
 from .layering.embedding import embeddings as embeddings
@@ -43,7 +44,10 @@ from .layering.orders.nicest import nicest_layering as nicest_layering
 from .layering.orders.search import find_layering as find_layering
 from .obstruction import Obstruction as Obstruction
 from .obstruction import Unknown as Unknown
+from .offers.cusps import SuggestedCusps as SuggestedCusps
+from .offers.cusps import suggest_cusps as suggest_cusps
 from .outline.curve import Curve as Curve
+from .outline.curve import Outline as Outline
 from .surface.lift import Surface as Surface
 from .surface.lift import lift as lift
 

@@ -18,6 +18,7 @@ __all__ = [
     "BACK",
     "CLOTH_HIGH",
     "CLOTH_LOW",
+    "CUSP",
     "INK",
     "LINE_ON_DARK",
     "OBSTRUCTION",
@@ -37,6 +38,7 @@ INK = "#1d2638"
 PAPER = "#ffffff"
 ACCENT = "#c8501e"
 OBSTRUCTION = "#d1203a"
+CUSP = "#7b2a86"
 
 CLOTH_LOW = "#1f57a4"
 CLOTH_HIGH = "#79b8ee"

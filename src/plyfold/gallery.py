@@ -17,7 +17,8 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.errors import InputError
-from plyfold.outline.curve import Curve, as_curve
+from plyfold.outline.curve import Curve
+from plyfold.outline.given import as_curve
 from plyfold.wording import counted
 
 __all__ = ["CURVES", "NamedCurve", "chain", "named_curve", "ribbon", "rounded"]
@@ -73,6 +74,11 @@ class NamedCurve:
     def curve(self) -> Curve:
         """The curve itself, so fine that it looks smooth."""
         return Curve(self.draw())
+
+    @property
+    def outline(self) -> Curve:
+        """The curve as what everything takes that takes an outline."""
+        return self.curve
 
     def draw(self, a_turn: int = POINTS_A_TURN) -> Points:
         """Return the points, with so many on a full turn; polygons have their corners."""

@@ -50,7 +50,7 @@ def require_memory(size: int, what: str, arrangement: Arrangement | None, hint: 
     if available is not None and size > available:
         raise MemoryLimitError(
             f"{what} would take {_written(size)} of memory, and {_written(available)} can be had",
-            where=() if arrangement is None or not arrangement.curves else [_most_covered(arrangement)],
+            where=() if arrangement is None or arrangement.outline is None else [_most_covered(arrangement)],
             hint=hint,
         )
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from plyfold.arrays import Ints
 
-__all__ = ["count_each", "pairs_in_each", "starts_of"]
+__all__ = ["count_each", "next_in_rows", "pairs_in_each", "starts_of"]
 
 
 def starts_of(lengths: Ints) -> Ints:
@@ -29,6 +29,19 @@ def count_each(lengths: Ints) -> Ints:
     [0, 1, 0, 1, 2]
     """
     return np.arange(int(lengths.sum())) - starts_of(lengths).repeat(lengths)
+
+
+def next_in_rows(first: Ints) -> Ints:
+    """Return the place of the entry after each one, the first after the last of its row; no row is empty.
+
+    Examples
+    --------
+    >>> next_in_rows(np.array([0, 2, 5])).tolist()
+    [1, 0, 3, 4, 2]
+    """
+    following = np.arange(1, int(first[-1]) + 1)
+    following[first[1:] - 1] = first[:-1]
+    return following
 
 
 def pairs_in_each(lengths: Ints) -> tuple[Ints, Ints]:

@@ -14,7 +14,7 @@ from reference.random_curves import random_polygon, without_repeats
 NUMBERS = [
     "partner", "ccw", "outer", "first_visit", "next_dart", "cell_of_dart", "cell_start", "cell_darts", "winding",
     "turning_numbers", "crossing_of_visit", "bridges", "crossings", "visit_edge", "reversed", "border_before",
-    "border_after", "next_border", "start_visit", "loop_of_border", "cycle_start",
+    "border_after", "next_border", "start_visit", "loop_of_border", "cycle_start", "cusp_index", "marks",
 ]  # fmt: skip
 
 
@@ -27,10 +27,31 @@ def random_loops(rng, size):
         yield without_repeats([(x + int(shift[0]), y + int(shift[1])) for x, y in polygon])
 
 
+def begins_at_crossing(found, borders):
+    """Whether each of some borders begins at a crossing: not at a mark, and not nowhere."""
+    return np.isin(found.start_visit[borders], found.crossing_visits)
+
+
+def whole_borders(found):
+    """For each border, the one of its pieces between crossings that begins at the crossing, or the loop's first."""
+    is_whole = begins_at_crossing(found, np.arange(found.n_borders))
+    whole = np.arange(found.n_borders)
+    for loop in range(found.n_loops):
+        borders = np.flatnonzero(found.loop_of_border == loop)
+        first = borders[is_whole[borders]]
+        if len(first) == 0:
+            whole[borders] = borders[0]
+        for border in borders[~is_whole[borders]] if len(first) else ():
+            earlier = first[first < border]
+            whole[border] = (earlier if len(earlier) else first)[-1]
+    return whole
+
+
 def as_in_reference(found):
-    """The borders in the order of the reference, where those of loops without crossings come last."""
-    alone = found.start_visit < 0
-    return np.concatenate([np.flatnonzero(~alone), np.flatnonzero(alone)])
+    """The whole borders in the order of the reference, where those of loops without crossings come last."""
+    whole = np.unique(whole_borders(found))
+    alone = ~begins_at_crossing(found, whole)
+    return np.concatenate([whole[~alone], whole[alone]])
 
 
 def assert_as_in_fractions(polygons):
@@ -44,14 +65,38 @@ def assert_as_in_fractions(polygons):
     else:
         assert found.reversed == turned
     found.check()
-    order = as_in_reference(found)
+    order, whole = as_in_reference(found), whole_borders(found)
+    assert (found.winding[found.left_cell] == found.winding[found.left_cell[whole]]).all()
     assert tuple(found.winding[found.left_cell][order].tolist()) == expected.left_winding
     assert tuple((found.winding[found.right_cell] + 1)[order].tolist()) == expected.left_winding
     first = np.flatnonzero(found.ccw)
     second, before, after = found.partner[first], found.border_before, found.border_after
     four = np.stack([before[first], after[first], after[second], before[second]], axis=1)
-    assert set(map(tuple, order.argsort()[four].tolist())) == set(expected.crossings)
+    place = {border: number for number, border in enumerate(order.tolist())}
+    rows = {tuple(place[border] for border in row) for row in whole[four].tolist()}
+    assert rows == set(expected.crossings)
+    assert_marks_are_where_they_are(found)
     return found
+
+
+def assert_marks_are_where_they_are(found):
+    """Visits come in order along their edges, and the feet of bridges face each other at one height."""
+    is_mark = found.crossing_of_visit < 0
+    assert not found.ccw[is_mark].any()
+    assert (np.diff(found.visit_edge) >= 0).all()
+    assert found.n_crossings == (~is_mark).sum() // 2
+    for pair in found.bridges.tolist():
+        feet = [foot_of(found, dart) for dart in pair]
+        assert all(found.partner[foot] == foot for foot in feet)
+        (x, y), (beyond, height) = found.visit_point[feet]
+        assert height == y
+        assert beyond < x
+
+
+def foot_of(found, dart):
+    """The visit at which a dart starts."""
+    border, backward = divmod(dart, 2)
+    return int(found.start_visit[found.next_border[border] if backward else border])
 
 
 def assert_same(first, second):
@@ -96,7 +141,8 @@ def euler_cells(found):
 def assert_cells_are_walked_round(found):
     """Cycles follow each other by their lowest darts, cells too; bridges join all cycles of bounded cells."""
     bridges = found.bridges.tolist()
-    assert found.n_cells == found.n_crossings + 1 + len(bridges) + len(free_groups(found))
+    assert found.n_cells == found.n_crossings + 1 + found.group_of_loop.max() + 1
+    assert all(found.cell_of_dart[dart] > 0 for pair in bridges for dart in pair)
     lowest = []
     for cell, darts in enumerate(found.cells):
         assert {found.cell_of_dart[dart] for dart in darts} == {cell}
@@ -123,12 +169,6 @@ def cycles_of(found, cell):
     return cycles
 
 
-def free_groups(found):
-    """The groups of loops with nothing on their left."""
-    met = {int(found.group_of_loop[found.loop_of_border[dart // 2]]) for dart, _ in found.bridges.tolist()}
-    return set(found.group_of_loop.tolist()) - met
-
-
 def is_curve(polygon):
     try:
         arrange(polygon)
@@ -152,10 +192,12 @@ def diamond(radius):
 def test_diamonds_inside_each_other_have_their_corners_at_one_height():
     found = arrange([diamond(radius) for radius in (3, 1, 5, 2, 4)])
     found.check()
-    assert sorted(found.cell_of_dart[found.bridges[:, 0]].tolist()) == sorted(found.right_cell[[0, 1, 3, 4]].tolist())
+    inner = found.loop_of_border != 2
+    assert set(found.cell_of_dart[found.bridges[:, 0]].tolist()) == set(found.right_cell[inner].tolist())
     assert [found.winding[found.cell_of_dart[dart]] for dart, _ in found.bridges.tolist()] == [1, 2, 3, 4]
     assert sorted(found.winding.tolist()) == [0, 1, 2, 3, 4, 5]
-    assert found.winding[found.left_cell].tolist() == [3, 5, 1, 4, 2]
+    assert found.loop_of_border.tolist() == [0, 0, 1, 2, 3, 3, 4, 4]
+    assert found.winding[found.left_cell].tolist() == [3, 3, 5, 1, 4, 4, 2, 2]
 
 
 def test_a_crossing_at_the_height_of_a_loop_inside():
@@ -187,19 +229,22 @@ EIGHT = [(20, 0), (22, 2), (22, 0), (20, 2)]
 def test_numbers_of_several_loops():
     """Visits and borders loop by loop; a loop without crossings has one border, in its place."""
     found = arrange([HOLE, EIGHT, OUTER])
-    assert found.first_visit.tolist() == [0, 0, 2, 2]
+    assert found.first_visit.tolist() == [0, 1, 3, 4]
     assert found.loop_of_border.tolist() == [0, 1, 1, 2]
-    assert found.start_visit.tolist() == [-1, 0, 1, -1]
+    assert found.start_visit.tolist() == [0, 1, 2, 3]
+    assert found.partner.tolist() == [0, 2, 1, 3]
     assert found.next_border.tolist() == [0, 2, 1, 3]
-    assert (found.border_before.tolist(), found.border_after.tolist()) == ([2, 1], [1, 2])
-    assert found.visit_edge.tolist() == [0, 2]
+    assert (found.border_before.tolist(), found.border_after.tolist()) == ([0, 2, 1, 3], [0, 1, 2, 3])
+    assert found.visit_edge.tolist() == [0, 4, 6, 11]
+    assert found.visit_point[[0, 3]].tolist() == [[1, 2], [0, 2]]
+    assert arrange([EIGHT, [(0, 0), (1, 0), (0, 1)]]).start_visit.tolist() == [0, 1, -1]
     assert found.turning_numbers == (-1, 0, 1)
     assert found.turning_number == 0
     assert found.n_cells == 1 + 3 + 1
     ring = found.cell_of_dart[6]
     assert found.cells[ring] == (0, 6)
     assert [len(outline) for outline in found.cell_outlines(ring)] == [4, 4]
-    assert found.bridges.tolist() == [[0, 6], [int(found.bridges[1, 0]), 7]]
+    assert found.bridges.tolist() == [[0, 6]]
     assert len(found.cell_outlines(0)) == 2
     with pytest.raises(PlyfoldError, match="2 boundary polygons"):
         found.cell_outline(ring)
@@ -210,7 +255,7 @@ def test_points_of_cells_lie_in_them(loops):
     moved = [[(x + 0.1 * i, y + 0.2 * i) for x, y in loop] for i, loop in enumerate(loops)]
     found = arrange(moved)
     for cell in range(found.n_cells):
-        around = sum(winding_number(curve.points, found.cell_point(cell)) for curve in found.curves)
+        around = sum(winding_number(loop, found.cell_point(cell)) for loop in found.outline.loops)
         assert around == found.winding[cell]
 
 
@@ -222,8 +267,8 @@ def test_outlines_are_turned_round_together_or_not_at_all():
     kept, turned = arrange([OUTER, HOLE]), arrange([OUTER[::-1], HOLE[::-1]])
     assert (kept.reversed, turned.reversed) == (False, True)
     assert sorted(turned.winding.tolist()) == sorted(kept.winding.tolist()) == [0, 0, 1]
-    assert turned.curves[0].points[0].tolist() == [0, 9]
-    assert [loop.points.tolist() for loop in arrange([OUTER, EIGHT]).curves] == [OUTER_FLOATS, EIGHT_FLOATS]
+    assert turned.outline.points[0].tolist() == [0, 9]
+    assert [loop.tolist() for loop in arrange([OUTER, EIGHT]).outline.loops] == [OUTER_FLOATS, EIGHT_FLOATS]
     assert not arrange([OUTER[::-1], EIGHT]).reversed
 
 
@@ -239,3 +284,26 @@ def test_what_is_there_for_one_curve_alone_says_so():
         _ = arrange(several).curve
     assert arrange(several)._repr_svg_() is None
     assert repr(arrange(several)) == "<Arrangement of 2 curves: 0 crossings, turning number 0>"
+
+
+def test_marks_on_one_edge_come_in_order():
+    """Small loops whose leftmost corners see the same edge, some at one height and some beside a crossing."""
+    low, high = [(1, 3), (2, 3), (2, 2)], [(4, 3), (5, 3), (5, 2)]
+    other = [(7, 3), (8, 4), (8, 3)]
+    for outer, more in ((OUTER, []), (OUTER[::-1], [EIGHT])):
+        found = assert_as_in_fractions([outer, low, high, other, *more])
+        assert found.first_visit[1] == 3
+        assert found.visit_point[:3].tolist() == [[0, 3]] * 3
+        # Bridges that leave one edge at one height keep the order of their loops, the one from further right above.
+        feet = [foot_of(found, dart) for _, dart in found.bridges.tolist()]
+        assert feet == ([0, 1, 2] if more else [2, 1, 0])
+
+
+def test_a_cusp_at_the_foot_of_a_bridge_comes_first():
+    outline = pf.Outline([OUTER, HOLE], {(1, 0): 1, (0, 2): 2})
+    found = arrange(outline)
+    found.check()
+    assert found.cusp_index.tolist() == [2, 0, 1, 0]
+    assert found.visit_edge.tolist() == [2, 3, 4, 4]
+    assert found.euler_characteristic == -3
+    assert [points.tolist()[0] for points in map(found.border_points, range(4))] == [[9, 9], [0, 2], [1, 2], [1, 2]]

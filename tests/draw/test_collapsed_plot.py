@@ -3,6 +3,7 @@ import pytest
 import shapely
 from matplotlib.colors import to_hex
 
+from painted import painted
 from plyfold import arrange, find_layering, immersions
 from plyfold.colours import INK, OBSTRUCTION, sheet_colour
 from plyfold.draw import plot_collapsed_graph, plot_marked_cell
@@ -88,5 +89,5 @@ def test_marked_cell_is_red():
     arranged = arrange(RAMP)
     ax = plot_marked_cell(arranged, int(arranged.winding.argmax()))
     (red,) = [patch for patch in ax.patches if to_hex(patch.get_facecolor()) == OBSTRUCTION]
-    drawn = shapely.Polygon(red.get_xy() * 9 + (4.5, 1.5))
+    drawn = shapely.affinity.affine_transform(painted(red), (9, 0, 0, 9, 4.5, 1.5))
     assert drawn.symmetric_difference(shapely.box(3, 0, 4, 1)).area == pytest.approx(0, abs=1e-9)

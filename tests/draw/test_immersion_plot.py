@@ -7,6 +7,7 @@ from matplotlib.colors import to_hex
 
 import plyfold as pf
 from coarse import CURVES
+from painted import painted
 from plyfold import draw
 from plyfold.colours import INK, PAPER, mix, sheet_colour
 from plyfold.draw.svg import layout_svg
@@ -41,10 +42,7 @@ def test_sheets_over_a_cell_share_it_evenly_in_stripes():
 
 def test_cells_with_one_sheet_have_its_colour():
     immersion = pf.find_immersion(RAMP)
-    fills = {
-        to_hex(patch.get_facecolor()): shapely.Polygon(patch.get_xy())
-        for patch in draw.plot_immersion(immersion).patches
-    }
+    fills = {to_hex(patch.get_facecolor()): painted(patch) for patch in draw.plot_immersion(immersion).patches}
     for cell in np.flatnonzero(immersion.arrangement.winding == 1):
         outline = shapely.Polygon(unit(immersion.arrangement.cell_outline(cell)))
         assert fills[pale(immersion.sheets[cell][0])].symmetric_difference(outline).area < 1e-12

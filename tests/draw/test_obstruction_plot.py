@@ -5,10 +5,11 @@ import numpy as np
 import pytest
 import shapely
 from matplotlib.colors import to_hex
-from matplotlib.patches import FancyArrowPatch, Polygon
+from matplotlib.patches import FancyArrowPatch, PathPatch
 
 import plyfold as pf
 from coarse import CURVES
+from painted import painted
 from plyfold.colours import OBSTRUCTION, sheet_colour
 from plyfold.draw import plot_obstruction
 from plyfold.errors import InputError
@@ -78,7 +79,7 @@ def test_sheets_are_shown_at_every_step_the_upper_one_above(refused):
         piles.setdefault(round(x, 6), []).append((y, sheet))
     shown = [tuple(sheet for _, sheet in sorted(pile)) for _, pile in sorted(piles.items())]
     assert shown == [(lower, upper) for _, lower, upper in obstruction.value]
-    below = [p for p in ax.patches if isinstance(p, Polygon) and p.get_xy()[:, 1].max() < -0.4]
+    below = [p for p in ax.patches if isinstance(p, PathPatch) and p.get_path().vertices[:, 1].max() < -0.4]
     expected = Counter(sheet_colour(s) for _, *pair in obstruction.value for s in pair)
     assert Counter(to_hex(p.get_facecolor()) for p in below) == expected
     assert " ".join(ax.texts[-1].get_text().split()) == str(obstruction)
@@ -105,7 +106,7 @@ def test_other_obstructions_have_their_places():
     ax = plot_obstruction(kinked, pf.find_immersion(kinked))
     (negative,) = [p for p in ax.patches if to_hex(p.get_edgecolor()) == OBSTRUCTION]
     (cell,) = np.flatnonzero(kinked.winding < 0)
-    assert shapely.Polygon(negative.get_xy()).equals(shapely.Polygon(unit(kinked.cell_outline(cell), kinked.curve)))
+    assert painted(negative).equals(shapely.Polygon(unit(kinked.cell_outline(cell), kinked.curve)))
     ramp = pf.find_immersion([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)])
     fault = embed_cased(ramp.arrangement, [True, True, False, True])
     ax = plot_obstruction(ramp, fault)

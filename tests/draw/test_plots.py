@@ -7,6 +7,7 @@ import shapely
 from matplotlib.colors import rgb_to_hsv, to_hex, to_rgb
 
 from coarse import CURVES
+from painted import painted
 from plyfold import Arrangement, arrange, find_immersion, find_layering, lift
 from plyfold.colours import INK, OBSTRUCTION, mix, sheet_colour, winding_colour
 from plyfold.draw import plot_arrangement, plot_layers, plot_layout, plot_surface
@@ -25,13 +26,21 @@ def flat_surface(heights=(0.0, 0.0, 0.0, 0.0)):
     corners = np.column_stack([[(0, 0), (4, 0), (4, 3), (0, 3)], heights])
     faces = np.array([(0, 1, 2), (0, 2, 3)])
     layering = SimpleNamespace(immersion=SimpleNamespace(arrangement=SimpleNamespace(n_crossings=0)))
-    return Stub(vertices=corners, faces=faces, boundary=np.arange(4), intersections=(), layering=layering)
+    return Stub(
+        vertices=corners,
+        faces=faces,
+        boundary=np.arange(4),
+        first_boundary=np.array([0, 4]),
+        cusps=np.empty(0, dtype=int),
+        intersections=(),
+        layering=layering,
+    )
 
 
 def areas_by_colour(ax):
     areas = Counter()
     for patch in ax.patches:
-        areas[to_hex(patch.get_facecolor())] += shapely.Polygon(patch.get_xy()).area
+        areas[to_hex(patch.get_facecolor())] += painted(patch).area
     return areas
 
 
@@ -158,7 +167,7 @@ def test_intersections_are_red_lines():
 def test_size_of_the_drawing_does_not_matter(scale):
     small, plain = (plot_arrangement(arrange(RAMP * s)) for s in (scale, 1.0))
     for first, second in zip(small.patches, plain.patches, strict=True):
-        assert first.get_xy() == pytest.approx(second.get_xy())
+        assert first.get_path().vertices == pytest.approx(second.get_path().vertices)
     surface = flat_surface()
     surface.vertices = surface.vertices * scale
     images = [plot_surface(s, pixels=40).images[0].get_array() for s in (surface, flat_surface())]

@@ -26,7 +26,9 @@ def small_surface(scale=1.0, shift=0.0):
         boundary=np.array([0, 1, 2, 3]),
         gap=1.0,
         intersections=(),
-        layering=SimpleNamespace(level=np.array([1, 2]), immersion=SimpleNamespace(sheet_cell=np.array([1, 2]))),
+        layering=SimpleNamespace(
+            level=np.array([1, 2]), immersion=SimpleNamespace(sheet_cell=np.array([1, 2]), is_disk=True)
+        ),
         unwrap=no_disk,
     )
 

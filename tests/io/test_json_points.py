@@ -3,7 +3,13 @@ import json
 import pytest
 
 from plyfold.errors import CurveError, FileFormatError, InputError, StrokeError
-from plyfold.io.json_points import read_json
+from plyfold.io.json_points import shapes_in_json
+from plyfold.io.shapes import outline_of_shapes
+
+
+def read_json(text):
+    return outline_of_shapes(shapes_in_json(text))
+
 
 TRIANGLE = [[0, 0], [4, 0], [0, 3]]
 STROKES = [[[0, 0], [4, 0]], [[0, 3], [4, 0]], [[0, 3], [0, 0]]]
@@ -53,7 +59,7 @@ def test_open_lines_are_strokes():
         ("[" * 100_000, FileFormatError, "broken JSON"),
         ("[[" + "9" * 5000 + ", 0]]", FileFormatError, "broken JSON"),
         ("3", FileFormatError, "neither a list nor an object"),
-        ('{"loop": []}', FileFormatError, "neither points nor strokes"),
+        ('{"loop": []}', FileFormatError, "neither loops nor points nor strokes"),
         ('{"points": 3}', FileFormatError, r"not a list of \[x, y\]"),
         ('[{"x": 1, "y": 2}]', FileFormatError, r"not a list of \[x, y\]"),
         ('{"strokes": 3}', FileFormatError, "not a list of lists"),
@@ -78,17 +84,17 @@ def test_broken_points(text, error, message):
 @pytest.mark.parametrize(
     ("value", "message"),
     [
-        (polygon(RING, RING), "rings of the polygon are 2"),
-        (polygon(), "rings of the polygon are 0"),
-        ({"type": "Point", "coordinates": [0, 0]}, "'Point' is not one closed curve"),
-        ({"type": ["Polygon"]}, "not one closed curve"),
+        (polygon(), "a polygon has no ring"),
+        ({"type": "Point", "coordinates": [0, 0]}, "holds points alone"),
+        ({"type": ["Polygon"]}, "is no line or polygon"),
+        ({"type": "Circle", "coordinates": [0, 0]}, "'Circle' is no line or polygon"),
         ({"type": "Polygon"}, "list is missing"),
         ({"type": "Polygon", "coordinates": 3}, "list is missing"),
         ({"type": "Polygon", "coordinates": [[3, 4]]}, "list is missing"),
         ({"type": "Feature"}, "geometry is missing"),
-        ({"type": "FeatureCollection", "features": []}, "holds 0, not one"),
-        ({"type": "FeatureCollection", "features": [{}, {}]}, "holds 2, not one"),
-        ({"type": "MultiPolygon", "coordinates": [[RING], [RING]]}, "holds 2, not one"),
+        ({"type": "FeatureCollection", "features": []}, "the FeatureCollection holds nothing"),
+        ({"type": "FeatureCollection", "features": [{}, {}]}, "'None' is no line or polygon"),
+        ({"type": "MultiPolygon", "coordinates": []}, "a polygon has no ring"),
     ],
 )
 def test_broken_geojson(value, message):

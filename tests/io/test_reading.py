@@ -127,10 +127,10 @@ def test_too_large_standard_input(monkeypatch):
         read("-")
 
 
-def test_an_id_is_for_svg_only(tmp_path):
+def test_an_id_is_for_files_that_have_some(tmp_path):
     path = tmp_path / "loop.csv"
     path.write_bytes(CONTENT["csv"])
-    with pytest.raises(FileFormatError, match="by id"):
+    with pytest.raises(FileFormatError, match="nothing in it has the id 'a'"):
         read(path, id="a")
 
 

@@ -4,7 +4,17 @@ import numpy as np
 import pytest
 
 from plyfold.errors import CurveError, FileFormatError, StrokeError
-from plyfold.io.tables import read_npy, read_table
+from plyfold.io.shapes import outline_of_shapes
+from plyfold.io.tables import shapes_in_npy, shapes_in_table
+
+
+def read_npy(data):
+    return outline_of_shapes(shapes_in_npy(data))
+
+
+def read_table(text):
+    return outline_of_shapes(shapes_in_table(text))
+
 
 TRIANGLE = [[0, 0], [4, 0], [0, 3]]
 

@@ -221,7 +221,7 @@ def test_time_is_limited():
 PROGRAM = """
 import threading
 from types import SimpleNamespace
-from plyfold.layering.sat import in_time
+from plyfold.sat import in_time
 
 stopped = threading.Event()
 

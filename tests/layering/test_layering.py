@@ -12,8 +12,8 @@ from coarse import CURVES
 from plyfold.errors import InputError, NotEmbeddableError, TimeLimitError
 from plyfold.layering.orders.counting import count_layerings
 from plyfold.layering.orders.search import first_layering
-from plyfold.layering.sat import minimal_core, solve
 from plyfold.obstruction import Unknown
+from plyfold.sat import minimal_core, solve
 from reference.random_curves import glued_disk
 
 # The lines of the Fano plane: however seven points get two colours, one of the seven lines has only one.

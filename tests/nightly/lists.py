@@ -39,10 +39,14 @@ def through_the_frame(rng: np.random.Generator) -> list[Polygon]:
 
 
 def levels(surface: pf.Layering) -> tuple[int, ...]:
-    """The levels of all borders in the order of the reference, where those of loops without crossings come last."""
-    alone = surface.immersion.arrangement.start_visit < 0
-    level = surface.border_level
-    return (*level[~alone].tolist(), *level[alone].tolist())
+    """The levels behind all visits to crossings, and then those of loops without crossings; marks change nothing."""
+    drawn, level = surface.immersion.arrangement, surface.border_level
+    crossing = drawn.border_after[drawn.crossing_visits]
+    alone = np.setdiff1d(drawn.loop_of_border, drawn.loop_of_border[crossing])
+    first_border = np.searchsorted(drawn.loop_of_border, alone)
+    marks = np.setdiff1d(np.arange(len(drawn.partner)), drawn.crossing_visits)
+    assert (level[drawn.border_before[marks]] == level[drawn.border_after[marks]]).all()
+    return (*level[crossing].tolist(), *level[first_border].tolist())
 
 
 def judge_list(loops: list[Polygon]) -> None:

@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plyfold.errors import CurveError, InputError, StrokeError
-from plyfold.outline.curve import Curve, Repair, as_curve
+from plyfold.outline.curve import Curve, Outline, Repair
+from plyfold.outline.given import as_curve, as_outline
 
 TRIANGLE = [(0, 0), (4, 0), (0, 3)]
 PLACES = st.tuples(st.integers(-3, 3), st.integers(-3, 3))
@@ -174,7 +175,7 @@ def test_repair_is_a_sentence():
         shapely.GeometryCollection([shapely.MultiPolygon([shapely.Polygon(TRIANGLE)])]),
         np.array(TRIANGLE),
         Curve(TRIANGLE),
-        SimpleNamespace(curve=Curve(TRIANGLE)),
+        SimpleNamespace(outline=Curve(TRIANGLE)),
     ],
 )
 def test_as_curve_accepts_what_stands_for_a_curve(geometry):
@@ -189,12 +190,12 @@ def test_as_curve_returns_a_curve_itself():
 @pytest.mark.parametrize(
     ("value", "message"),
     [
-        (shapely.box(0, 0, 9, 9).difference(shapely.box(1, 1, 2, 2)), "hole"),
-        (shapely.Point(0, 0), "Point is not one closed curve"),
-        (shapely.MultiPoint(TRIANGLE), "not one closed curve"),
+        (shapely.box(0, 0, 9, 9).difference(shapely.box(1, 1, 2, 2)), "2 loops"),
+        (shapely.Point(0, 0), "Point is not one outline"),
+        (shapely.MultiPoint(TRIANGLE), "not one outline"),
         (shapely.Polygon(), "empty"),
-        (shapely.MultiPolygon([shapely.box(0, 0, 1, 1), shapely.box(2, 2, 3, 3)]), "not one closed curve"),
-        (SimpleNamespace(curve=None), "no coordinates"),
+        (shapely.MultiPolygon([shapely.box(0, 0, 1, 1), shapely.box(2, 2, 3, 3)]), "2 loops"),
+        (SimpleNamespace(outline=None), "no coordinates"),
         ("loop.svg", "text is not a list of points"),
         (None, "shape|real numbers"),
     ],
@@ -215,3 +216,63 @@ def test_an_open_line_of_a_geometry_must_nearly_close():
 def test_input_errors_are_value_errors():
     assert issubclass(CurveError, InputError)
     assert issubclass(CurveError, ValueError)
+
+
+SQUARE = [(0, 0), (9, 0), (9, 9), (0, 9)]
+HOLE = [(1, 1), (1, 3), (3, 1)]
+
+
+def test_an_outline_numbers_its_loops_one_after_the_other():
+    outline = Outline([SQUARE, HOLE])
+    assert outline.n_loops == 2
+    assert outline.points.tolist() == [list(map(float, point)) for point in SQUARE + HOLE]
+    assert outline.first_point.tolist() == [0, 4, 7]
+    assert outline.next_point.tolist() == [1, 2, 3, 0, 5, 6, 4]
+    assert outline.rows.tolist() == list(range(7))
+    assert [len(curve) for curve in outline.curves] == [4, 3]
+
+
+def test_rows_count_the_points_that_were_left_out():
+    outline = Outline([[*SQUARE, SQUARE[0]], [HOLE[0], *HOLE]])
+    assert outline.rows.tolist() == [0, 1, 2, 3, 5, 7, 8]
+    assert len(outline.repairs) == 1
+
+
+def test_cusps_of_points_left_out_go_to_the_point_that_they_repeat():
+    curve = Curve([(0, 0), (1, 0), (1, 0), (0, 1), (0, 1), (0, 0)], cusps={2: 1, 4: 2, 5: 3})
+    assert [index.tolist() for index in curve.cusps] == [[3, 1, 2]]
+
+
+def test_cusps_follow_a_reversal_and_lists_of_curves():
+    outline = as_outline([Curve(SQUARE, cusps=[0, 1, 0, 0]), HOLE]).reversed()
+    assert [index.tolist() for index in outline.cusps] == [[0, 0, 0, 1], [0, 0, 0]]
+    assert outline.has_cusps
+    assert not Outline([SQUARE]).has_cusps
+
+
+@pytest.mark.parametrize(
+    ("loops", "cusps", "message"),
+    [
+        ([], None, "no loop"),
+        ([SQUARE, [(0, 0)]], None, "curve 1 of 2"),
+        ([SQUARE], [[0, 0.5, 0, 0]], "whole number"),
+        ([SQUARE], [[0, -1, 0, 0]], "whole number"),
+        ([SQUARE], [[0, 1]], "4 points have the shape"),
+        ([SQUARE], [[0] * 4, [0] * 4], "2 loops"),
+        ([SQUARE], {(1, 0): 1}, "no point 0 of loop 1"),
+        ([SQUARE], {(0, 4): 1}, "no point 4 of loop 0"),
+        ([SQUARE], {(0, 0): True}, "whole number"),
+    ],
+)
+def test_an_outline_refuses_what_it_cannot_be(loops, cusps, message):
+    with pytest.raises(CurveError, match=message):
+        Outline(loops, cusps)
+
+
+def test_polygons_with_holes_have_the_surface_on_the_left():
+    clockwise = shapely.Polygon(SQUARE[::-1], [HOLE[::-1]])
+    outline = as_outline(clockwise)
+    assert outline.loops[0].tolist() == [[0, 9], [0, 0], [9, 0], [9, 9]]
+    assert shapely.LinearRing(outline.loops[0]).is_ccw
+    assert not shapely.LinearRing(outline.loops[1]).is_ccw
+    assert not shapely.LinearRing(as_outline(shapely.Polygon(SQUARE[::-1])).points).is_ccw

@@ -254,6 +254,13 @@ def census(crossings: int) -> tuple[GaussCode, ...]:
 
 
 @lru_cache
+def nonnegative_curves(crossings: int) -> tuple[GaussCode, ...]:
+    """All plane curves up to reflection, in both directions, that have no negative winding number."""
+    both = {copy for code in census(crossings) for copy in (code, reversed_code(code))}
+    return tuple(code for code in sorted(both) if min(windings(code)) >= 0)
+
+
+@lru_cache
 def oriented_census(crossings: int, turning: int = 1) -> tuple[GaussCode, ...]:
     """One code for every oriented curve with that turning number; mirror images and reversed curves count apart."""
     seen: set[GaussCode] = set()

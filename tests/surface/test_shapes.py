@@ -1,5 +1,7 @@
 """What the heights look like: symmetric, smooth, monotone; and what pins, stiffness and flat parts do to them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -38,7 +40,15 @@ def renumbered(points, mesh, rng):
     new_points[p] = points
     planar[v], level[v] = p[mesh.planar_vertex], mesh.level
     stacked = v[mesh.stacked][rng.permutation(len(mesh.stacked))]
-    other = LiftedMesh(planar, v[mesh.faces][f], mesh.sheet[f], v[mesh.boundary], level, stacked, mesh.passing)
+    other = replace(
+        mesh,
+        planar_vertex=planar,
+        faces=v[mesh.faces][f],
+        sheet=mesh.sheet[f],
+        boundary=v[mesh.boundary],
+        level=level,
+        stacked=stacked,
+    )
     return new_points, other, v
 
 
@@ -59,15 +69,7 @@ def test_turned_upside_down(name):
     points, mesh = glued(name)
     top = np.zeros(len(points), dtype=int)
     np.maximum.at(top, mesh.planar_vertex, mesh.level)
-    over = LiftedMesh(
-        mesh.planar_vertex,
-        mesh.faces,
-        mesh.sheet,
-        mesh.boundary,
-        top[mesh.planar_vertex] - mesh.level,
-        mesh.stacked[:, ::-1],
-        mesh.passing,
-    )
+    over = replace(mesh, level=top[mesh.planar_vertex] - mesh.level, stacked=mesh.stacked[:, ::-1])
     z, turned = smooth_heights(points, mesh, 1.0), smooth_heights(points, over, 1.0)
     assert turned == pytest.approx(z.max() - z, abs=1e-3)
 
@@ -260,7 +262,8 @@ def test_stiffer_cloth_bends_less():
 def _as_mesh(surface):
     n = np.arange(len(surface.vertices))
     none = np.empty((0, 2), dtype=int)
-    return LiftedMesh(n, surface.faces, surface.sheet, surface.boundary, 0 * n, none, none)
+    ends = surface.boundary, surface.first_boundary, surface.cusps
+    return LiftedMesh(n, surface.faces, surface.sheet, *ends, 0 * n, none, none)
 
 
 def test_sheets_that_meet_themselves_cannot_be_level():

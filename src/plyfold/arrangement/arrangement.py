@@ -2,36 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, Literal, NamedTuple, cast
+from typing import Any, Literal, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrangement.general_position import in_general_position
 from plyfold.arrangement.leftmost import leftmost_crossing
+from plyfold.arrangement.maps import (
+    Code,
+    Map,
+    cell_of_each_dart,
+    in_bounded_cells,
+    numbered_crossings,
+    oriented,
+    outer_dart,
+    walked_round,
+)
+from plyfold.arrangement.marks import cusps_of_outline, cusps_on_borders, with_marks
 from plyfold.arrangement.nesting import nest
 from plyfold.arrangement.planar_map import (
     borders_at_visits,
-    cell_boundaries,
-    cell_windings,
     checked_code,
-    joined_cells,
-    left_windings,
-    next_darts,
-    reversed_code,
-    whitney_turning_number,
+    windings_of_loops,
 )
 from plyfold.arrangement.polylines import inner_points, polygon_turning_number, total_winding
 from plyfold.arrays import Bools, Floats, Ints, freeze
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GaussCodeError, InputError, PlyfoldError
 from plyfold.graphs import components
-from plyfold.outline.curve import Coded, Curve, CurveLike, OutlineLike, are_several, as_curve, as_curves
-from plyfold.predicates import cross_sign
+from plyfold.outline.curve import Curve, Outline
+from plyfold.outline.given import Coded, CurveLike, OutlineLike, are_several, as_outline
 
 __all__ = ["Arrangement", "CurveLike", "arrange", "require_one_loop", "watched_arrangement"]
 
@@ -44,11 +49,11 @@ class Arrangement:
 
     Parameters
     ----------
-    partner : (2k,) int
+    partner : (visits,) int
         Visits are numbered in order along the curve, one loop after the other; visit p meets visit ``partner[p]`` at
-        the same crossing.
-    ccw : (2k,) bool
-        True where the other strand crosses from right to left.
+        the same crossing. A *mark*, which is a cusp or the foot of a bridge, counts as a visit that is its own partner.
+    ccw : (visits,) bool
+        True where the other strand crosses from right to left; not at marks.
     outer : int
         A dart of the unbounded cell. Dart 2i is border i forward, 2i + 1 backward. The cell meant is on the dart's
         left.
@@ -67,18 +72,23 @@ class Arrangement:
         Winding number of each cell, all loops added up.
     turning_numbers : tuple of int
         Total rotation of each loop's tangent in full turns.
-    crossing_of_visit : (2k,) int
-        Crossings are numbered in the order in which the curve first visits them.
+    crossing_of_visit : (visits,) int
+        Crossings are numbered in the order in which the curve first visits them; −1 at marks.
+    cusp_index : (visits,) int
+        By how many full turns the surface's angle is larger than the one that is seen: 0 but at cusps.
     bridges : (b, 2) int
-        Where loops do not hang together: two darts, one of a group of loops at its leftmost vertex and the one straight
-        to the left of it, with the same cell on their left. Borders and bridges together connect the boundary of every
-        bounded cell. A group with nothing on its left has no bridge.
-    curves : tuple of Curve
-        The loops as they were used, oriented and in general position; empty if only the code is known.
+        Where loops do not hang together, bridges join them: each has two darts that start at its feet, with the cell on
+        their left in which it runs. The first foot is at the leftmost vertex of a group of loops, the second one
+        straight to the left of it. Borders and bridges together connect the boundary of every bounded cell.
+    outline : Outline
+        The loops as they were used, oriented and in general position; None if only the code is known.
     crossings : (k, 2) float
         Positions, rounded to double precision; (0, 2) if only the code is known.
-    visit_edge : (2k,) int
-        Edge of its loop on which each visit lies; empty if only the code is known.
+    visit_edge : (visits,) int
+        Edge of the outline on which each visit lies, counted over all loops; a cusp lies on the edge that starts there.
+        Empty if only the code is known.
+    marks : (m, 2) float
+        Positions of the marks in the order of their visits, rounded; (0, 2) if only the code is known.
     reversed : bool
         True if the input was turned round: all winding numbers were 0 or negative, or a single curve with winding
         numbers of both signs had a negative turning number.
@@ -92,8 +102,8 @@ class Arrangement:
     >>> eight.n_crossings, eight.turning_number, sorted(eight.winding.tolist())
     (1, 0, [-1, 0, 1])
     >>> annulus = arrange([[(0, 0), (9, 0), (0, 9)], [(1, 1), (1, 3), (3, 1)]])
-    >>> annulus.winding.tolist(), annulus.turning_numbers, annulus.bridges.tolist()
-    ([0, 1, 0], (1, -1), [[2, 0]])
+    >>> annulus.winding.tolist(), annulus.turning_numbers, annulus.bridges.tolist(), annulus.partner.tolist()
+    ([0, 1, 0], (1, -1), [[2, 0]], [0, 1])
     """
 
     partner: Ints
@@ -107,10 +117,12 @@ class Arrangement:
     winding: Ints
     turning_numbers: tuple[int, ...]
     crossing_of_visit: Ints
+    cusp_index: Ints
     bridges: Ints = field(default_factory=lambda: np.empty((0, 2), dtype=np.int64))
-    curves: tuple[Curve, ...] = ()
+    outline: Outline | None = None
     crossings: Floats = field(default_factory=lambda: np.empty((0, 2)))
     visit_edge: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    marks: Floats = field(default_factory=lambda: np.empty((0, 2)))
     reversed: bool = False
     exact_signs: int = 0
 
@@ -118,7 +130,9 @@ class Arrangement:
         freeze(self)
 
     @classmethod
-    def from_gauss(cls, partner: npt.ArrayLike, ccw: npt.ArrayLike, outer: int) -> Arrangement:
+    def from_gauss(
+        cls, partner: npt.ArrayLike, ccw: npt.ArrayLike, outer: int, cusps: Mapping[int, int] | None = None
+    ) -> Arrangement:
         """Build the arrangement of a signed Gauss code.
 
         Parameters
@@ -129,6 +143,8 @@ class Arrangement:
             True where the other strand crosses from right to left.
         outer : int
             A dart whose left cell is to be the unbounded one.
+        cusps : mapping from border to int, optional
+            Borders of the code that have a cusp, and its index.
 
         Returns
         -------
@@ -145,81 +161,64 @@ class Arrangement:
         >>> limacon = Arrangement.from_gauss([1, 0], [True, False], outer=1)
         >>> limacon.turning_number, limacon.winding.tolist()
         (2, [0, 1, 2])
+        >>> Arrangement.from_gauss([1, 0], [True, False], outer=1, cusps={0: 1}).euler_characteristic
+        1
         """
-        return cls._of_code(_oriented(*checked_code(partner, ccw, outer)))
-
-    @classmethod
-    def _of_code(cls, code: _OrientedCode, **more: Any) -> Arrangement:
-        """Return the arrangement of one curve."""
-        visits, following = len(code.partner), next_darts(code.partner, code.ccw)
-        boundaries = cell_boundaries(following, code.outer)
-        cells = len(boundaries[0]) - 1
-        if cells != visits // 2 + 2:
+        used, turning, turned_round = oriented(*checked_code(partner, ccw, outer))
+        marks = cusps_on_borders(used.code, cusps or {}, turned_round)
+        arranged = cls._of_map(with_marks(used, marks), (turning,), None, reversed=turned_round)
+        cells = 2 + arranged.n_crossings
+        if arranged.n_cells != cells:
             raise GaussCodeError(
-                f"the code draws {cells} cells, and a plane curve with {visits // 2} crossings has {visits // 2 + 2}",
+                f"the code draws {arranged.n_cells} cells, and a plane curve with {cells - 2} crossings has {cells}",
                 hint="check partner and ccw: this code belongs to a curve on a surface with handles",
             )
-        cell_of_dart = _cell_of_each_dart(*boundaries)
-        winding = np.empty(cells, dtype=np.int64)
+        return arranged
+
+    @classmethod
+    def _of_map(cls, drawn: Map, turning: tuple[int, ...], outline: Outline | None, **more: Any) -> Arrangement:
+        """Return the arrangement of loops whose cells are still to be walked round."""
+        code = drawn.code
+        following, *boundaries = walked_round(drawn)
+        cell_of_dart = cell_of_each_dart(*boundaries)
+        winding = np.empty(len(boundaries[0]) - 1, dtype=np.int64)
         winding[cell_of_dart[0::2]] = code.left
         winding[cell_of_dart[1::2]] = code.left - 1
         return cls(
             partner=code.partner,
             ccw=code.ccw,
-            outer=code.outer,
-            first_visit=np.array([0, visits]),
+            outer=int(drawn.outside[0]),
+            first_visit=code.first_visit,
             next_dart=following,
             cell_of_dart=cell_of_dart,
             cell_start=boundaries[0],
             cell_darts=boundaries[1],
             winding=winding,
-            turning_numbers=(code.turning_number,),
-            crossing_of_visit=_number_crossings(code.partner),
-            reversed=code.reversed,
+            turning_numbers=turning,
+            crossing_of_visit=numbered_crossings(code.partner),
+            cusp_index=code.cusp_index,
+            bridges=drawn.bridges,
+            outline=outline,
+            visit_edge=code.edge if outline else code.edge[:0],
+            marks=drawn.places if outline else drawn.places[:0],
             **more,
-        )
-
-    @classmethod
-    def _of_loops(cls, curves: tuple[Curve, ...], watch: Watch) -> Arrangement:
-        """Return the arrangement of several curves as they are directed."""
-        found = nest(curves, watch)
-        visits, outer = found.visits, found.outside[0]
-        following = next_darts(visits.partner, visits.ccw, found.first_visit)
-        same_cell = np.array([*found.bridges.tolist(), *((outer, other) for other in found.outside)], dtype=np.int64)
-        boundaries = joined_cells(*cell_boundaries(following, outer), same_cell)
-        cell_of_dart = _cell_of_each_dart(*boundaries)
-        return cls(
-            partner=visits.partner,
-            ccw=visits.ccw,
-            outer=outer,
-            first_visit=found.first_visit,
-            next_dart=following,
-            cell_of_dart=cell_of_dart,
-            cell_start=boundaries[0],
-            cell_darts=boundaries[1],
-            winding=cell_windings(cell_of_dart),
-            turning_numbers=tuple(polygon_turning_number(curve.points) for curve in curves),
-            crossing_of_visit=_number_crossings(visits.partner),
-            bridges=found.bridges,
-            curves=curves,
-            crossings=visits.point[np.arange(len(visits.point)) < visits.partner],
-            visit_edge=visits.edge,
-            exact_signs=visits.exact_signs,
         )
 
     def gauss_code(self) -> tuple[list[int], list[bool], int]:
         """Return ``(partner, ccw, outer)`` of one curve as plain lists, ready for :meth:`from_gauss`."""
         require_one_loop(self, "a Gauss code")
+        if self.cusp_index.any():
+            raise InputError("a Gauss code has no cusps", self.marks, hint="take the code of the outline without them")
         return self.partner.tolist(), self.ccw.tolist(), self.outer
 
     @property
     def curve(self) -> Curve | None:
         """The curve as it was used, oriented and in general position; None if only the code is known.
 
-        Raises :class:`~plyfold.errors.InputError` if there are several: :attr:`curves` has them all.
+        Raises :class:`~plyfold.errors.InputError` if there are several: :attr:`outline` has them all.
         """
         require_one_loop(self)
-        return self.curves[0] if self.curves else None
+        return cast("Curve | None", self.outline)
 
     @property
     def n_loops(self) -> int:
@@ -229,11 +228,11 @@ class Arrangement:
     @property
     def n_crossings(self) -> int:
         """Number of crossings, k."""
-        return len(self.partner) // 2
+        return int(np.count_nonzero(self.ccw))
 
     @property
     def n_borders(self) -> int:
-        """Number of borders: 2k, and 1 for each loop that crosses neither itself nor another."""
+        """Number of borders: 2k, 1 more for each mark, and 1 for each loop that has no visit."""
         return len(self.cell_of_dart) // 2
 
     @property
@@ -246,19 +245,37 @@ class Arrangement:
         """Total rotation of the tangents in full turns, all loops added up."""
         return sum(self.turning_numbers)
 
+    @property
+    def euler_characteristic(self) -> int:
+        """That of every surface bounded by the outline: its full turns, less those that are too many at cusps."""
+        return self.turning_number - int(self.cusp_index.sum())
+
+    @cached_property
+    def crossing_visits(self) -> Ints:
+        """The visits to crossings, shape (2k,): all but the marks."""
+        return np.flatnonzero(self.partner != np.arange(len(self.partner)))
+
+    @cached_property
+    def visit_point(self) -> Floats:
+        """Where each visit is, rounded, shape (visits, 2). It needs a drawing."""
+        point = np.empty((len(self.partner), 2))
+        is_mark = self.crossing_of_visit < 0
+        point[~is_mark], point[is_mark] = self.crossings[self.crossing_of_visit[~is_mark]], self.marks
+        return point
+
     @cached_property
     def border_before(self) -> Ints:
-        """The border that ends at each visit, shape (2k,)."""
+        """The border that ends at each visit, shape (visits,)."""
         return borders_at_visits(self.first_visit)[0]
 
     @cached_property
     def border_after(self) -> Ints:
-        """The border that starts at each visit, shape (2k,). For one curve it has the visit's number."""
+        """The border that starts at each visit, shape (visits,). For one curve it has the visit's number."""
         return borders_at_visits(self.first_visit)[1]
 
     @cached_property
     def start_visit(self) -> Ints:
-        """The visit at which each border starts, shape (borders,); −1 for a loop without crossings."""
+        """The visit at which each border starts, shape (borders,); −1 for a loop without visits."""
         visit = np.full(self.n_borders, -1)
         visit[self.border_after] = np.arange(len(self.partner))
         return visit
@@ -333,20 +350,29 @@ class Arrangement:
         return int(visits[leftmost_crossing(self.curve.points, edge, other)])
 
     def border_points(self, border: int) -> Floats:
-        """Return the polyline of a border, shape (m, 2), from crossing to crossing with both ends.
+        """Return the polyline of a border, shape (m, 2), from visit to visit with both ends.
 
-        The border of a loop without crossings is all its points, the first one not repeated. Raises
+        The border of a loop without visits is all its points, the first one not repeated. Raises
         :class:`~plyfold.errors.PlyfoldError` if only the code is known.
         """
-        points: Floats = self._drawn()[self.loop_of_border[border]].points
-        visits = self.start_visit[[border, self.next_border[border]]]
-        if visits[0] < 0:
-            return points
-        n = len(points)
-        start, end = self.visit_edge[visits]
-        inner = points[(start + 1 + np.arange((end - start) % n)) % n]
-        ends = self.crossings[self.crossing_of_visit[visits]]
-        return np.concatenate([ends[:1], inner, ends[1:]])
+        outline = self._drawn()
+        start, end = self.start_visit[[border, self.next_border[border]]].tolist()
+        loop = int(self.loop_of_border[border])
+        if start < 0:
+            return outline.loops[loop]
+        first, n = outline.first_point[loop], len(outline.loops[loop])
+        edge, last = self.visit_edge[[start, end]].tolist()
+        inner = np.arange(edge + 1, last + 1 + n * (end <= start))
+        if len(inner) and self._is_vertex[end]:
+            inner = inner[:-1]
+        points = outline.loops[loop][(inner - first) % n]
+        return np.concatenate([self.visit_point[[start]], points, self.visit_point[[end]]])
+
+    @cached_property
+    def _is_vertex(self) -> Bools:
+        """Which visits are marks at vertices."""
+        there = self.visit_point == self._drawn().points[self.visit_edge]
+        return np.asarray(there.all(axis=1) & (self.crossing_of_visit < 0))
 
     def cell_outline(self, cell: int) -> Floats:
         """Return the boundary polygon of a cell, shape (m, 2), counter-clockwise for bounded cells.
@@ -373,7 +399,10 @@ class Arrangement:
         for dart in darts.tolist():
             points = self.border_points(dart // 2)
             points = points[::-1] if dart % 2 else points
-            pieces.append(points if self.start_visit[dart // 2] < 0 else points[:-1])
+            start = self.start_visit[self.next_border[dart // 2] if dart % 2 else dart // 2]
+            # A foot in the middle of an edge is no corner.
+            is_corner = start < 0 or self.partner[start] != start or self._is_vertex[start]
+            pieces.append(points[not is_corner : len(points) - (start >= 0)])
         return np.concatenate(pieces)
 
     def cell_point(self, cell: int) -> tuple[float, float]:
@@ -382,9 +411,9 @@ class Arrangement:
         The winding number of the point is checked exactly. Of a sliver so thin that no double lies inside, a point on
         its boundary is returned.
         """
-        loops = [curve.points for curve in self._drawn()]
+        loops = self._drawn().loops
         if cell == 0:
-            points = np.concatenate(loops)
+            points = self._drawn().points
             low, high = points.min(axis=0), points.max(axis=0)
             x, y = low - 0.05 * (high - low).max()
             return float(x), float(y)
@@ -396,16 +425,18 @@ class Arrangement:
         if self.n_loops > 1:
             kind = f"{self.n_loops} curves"
         else:
-            kind = f"a curve of {len(self.curves[0])} points" if self.curves else "a Gauss code"
+            kind = f"a curve of {len(self.outline)} points" if self.outline else "a Gauss code"
+        cusps = f", {np.count_nonzero(self.cusp_index)} cusps" if self.cusp_index.any() else ""
         exact = f", {self.exact_signs} exact signs" if self.exact_signs else ""
-        return f"<Arrangement of {kind}: {self.n_crossings} crossings, turning number {self.turning_number}{exact}>"
+        turning = f"turning number {self.turning_number}"
+        return f"<Arrangement of {kind}: {self.n_crossings} crossings, {turning}{cusps}{exact}>"
 
-    def _drawn(self) -> tuple[Curve, ...]:
-        if not self.curves:
+    def _drawn(self) -> Outline:
+        if self.outline is None:
             raise PlyfoldError(
                 "this arrangement is a Gauss code without a drawing", hint="build it from points to get positions"
             )
-        return self.curves
+        return self.outline
 
     def check(self) -> None:
         """Check the arrangement against the theorems it must obey.
@@ -418,31 +449,9 @@ class Arrangement:
         PlyfoldError
             Naming the theorem that failed. That would be a mistake in plyfold.
         """
-        for theorem, holds in self._theorems():
+        for theorem, holds in _theorems(self):
             if not holds:
                 raise PlyfoldError(f"internal check failed: {theorem}")
-
-    def _theorems(self) -> Iterator[tuple[str, bool]]:
-        left, right = self.winding[self.left_cell], self.winding[self.right_cell]
-        groups = 1 if self.n_loops == 1 else int(self.group_of_loop.max()) + 1
-        yield (
-            "Euler: as many cells as crossings and groups of loops, and one more",
-            (self.n_cells == self.n_crossings + groups + 1),
-        )
-        yield "every dart belongs to one cell", _same(np.sort(self.cell_darts), np.arange(2 * self.n_borders))
-        yield "a dart and the next one have the same cell", _same(self.cell_of_dart, self.cell_of_dart[self.next_dart])
-        yield "the unbounded cell winds 0 times", self.winding[self.cell_of_dart[self.outer]] == 0
-        yield "left of a border winds once more than right of it", _same(left, right + 1)
-        yield (
-            "the partner's partner is the visit itself",
-            _same(self.partner[self.partner], np.arange(len(self.partner))),
-        )
-        yield (
-            "turning number by crossings and by winding numbers agree",
-            self.turning_number == self.turning_by_windings(),
-        )
-        exterior = tuple(polygon_turning_number(curve.points) for curve in self.curves)
-        yield "turning numbers by crossings and by angles agree", exterior in ((), self.turning_numbers)
 
     def turning_by_windings(self) -> int:
         """Return the turning number, of all loops together, from the winding numbers alone.
@@ -451,26 +460,40 @@ class Arrangement:
         over the highest cell beside it; the Euler characteristic of all of them is the turning number, also where some
         count as negative.
         """
-        visited = self.border_after
-        at_crossings = self.winding[self.left_cell[np.where(self.ccw, self.border_before, visited)]].sum() // 2
+        visits = self.crossing_visits
+        visited, ccw = self.border_after[visits], self.ccw[visits]
+        at_crossings = self.winding[self.left_cell[np.where(ccw, self.border_before[visits], visited)]].sum() // 2
         along_borders = self.winding[self.left_cell[visited]].sum()
         return int(at_crossings - along_borders + (self.winding * (2 - self.n_cycles)).sum())
 
-    def _repr_svg_(self) -> str | None:
-        # Several curves have no picture yet.
+    def _repr_svg_(self) -> str:
         from plyfold.draw.svg import arrangement_svg
 
-        return arrangement_svg(self) if self.n_loops == 1 else None
+        return arrangement_svg(self)
+
+
+def _theorems(arranged: Arrangement) -> Iterator[tuple[str, bool]]:
+    left, right = arranged.winding[arranged.left_cell], arranged.winding[arranged.right_cell]
+    groups = 1 if arranged.n_loops == 1 else int(arranged.group_of_loop.max()) + 1
+    cells, darts, partner = arranged.n_crossings + groups + 1, np.arange(2 * arranged.n_borders), arranged.partner
+    yield "Euler: as many cells as crossings and groups of loops, and one more", arranged.n_cells == cells
+    yield "every dart belongs to one cell", _same(np.sort(arranged.cell_darts), darts)
+    cell_of_dart = arranged.cell_of_dart
+    yield "a dart and the next one have the same cell", _same(cell_of_dart, cell_of_dart[arranged.next_dart])
+    yield "the unbounded cell winds 0 times", arranged.winding[cell_of_dart[arranged.outer]] == 0
+    yield "left of a border winds once more than right of it", _same(left, right + 1)
+    yield "the partner's partner is the visit itself", _same(partner[partner], np.arange(len(partner)))
+    by_windings = arranged.turning_by_windings()
+    yield "turning number by crossings and by winding numbers agree", arranged.turning_number == by_windings
+    outline, numbers = arranged.outline, arranged.turning_numbers
+    exterior = tuple(map(polygon_turning_number, outline.loops)) if outline else numbers
+    yield "turning numbers by crossings and by angles agree", exterior == numbers
+    feet = cell_of_dart[arranged.bridges]
+    yield "both feet of a bridge stand in one cell", _same(feet[:, 0], feet[:, 1])
 
 
 def _same(first: npt.NDArray[np.int64], second: npt.NDArray[np.int64]) -> bool:
     return bool((first == second).all())
-
-
-def _number_crossings(partner: Ints) -> Ints:
-    visit = np.arange(len(partner))
-    first = visit < partner
-    return np.asarray((np.cumsum(first) - 1)[np.where(first, visit, partner)], dtype=np.int64)
 
 
 def arrange(curve: OutlineLike, general_position: Literal["perturb", "raise"] = "perturb") -> Arrangement:
@@ -525,16 +548,15 @@ def watched_arrangement(curve: OutlineLike, general_position: Literal["perturb",
     if hasattr(curve, "partner"):  # a GaussCode, which a module further on defines
         given = cast("Coded", curve)
         return Arrangement.from_gauss(given.partner, given.ccw, given.outer)
-    if not are_several(curve):
-        return _of_curve(as_curve(curve), general_position, watch)
-    several = cast("Sequence[CurveLike]", curve)
-    if len(several) == 1:
+    if are_several(curve) and len(several := cast("Sequence[CurveLike]", curve)) == 1:
         return watched_arrangement(several[0], general_position, watch)
-    curves = as_curves(several)
-    arranged = Arrangement._of_loops(curves, watch)
-    if arranged.winding.max() > 0:
-        return arranged
-    return replace(Arrangement._of_loops(tuple(loop.reversed() for loop in curves), watch), reversed=True)
+    outline = as_outline(curve)
+    if isinstance(outline, Curve):
+        return _of_curve(outline, general_position, watch)
+    if outline.n_loops == 1:
+        return _of_curve(outline.curves[0], general_position, watch)
+    arranged = _of_loops(outline, False, watch)
+    return arranged if arranged.winding.max() > 0 else _of_loops(outline.reversed(), True, watch)
 
 
 def require_one_loop(arranged: Arrangement, what: str = "this") -> None:
@@ -550,50 +572,29 @@ def _of_curve(curve: Curve, general_position: Literal["perturb", "raise"], watch
     separated, visits = in_general_position(curve, general_position, watch)
     watch.step()
     edge, point = visits.edge, visits.point
-    code = _oriented(visits.partner, visits.ccw, _outer_dart(separated.points, edge))
-    if code.reversed:
+    used, turning, turned_round = oriented(visits.partner, visits.ccw, outer_dart(separated.points, edge))
+    if turned_round:
         separated, edge, point = separated.reversed(), len(separated) - 1 - edge[::-1], point[::-1]
-    return Arrangement._of_code(
-        code,
-        curves=(separated,),
-        crossings=point[np.arange(len(point)) < code.partner],
-        visit_edge=edge,
-        exact_signs=visits.exact_signs,
-    )
+    drawn = used._replace(code=used.code._replace(edge=edge))
+    marks = cusps_of_outline(separated, edge)
+    crossings = point[np.arange(len(point)) < used.code.partner]
+    settled = {"exact_signs": visits.exact_signs, "reversed": turned_round}
+    return Arrangement._of_map(with_marks(drawn, marks), (turning,), separated, crossings=crossings, **settled)
 
 
-class _OrientedCode(NamedTuple):
-    """The code of a curve in the direction in which it is used, with its winding numbers left of borders."""
-
-    partner: Ints
-    ccw: Bools
-    outer: int
-    left: Ints
-    turning_number: int
-    reversed: bool
-
-
-def _oriented(partner: Ints, ccw: Bools, outer: int) -> _OrientedCode:
-    """Turn a curve round if that makes all winding numbers positive; if nothing does, to a positive turning number."""
-    left, turning = left_windings(ccw, outer), whitney_turning_number(partner, ccw, outer)
-    no_negative, no_positive = left.min() > 0, left.max() <= 0
-    if no_negative or (turning >= 0 and not no_positive):
-        return _OrientedCode(partner, ccw, outer, left, turning, False)
-    partner, ccw, outer = reversed_code(partner, ccw, outer)
-    return _OrientedCode(partner, ccw, outer, left_windings(ccw, outer), -turning, True)
-
-
-def _cell_of_each_dart(cell_start: Ints, cell_darts: Ints) -> Ints:
-    cell_of_dart = np.empty_like(cell_darts)
-    cell_of_dart[cell_darts] = np.repeat(np.arange(len(cell_start) - 1), np.diff(cell_start))
-    return cell_of_dart
-
-
-def _outer_dart(points: Floats, visit_edge: Ints) -> int:
-    """Return a dart with the unbounded cell on its left: at the leftmost vertex, on its convex side."""
-    x, y = points.T
-    leftmost = np.flatnonzero(x == x.min())
-    corner = int(leftmost[y[leftmost].argmin()])
-    before, after = points[corner - 1], points[(corner + 1) % len(points)]
-    border = (int(np.searchsorted(visit_edge, corner)) - 1) % max(len(visit_edge), 1)
-    return 2 * border + int(cross_sign(before, points[corner], points[corner], after) > 0)
+def _of_loops(outline: Outline, turned_round: bool, watch: Watch) -> Arrangement:
+    """Return the arrangement of several loops as they are directed."""
+    found = nest(outline.loops, watch)
+    visits = found.visits
+    left = windings_of_loops(visits.partner, visits.ccw, found.first_visit, found.outside, found.bridges)
+    none = np.zeros(len(visits.partner), dtype=np.int64)
+    code = Code(visits.partner, visits.ccw, found.first_visit, left, visits.edge, none)
+    plain = Map(code, found.outside, found.bridges)
+    inner = in_bounded_cells(plain)
+    feet = [mark for number in inner for mark in found.feet[number]]
+    is_left = found.bridges[inner] % 2 == 0
+    drawn = with_marks(plain, cusps_of_outline(outline, visits.edge), feet, is_left)
+    crossings = visits.point[np.arange(len(visits.point)) < visits.partner]
+    turning = tuple(map(polygon_turning_number, outline.loops))
+    settled = {"exact_signs": visits.exact_signs, "reversed": turned_round}
+    return Arrangement._of_map(drawn, turning, outline, crossings=crossings, **settled)

@@ -45,7 +45,9 @@ def numbered_from(arrangement: Arrangement, base: int) -> Arrangement:
         cell_of_dart=begun_at(arrangement.cell_of_dart, 2 * base),
         cell_darts=cell_darts,
         crossing_of_visit=begun_at(arrangement.crossing_of_visit, base),
-        curves=(),
+        cusp_index=begun_at(arrangement.cusp_index, base),
+        outline=None,
+        marks=np.empty((0, 2)),
         crossings=np.empty((0, 2)),
         visit_edge=np.empty(0, dtype=np.int64),
     )

@@ -9,18 +9,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from plyfold.arrangement.crossings import Contacts, Visits, edge_ends, find_contacts, order_visits
 from plyfold.arrangement.general_position import touching_places
+from plyfold.arrangement.marks import Mark
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GeneralPositionError
 from plyfold.graphs import components
-from plyfold.outline.curve import Curve
 from plyfold.predicates import cross_sign, exact_parameter
 from plyfold.ragged import starts_of
+
+if TYPE_CHECKING:
+    from shapely import STRtree
 
 __all__ = ["Nest", "nest"]
 
@@ -32,25 +37,28 @@ class Nest:
     Parameters
     ----------
     visits : Visits
-        Along one loop after the other; each edge is one of its own loop.
+        Along one loop after the other; edges are counted over all loops.
     first_visit : (loops + 1,) int
         The number of each loop's first visit, and last the number of visits.
-    outside : tuple of int
+    outside : (o,) int
         Darts of the unbounded cell, one of each group that lies in it with nothing on its left; that of the leftmost
         vertex of all first.
     bridges : (b, 2) int
         For each other group the dart at its leftmost vertex, and the dart met to the left of it. Both have the cell
         between them on their left.
+    feet : list of pairs of Mark
+        Where each bridge starts and ends.
     """
 
     visits: Visits
     first_visit: Ints
-    outside: tuple[int, ...]
+    outside: Ints
     bridges: Ints
+    feet: list[tuple[Mark, Mark]]
 
 
-def nest(curves: Sequence[Curve], watch: Watch = UNWATCHED) -> Nest:
-    """Find the crossings of several closed curves with themselves and each other, and which lies inside which.
+def nest(loops: Sequence[Floats], watch: Watch = UNWATCHED) -> Nest:
+    """Find the crossings of several closed polylines with themselves and each other, and which lies inside which.
 
     Raises
     ------
@@ -63,25 +71,28 @@ def nest(curves: Sequence[Curve], watch: Watch = UNWATCHED) -> Nest:
     -----
     As for one curve, plus O(n) for each group.
     """
-    polyline = _one_after_the_other(curves)
+    polyline = _one_after_the_other(loops)
     visits = _visits(polyline, watch)
-    first_visit = np.searchsorted(polyline.loop[visits.edge], np.arange(len(curves) + 1))
-    plan = _Plan(polyline, visits, first_visit)
+    first_visit = np.searchsorted(polyline.loop[visits.edge], np.arange(len(loops) + 1))
     loop = polyline.loop[visits.edge]
-    group = components(len(curves), loop, loop[visits.partner])
-    outside, bridges = [], []
-    for corner, own in sorted(_corners(polyline, group), key=lambda found: tuple(polyline.points[found[0]])):
+    group = components(len(loops), loop, loop[visits.partner])
+    plan = _Plan(polyline, visits, first_visit, group[polyline.loop])
+    outside, bridges, feet = [], [], []
+    for number, corner in enumerate(_corners(plan)):
         watch.step()
-        dart, beyond = _outer_dart(plan, corner), _dart_on_the_left(plan, corner, own)
+        dart, beyond = _outer_dart(plan, corner), _met_on_the_left(plan, corner)
         if beyond is None:
             outside.append(dart)
         else:
-            bridges.append((dart, beyond))
+            foot = _foot_on_edge(plan, beyond, corner, number)
+            bridges.append((dart, 2 * plan.border(beyond, foot.at) + _is_upward(polyline, beyond)))
+            feet.append((_foot_at_vertex(plan, corner), foot))
     return Nest(
-        visits=replace(visits, edge=visits.edge - polyline.first_edge[loop]),
+        visits=replace(visits, edge=visits.edge - loop),
         first_visit=first_visit,
-        outside=tuple(outside),
+        outside=np.array(outside),
         bridges=np.array(bridges, dtype=np.int64).reshape(-1, 2),
+        feet=feet,
     )
 
 
@@ -95,8 +106,6 @@ class _Polyline:
     Parameters
     ----------
     points : (n, 2) float
-    first_edge : (loops,) int
-        Where each loop starts.
     loop : (n,) int
         The loop of each point and of the edge that starts there.
     vertex : (n,) int
@@ -106,21 +115,19 @@ class _Polyline:
     """
 
     points: Floats
-    first_edge: Ints
     loop: Ints
     vertex: Ints
     is_jump: Bools
 
 
-def _one_after_the_other(curves: Sequence[Curve]) -> _Polyline:
-    lengths = np.array([len(curve) + 1 for curve in curves])
+def _one_after_the_other(loops: Sequence[Floats]) -> _Polyline:
+    lengths = np.array([len(points) + 1 for points in loops])
     last = np.cumsum(lengths) - 1
     vertex = np.arange(int(lengths.sum()))
     vertex[last] -= lengths - 1
     return _Polyline(
-        points=np.concatenate([points for curve in curves for points in (curve.points, curve.points[:1])]),
-        first_edge=starts_of(lengths),
-        loop=np.repeat(np.arange(len(curves)), lengths),
+        points=np.concatenate([part for points in loops for part in (points, points[:1])]),
+        loop=np.repeat(np.arange(len(loops)), lengths),
         vertex=vertex,
         is_jump=np.isin(np.arange(len(vertex)), last),
     )
@@ -156,71 +163,123 @@ def _own_touches_left_out(polyline: _Polyline, touches: Ints) -> Ints:
 
 @dataclass(frozen=True, eq=False)
 class _Plan:
-    """The polyline with its visits, to find the border at a place."""
+    """The polyline with its visits, to find the border at a place.
+
+    Loops that hang together by crossings are a group; ``group`` has that of each edge.
+    """
 
     polyline: _Polyline
     visits: Visits
     first_visit: Ints
+    group: Ints
+
+    @cached_property
+    def ends(self) -> Floats:
+        """Start and end of each edge."""
+        return edge_ends(self.polyline.points)
+
+    @cached_property
+    def first_border(self) -> Ints:
+        """The first border of each loop."""
+        return starts_of(np.maximum(np.diff(self.first_visit), 1))
+
+    @cached_property
+    def boxes(self) -> STRtree:
+        """The bounding boxes of all edges."""
+        from shapely import STRtree, linestrings
+
+        return STRtree(linestrings(self.ends))
 
     def border(self, edge: int, visits_passed: int) -> int:
         """Return the border at a place on an edge, given how many visits come before it, on earlier loops too."""
         loop = int(self.polyline.loop[edge])
-        start, count = int(self.first_visit[loop]), np.diff(self.first_visit)
-        return int(starts_of(np.maximum(count, 1))[loop] + (visits_passed - start - 1) % max(int(count[loop]), 1))
+        start, count = int(self.first_visit[loop]), int(self.first_visit[loop + 1] - self.first_visit[loop])
+        return int(self.first_border[loop]) + (visits_passed - start - 1) % max(count, 1)
 
 
-def _corners(polyline: _Polyline, group: Ints) -> list[tuple[int, Bools]]:
-    """Return the leftmost vertex of each group, the lowest of several, and which edges are the group's."""
-    group_of_edge = group[polyline.loop]
-    x, y = polyline.points.T
+def _corners(plan: _Plan) -> list[int]:
+    """Return the leftmost vertex of each group, the lowest of several, from left to right."""
+    x, y = plan.polyline.points.T
     order = np.lexsort([y, x])
-    order = order[~polyline.is_jump[order]]
-    corner = order[np.unique(group_of_edge[order], return_index=True)[1]]
-    return [(int(vertex), group_of_edge == number) for number, vertex in enumerate(corner)]
+    order = order[~plan.polyline.is_jump[order]]
+    corners: list[int] = order[np.sort(np.unique(plan.group[order], return_index=True)[1])].tolist()
+    return corners
 
 
 def _outer_dart(plan: _Plan, corner: int) -> int:
     """Return the dart that has the outside of its group on its left at a leftmost vertex."""
-    polyline = plan.polyline
-    copies = np.flatnonzero(polyline.vertex == corner)
-    before, here, after = polyline.points[[copies[-1] - 1, corner, corner + 1]]
+    points = plan.polyline.points
+    is_first = corner == 0 or plan.polyline.is_jump[corner - 1]
+    # The first vertex of a loop comes again at its end.
+    last = int(np.searchsorted(plan.polyline.loop, plan.polyline.loop[corner], side="right")) - 1
+    before, here, after = points[[(last if is_first else corner) - 1, corner, corner + 1]]
     border = plan.border(corner, int(np.searchsorted(plan.visits.edge, corner)))
     return 2 * border + int(cross_sign(before, here, here, after) > 0)
 
 
-def _dart_on_the_left(plan: _Plan, corner: int, own: Bools) -> int | None:
-    """Return the dart of the other groups that a ray from a vertex to the left meets first, on the side that it meets.
+def _foot_at_vertex(plan: _Plan, corner: int) -> Mark:
+    """Return the foot of the bridge that leaves a leftmost vertex; it comes after a cusp there."""
+    x, y = plan.polyline.points[corner].tolist()
+    loop = int(plan.polyline.loop[corner])
+    return Mark(corner - loop, Fraction(0), 1, int(np.searchsorted(plan.visits.edge, corner)), loop, (x, y))
+
+
+def _foot_on_edge(plan: _Plan, edge: int, corner: int, number: int) -> Mark:
+    """Return the foot of the bridge from a vertex to an edge on its left: a little higher than the vertex.
+
+    Later ones, which come from further right, are higher if the vertices have one height: they pass above.
+    """
+    height, loop = float(plan.polyline.points[corner, 1]), int(plan.polyline.loop[edge])
+    ends = plan.ends[edge]
+    start, end = map(Fraction, ends[:, 1].tolist())
+    share, upward = (Fraction(height) - start) / (end - start), start < end
+    tie = 2 + number if upward else -2 - number
+    point = (float(_place_and_slope(ends, height)[0]), height)
+    return Mark(edge - loop, share, tie, _visits_passed(plan, edge, share, upward), loop, point)
+
+
+def _is_upward(polyline: _Polyline, edge: int) -> bool:
+    return bool(polyline.points[edge, 1] < polyline.points[edge + 1, 1])
+
+
+def _met_on_the_left(plan: _Plan, corner: int) -> int | None:
+    """Return the edge of the other groups that a ray from a vertex to the left meets first.
 
     The ray runs a little higher than the vertex, by less than any other difference in height. So it meets no vertices
     and no crossings.
     """
-    polyline = plan.polyline
-    x, height = polyline.points[corner]
-    ends = edge_ends(polyline.points)
-    low = ends[:, :, 1] <= height
-    met = ~own & ~polyline.is_jump & (low[:, 0] != low[:, 1]) & (ends[:, :, 0].min(axis=1) < x)
-    places = {edge: _place_and_slope(ends[edge], height) for edge in np.flatnonzero(met).tolist()}
-    here = Fraction(float(x))
-    passed = [edge for edge, (place, _) in places.items() if place < here]
-    if not passed:
-        return None
-    edge = max(passed, key=places.__getitem__)
-    upward = bool(low[edge, 0])
-    return 2 * plan.border(edge, _visits_passed(plan.visits, ends, edge, height, upward)) + upward
+    from shapely import linestrings
+
+    x, height = plan.polyline.points[corner].tolist()
+    near = plan.boxes.query(linestrings([(plan.polyline.points[:, 0].min(), height), (x, height)]))
+    low = plan.ends[near, :, 1] <= height
+    met = near[(plan.group[near] != plan.group[corner]) & ~plan.polyline.is_jump[near] & (low[:, 0] != low[:, 1])]
+    places = {edge: _place_and_slope(plan.ends[edge], height) for edge in _nearest(plan.ends[met], x, height, met)}
+    passed = [edge for edge, (place, _) in places.items() if place < x]
+    return max(passed, key=places.__getitem__, default=None)
+
+
+def _nearest(ends: Floats, x: float, height: float, edges: Ints) -> list[int]:
+    """Return those of some edges that a ray to the left may meet first, as far as rounded places tell."""
+    (start_x, start_y), (end_x, end_y) = ends.transpose(1, 2, 0)
+    place = start_x + (height - start_y) / (end_y - start_y) * (end_x - start_x)
+    error = 16 * np.finfo(np.float64).eps * (np.abs(start_x) + np.abs(end_x)) + np.finfo(np.float64).tiny
+    surely = (place - error)[place + error < x].max(initial=-np.inf)
+    nearest: list[int] = edges[(place + error >= surely) & (place - error < x)].tolist()
+    return nearest
 
 
 def _place_and_slope(edge: Floats, height: float) -> tuple[Fraction, Fraction]:
     """Return the x at which an edge passes a height, and the growth of x with the height."""
     (x, y), (end_x, end_y) = [[Fraction(value) for value in point] for point in edge.tolist()]
     slope = (end_x - x) / (end_y - y)
-    return x + (Fraction(float(height)) - y) * slope, slope
+    return x + (Fraction(height) - y) * slope, slope
 
 
-def _visits_passed(visits: Visits, ends: Floats, edge: int, height: float, upward: bool) -> int:
-    """Return how many visits come before the place at which an edge passes a little above a height."""
-    (_, y), (_, end_y) = [[Fraction(value) for value in point] for point in ends[edge].tolist()]
-    here = (Fraction(float(height)) - y) / (end_y - y)
+def _visits_passed(plan: _Plan, edge: int, share: Fraction, upward: bool) -> int:
+    """Return how many visits come before the place on an edge a little above a share of it."""
+    ends, visits = plan.ends, plan.visits
     first, last = np.searchsorted(visits.edge, [edge, edge + 1]).tolist()
     other = visits.edge[visits.partner[first:last]].tolist()
     places = [exact_parameter(*ends[edge], *ends[crossing]) for crossing in other]
-    return int(first) + sum(place < here or (upward and place == here) for place in places)
+    return int(first) + sum(place < share or (upward and place == share) for place in places)

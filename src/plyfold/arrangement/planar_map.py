@@ -21,13 +21,13 @@ from plyfold.ragged import count_each, starts_of
 __all__ = [
     "borders_at_visits",
     "cell_boundaries",
-    "cell_windings",
     "checked_code",
     "joined_cells",
     "left_windings",
     "next_darts",
     "reversed_code",
     "whitney_turning_number",
+    "windings_of_loops",
 ]
 
 
@@ -91,14 +91,16 @@ def next_darts(partner: Ints, ccw: Bools, first_visit: Ints | None = None) -> In
     """Return the dart that follows each dart around the cell on its left, of one loop or of several.
 
     On arrival at a visit, turn left: onto the other strand's outgoing border if that strand crosses ours from right
-    to left, back along its incoming border otherwise. A loop without visits follows itself.
+    to left, back along its incoming border otherwise. At a mark, which is its own partner, go on. A loop without visits
+    follows itself.
     """
     first_visit = np.array([0, len(partner)]) if first_visit is None else first_visit
     before, after = borders_at_visits(first_visit)
     following = np.arange(2 * int(np.maximum(first_visit[1:] - first_visit[:-1], 1).sum()))
     outgoing, incoming = 2 * after[partner], 2 * before[partner] + 1
-    following[2 * before] = np.where(ccw, outgoing, incoming)
-    following[2 * after + 1] = np.where(ccw, incoming, outgoing)
+    goes_on = ccw | (partner == np.arange(len(partner)))
+    following[2 * before] = np.where(goes_on, outgoing, incoming)
+    following[2 * after + 1] = np.where(goes_on, incoming, outgoing)
     return following
 
 
@@ -195,14 +197,52 @@ def joined_cells(cycle_start: Ints, cycle_darts: Ints, same_cell: Ints) -> tuple
     return np.append(0, np.cumsum(np.bincount(cell, weights=size).astype(np.int64))), darts
 
 
-def cell_windings(cell_of_dart: Ints) -> Ints:
-    """Return the winding numbers: none in cell 0, one more on the left of each border than on its right."""
-    left, right = cell_of_dart[0::2], cell_of_dart[1::2]
-    parent, border, order = spanning_tree(int(cell_of_dart.max()) + 1, left, right)
-    winding = np.zeros(len(order), dtype=np.int64)
-    for cell in order[1:].tolist():
-        winding[cell] = winding[parent[cell]] + (1 if left[border[cell]] == cell else -1)
-    return winding
+def windings_of_loops(partner: Ints, ccw: Bools, first_visit: Ints, outside: Ints, same_cell: Ints) -> Ints:
+    """Return the winding number on the left of each border of several loops.
+
+    Parameters
+    ----------
+    partner, ccw, first_visit
+        The visits to crossings, without marks.
+    outside : (o,) int
+        Darts of the unbounded cell.
+    same_cell : (m, 2) int
+        Pairs of darts that have the same cell on their left; with the crossings and ``outside`` they connect all loops.
+
+    Notes
+    -----
+    O(k), and O(loops) in plain Python.
+    """
+    before, after = borders_at_visits(first_visit)
+    along = _along_each_loop(ccw, first_visit, after)
+    loop = np.repeat(np.arange(len(first_visit) - 1), np.maximum(np.diff(first_visit), 1))
+    # The top cell of a crossing is on the left of both strands.
+    first = np.flatnonzero(ccw)
+    tops = np.stack([2 * before[first], 2 * after[partner[first]]], axis=1)
+    joined = np.concatenate([tops[loop[tops[:, 0] // 2] != loop[tops[:, 1] // 2]], same_cell])
+    level, node = along[joined // 2] - joined % 2, 1 + loop[joined // 2]
+    links = np.concatenate([node, np.stack([np.zeros_like(outside), 1 + loop[outside // 2]], axis=1)])
+    rise = np.concatenate([level[:, 0] - level[:, 1], outside % 2 - along[outside // 2]])
+    return np.asarray(along + _heights(len(first_visit), links, rise)[1 + loop])
+
+
+def _along_each_loop(ccw: Bools, first_visit: Ints, after: Ints) -> Ints:
+    """Return the winding number on the left of each border, less that of its loop's first border."""
+    passed = np.cumsum(np.where(ccw, -1, 1))
+    visits = np.diff(first_visit)
+    along = np.zeros(int(np.maximum(visits, 1).sum()), dtype=np.int64)
+    along[after] = passed - np.repeat(passed[first_visit[:-1][visits > 0]], visits[visits > 0])
+    return along
+
+
+def _heights(nodes: int, links: Ints, rise: Ints) -> Ints:
+    """Return a height for each node, 0 for the first: along each link it grows by its rise."""
+    parent, edge, order = spanning_tree(nodes, *links.T)
+    height = [0] * nodes
+    for node in order[1:].tolist():
+        link = edge[node]
+        height[node] = height[parent[node]] + int(rise[link] if links[link, 1] == node else -rise[link])
+    return np.array(height)
 
 
 def left_windings(ccw: Bools, outer: int) -> Ints:

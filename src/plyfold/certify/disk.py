@@ -1,7 +1,8 @@
-"""Check that a triangle mesh is a disk."""
+"""Check that a triangle mesh is a disk, a sphere, or a surface of another kind."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,16 @@ import numpy.typing as npt
 from plyfold.certify.exact import Ints, as_faces
 from plyfold.errors import CertificateError
 
-__all__ = ["Sides", "check_ball_mesh", "check_disk_mesh", "disk_sides"]
+__all__ = [
+    "Sides",
+    "check_ball_mesh",
+    "check_disk_mesh",
+    "check_surface_mesh",
+    "closed_sides",
+    "disk_sides",
+    "require_pieces",
+    "surface_sides",
+]
 
 
 def check_disk_mesh(faces: npt.ArrayLike, n_vertices: int) -> None:
@@ -66,11 +76,42 @@ def check_ball_mesh(faces: npt.ArrayLike, n_vertices: int) -> None:
     Traceback (most recent call last):
     plyfold.errors.CertificateError: the mesh is not closed: nothing is beyond the edge from vertex 1 to vertex 2
     """
-    sides = _connected_sides(faces, n_vertices)
-    if len(rim := np.flatnonzero(sides.twin < 0)):
-        ends = f"from vertex {sides.start[rim[0]]} to vertex {sides.end[rim[0]]}"
-        raise CertificateError(f"the mesh is not closed: nothing is beyond the edge {ends}")
+    sides = closed_sides(faces, n_vertices)
+    _require_connected(sides, n_vertices)
     _require_euler(sides, n_vertices, "a sphere", 2)
+
+
+def check_surface_mesh(faces: npt.ArrayLike, n_vertices: int, pieces: Iterable[tuple[int, int]]) -> None:
+    """Check that triangles make surfaces with so many boundary loops, holes and handles.
+
+    Parameters
+    ----------
+    faces : array_like of int, shape (m, 3)
+        Vertices of each triangle, all in the same sense of rotation.
+    n_vertices : int
+        Number of vertices; each must occur.
+    pieces : iterable of (int, int)
+        The number of boundary loops and the Euler characteristic of each connected piece, in any order.
+
+    Raises
+    ------
+    CertificateError
+        If a triangle names a vertex twice, an edge has three triangles or two that disagree in orientation, the
+        triangles at a vertex are not one fan, or the pieces are others.
+
+    Notes
+    -----
+    Coordinates play no part. O(m log m).
+
+    Examples
+    --------
+    >>> ring = [[0, 1, 3], [1, 4, 3], [1, 2, 4], [2, 5, 4], [2, 0, 5], [0, 3, 5]]
+    >>> check_surface_mesh(ring, 6, [(2, 0)])
+    >>> check_surface_mesh(ring, 6, [(1, 1)])
+    Traceback (most recent call last):
+    plyfold.errors.CertificateError: the pieces have (boundary loops, Euler characteristic) (2, 0), not (1, 1)
+    """
+    require_pieces(surface_sides(faces, n_vertices), n_vertices, pieces)
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,20 +135,51 @@ class Sides:
 
 def disk_sides(faces: npt.ArrayLike, n_vertices: int) -> Sides:
     """Return the sides of a mesh that is a disk."""
-    sides = _connected_sides(faces, n_vertices)
+    sides = surface_sides(faces, n_vertices)
+    _require_connected(sides, n_vertices)
     _require_one_loop(sides)
     _require_euler(sides, n_vertices, "a disk", 1)
     return sides
 
 
-def _connected_sides(faces: npt.ArrayLike, n_vertices: int) -> Sides:
-    """Return the sides of a mesh that is a connected surface, with or without boundary."""
+def closed_sides(faces: npt.ArrayLike, n_vertices: int) -> Sides:
+    """Return the sides of a mesh that is a surface without boundary."""
+    sides = surface_sides(faces, n_vertices)
+    if len(rim := np.flatnonzero(sides.twin < 0)):
+        ends = f"from vertex {sides.start[rim[0]]} to vertex {sides.end[rim[0]]}"
+        raise CertificateError(f"the mesh is not closed: nothing is beyond the edge {ends}")
+    return sides
+
+
+def require_pieces(sides: Sides, n_vertices: int, pieces: Iterable[tuple[int, int]]) -> None:
+    """Check the numbers of boundary loops and the Euler characteristics of the connected pieces."""
+    wanted = sorted((int(loops), int(euler)) for loops, euler in pieces)
+    if len(wanted) == 1:
+        _require_connected(sides, n_vertices)
+    if (found := _pieces(sides, n_vertices)) != wanted:
+        given, asked = (", ".join(map(str, kinds)) for kinds in (found, wanted))
+        raise CertificateError(f"the pieces have (boundary loops, Euler characteristic) {given}, not {asked}")
+
+
+def _pieces(sides: Sides, n_vertices: int) -> list[tuple[int, int]]:
+    """Return the number of boundary loops and the Euler characteristic of each connected piece, in order."""
+    part = np.unique(_parts(sides, n_vertices), return_inverse=True)[1]
+    count = int(part.max()) + 1
+    of_side = np.bincount(part[sides.start], minlength=count)
+    on_boundary = np.bincount(part[sides.start[sides.twin < 0]], minlength=count)
+    # Three sides for each triangle, two for each edge inside and one on the boundary.
+    euler = np.bincount(part, minlength=count) - (of_side + on_boundary) // 2 + of_side // 3
+    loops = np.bincount(part[sides.start[_boundary_loops(sides)]], minlength=count)
+    return sorted(zip(loops.tolist(), euler.tolist(), strict=True))
+
+
+def surface_sides(faces: npt.ArrayLike, n_vertices: int) -> Sides:
+    """Return the sides of a mesh that is a surface, with or without boundary."""
     triangles = as_faces(faces, n_vertices)
     start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     twin = _twins(start, end, n_vertices)
     sides = Sides(start, end, twin, _boundary_sides(start, twin, n_vertices))
     _require_one_fan_each(sides, n_vertices)
-    _require_connected(sides, n_vertices)
     return sides
 
 
@@ -166,24 +238,33 @@ def _least_of_cycle(following: Ints) -> Ints:
     return least
 
 
-def _require_connected(sides: Sides, n_vertices: int) -> None:
+def _parts(sides: Sides, n_vertices: int) -> Ints:
+    """Return for each vertex the least one that edges lead to."""
     part = np.arange(n_vertices)
     while True:
         a, b = part[sides.start], part[sides.end]
         if (a == b).all():
-            break
+            return part
         np.minimum.at(part, np.maximum(a, b), np.minimum(a, b))
         while (part != part[part]).any():
             part = part[part]
-    if len(apart := np.flatnonzero(part)):
+
+
+def _require_connected(sides: Sides, n_vertices: int) -> None:
+    if len(apart := np.flatnonzero(_parts(sides, n_vertices))):
         raise CertificateError(f"the mesh has several parts: no path of edges leads from vertex 0 to vertex {apart[0]}")
 
 
-def _require_one_loop(sides: Sides) -> None:
+def _boundary_loops(sides: Sides) -> Ints:
+    """Return one side of each loop of the boundary."""
     on_boundary = np.flatnonzero(sides.twin < 0)
     number = np.full(len(sides.start), -1)
     number[on_boundary] = np.arange(len(on_boundary))
     following = number[sides.boundary_side[sides.end[on_boundary]]]
-    loops = len(np.unique(_least_of_cycle(following)))
+    return on_boundary[np.unique(_least_of_cycle(following))]
+
+
+def _require_one_loop(sides: Sides) -> None:
+    loops = len(_boundary_loops(sides))
     if loops != 1:
         raise CertificateError(f"the boundary of the mesh has {loops} loops, not one")

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeAlias, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from plyfold.errors import CertificateError
 
-__all__ = ["Bools", "Floats", "Ints", "as_faces", "different", "finite", "pair_keys"]
+__all__ = ["Bools", "Floats", "Ints", "Outline", "as_faces", "as_outline", "different", "finite", "pair_keys"]
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int64]
@@ -24,6 +26,71 @@ def finite(points: npt.ArrayLike, columns: int) -> Floats:
     if len(bad := np.flatnonzero(~np.isfinite(array).all(axis=1))):
         raise CertificateError(f"the position of vertex {bad[0]} is not finite")
     return array
+
+
+@dataclass(frozen=True, eq=False)
+class Outline:
+    """Closed loops, with numbers for their points and edges, loop after loop; edge i starts at point i.
+
+    Parameters
+    ----------
+    points : (n, 2) float
+    first : (loops + 1,) int
+        Loop l has the points from ``first[l]`` up to ``first[l + 1]``.
+    cusps : (n,) int
+        How many full turns the angle at each point has more than one sees.
+    """
+
+    points: Floats
+    first: Ints
+    cusps: Ints
+
+    @property
+    def following(self) -> Ints:
+        """The point after each, along its loop."""
+        following = np.arange(1, len(self.points) + 1)
+        following[self.first[1:] - 1] = self.first[:-1]
+        return following
+
+    @property
+    def edges(self) -> Floats:
+        """Both ends of each edge, (n, 2, 2)."""
+        return np.stack([self.points, self.points[self.following]], axis=1)
+
+
+def as_outline(
+    loops: npt.ArrayLike | Sequence[npt.ArrayLike], cusps: npt.ArrayLike | Sequence[npt.ArrayLike] | None = None
+) -> Outline:
+    """Return the points of one loop, or of a list of several, as an outline; and the cusps, in arrays of that shape."""
+    several = _are_several(loops)
+    rows = [finite(points, 2) for points in cast("Sequence[npt.ArrayLike]", loops if several else [loops])]
+    lengths = [len(points) for points in rows]
+    if not lengths or 0 in lengths:
+        raise CertificateError("there is no loop, or one without points")
+    found = Outline(np.concatenate(rows), np.append(0, np.cumsum(lengths)), _as_cusps(cusps, lengths, several))
+    if len(same := np.flatnonzero((found.edges[:, 0] == found.edges[:, 1]).all(axis=1))):
+        raise CertificateError("the curve has the same point twice in a row", where=found.points[same[:1]])
+    return found
+
+
+def _are_several(loops: npt.ArrayLike | Sequence[npt.ArrayLike]) -> bool:
+    """Tell a list of loops from the points of one."""
+    if isinstance(loops, np.ndarray):
+        return loops.ndim == 3
+    if not isinstance(loops, list | tuple) or not len(loops):
+        return False
+    return isinstance(loops[0], list | tuple | np.ndarray) and len(loops[0]) > 0 and np.ndim(loops[0][0]) > 0
+
+
+def _as_cusps(cusps: npt.ArrayLike | Sequence[npt.ArrayLike] | None, lengths: list[int], several: bool) -> Ints:
+    if cusps is None:
+        return np.zeros(sum(lengths), dtype=np.int64)
+    rows = [np.asarray(row) for row in cast("Sequence[npt.ArrayLike]", cusps if several else [cusps])]
+    if [row.shape for row in rows] != [(length,) for length in lengths]:
+        raise CertificateError("the cusps are not one number for each point, loop by loop")
+    if any(row.dtype.kind not in "iu" or row.min() < 0 for row in rows):
+        raise CertificateError("cusps must be whole numbers from 0 on")
+    return np.concatenate(rows).astype(np.int64)
 
 
 def as_faces(faces: npt.ArrayLike, n_vertices: int) -> Ints:

@@ -1,20 +1,22 @@
-"""Check that a flat mesh is an immersed disk with the curve as its boundary."""
+"""Check that a flat mesh is an immersed disk, or another surface, with an outline as its boundary."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.certify.disk import Sides, disk_sides
-from plyfold.certify.exact import Bools, Floats, Ints, different, finite
+from plyfold.certify.disk import Sides, disk_sides, surface_sides
+from plyfold.certify.exact import Bools, Floats, Ints, Outline, as_outline, different, finite
 from plyfold.certify.places import ExactPlaces, on_edges, require_positive
 from plyfold.errors import CertificateError
 
 __all__ = [
     "Walk",
     "check_immersed_disk",
+    "check_immersed_surface",
     "common_places",
     "require_along_curve",
     "require_immersed",
@@ -24,7 +26,11 @@ __all__ = [
 
 
 def check_immersed_disk(
-    curve_points: npt.ArrayLike, vertices_xy: npt.ArrayLike, faces: npt.ArrayLike, boundary: npt.ArrayLike
+    curve_points: npt.ArrayLike,
+    vertices_xy: npt.ArrayLike,
+    faces: npt.ArrayLike,
+    boundary: npt.ArrayLike,
+    cusps: npt.ArrayLike | None = None,
 ) -> None:
     """Check that a flat mesh is an immersed disk with the curve as its boundary.
 
@@ -38,6 +44,8 @@ def check_immersed_disk(
         Vertices of each triangle, counter-clockwise.
     boundary : array_like of int, shape (b,)
         Vertices along the curve; the first one lies at the curve's first point.
+    cusps : array_like of int, shape (n,), optional
+        How many full turns the disk's angle at each point of the curve has more than one sees; none by default.
 
     Raises
     ------
@@ -54,7 +62,7 @@ def check_immersed_disk(
     not limited, as nothing depends on it.
 
     The triangles at an inner vertex must turn round it exactly once; those at a boundary vertex must fill the angle
-    between its two boundary edges and less than a full turn. Both are counted by signs: triangles are
+    between its two boundary edges and, but for cusps, less than a full turn. Both are counted by signs: triangles are
     counter-clockwise, so each sweeps less than half a turn. This condition is needed: without it a curve with turning
     number 2, the limaçon, passes. O(m log m); 1e5 triangles take about 0.3 s.
 
@@ -66,62 +74,121 @@ def check_immersed_disk(
     Traceback (most recent call last):
     plyfold.errors.CertificateError: the boundary does not start at the curve's first point, at (0, 0)
     """
-    sides, walk = walked(curve_points, vertices_xy, faces, boundary)
-    require_immersed(sides, walk, on_edges(walk.near, walk.edges, walk.curve, walk.is_point))
+    near = finite(vertices_xy, 2)
+    sides = disk_sides(faces, len(near))
+    require_on_edges(
+        sides, walked(as_outline([curve_points], None if cusps is None else [cusps]), near, sides, boundary)
+    )
+
+
+def check_immersed_surface(
+    loops: npt.ArrayLike | Sequence[npt.ArrayLike],
+    vertices_xy: npt.ArrayLike,
+    faces: npt.ArrayLike,
+    boundary: npt.ArrayLike,
+    cusps: npt.ArrayLike | Sequence[npt.ArrayLike] | None = None,
+) -> None:
+    """Check that a flat mesh is an immersed surface with an outline as its boundary.
+
+    Parameters
+    ----------
+    loops : array_like, shape (n, 2), or a sequence of such
+        The points of one closed curve or of several, with the surface on the left of each.
+    vertices_xy : array_like, shape (v, 2)
+    faces : array_like of int, shape (m, 3)
+    boundary : array_like of int, shape (b,)
+        Vertices along the loops, one loop after the other, each from the loop's first point.
+    cusps : array_like of int, shape (n,), or a sequence of such, optional
+        How many full turns the angle at each point of each loop has more than one sees; none by default.
+
+    Raises
+    ------
+    CertificateError
+        If the mesh is no surface, its boundary does not consist of the loops, or otherwise as
+        :func:`check_immersed_disk`. It names the place.
+
+    Notes
+    -----
+    Nothing more is needed to know what surface it is. As it is flat inside and has the angles of the outline at its
+    boundary, its Euler characteristic is the sum of the loops' turning numbers, less the cusps (Gauss–Bonnet), also
+    for each connected piece; and no piece is without boundary.
+
+    Examples
+    --------
+    >>> square, hole = [(0, 0), (9, 0), (9, 9), (0, 9)], [(3, 3), (3, 6), (6, 6), (6, 3)]
+    >>> faces = [[0, 1, 7], [0, 7, 4], [1, 2, 6], [1, 6, 7], [2, 3, 5], [2, 5, 6], [3, 0, 4], [3, 4, 5]]
+    >>> check_immersed_surface([square, hole], square + hole, faces, range(8))
+    >>> check_immersed_surface([square], square, [[0, 1, 2], [0, 2, 3]], range(4))
+    >>> check_immersed_surface([square, hole], square + hole, [*faces, [4, 7, 6], [4, 6, 5]], range(8))
+    Traceback (most recent call last):
+    plyfold.errors.CertificateError: the given boundary is not a row of all boundary vertices of the mesh
+    """
+    near = finite(vertices_xy, 2)
+    sides = surface_sides(faces, len(near))
+    require_on_edges(sides, walked(as_outline(loops, cusps), near, sides, boundary))
 
 
 @dataclass(frozen=True, eq=False)
 class Walk:
-    """A way along the edges of a mesh that goes through the points of the curve.
+    """Closed ways along the edges of a mesh that go through the points of an outline, loop after loop.
 
     Parameters
     ----------
-    curve : (n, 2) float
+    outline : Outline
     near : (v, 2) float
         The vertices as they are given.
     loop : (b,) int
         The vertices along the curve; several times where it crosses itself in a vertex.
+    after : (b,) int
+        For each of them the place in this row of the one that follows along its loop.
     edge : (b,) int
         The edge of the curve that the way goes along from each of them.
-    is_point : (v,) bool
-        Which vertices are at points of the curve.
+    at : (n,) int
+        The places in this row of the points of the outline.
     """
 
-    curve: Floats
+    outline: Outline
     near: Floats
     loop: Ints
+    after: Ints
     edge: Ints
-    is_point: Bools
+    at: Ints
+
+    @property
+    def is_point(self) -> Bools:
+        """Which vertices are at points of the curve."""
+        is_point = np.zeros(len(self.near), dtype=bool)
+        is_point[self.loop[self.at]] = True
+        return is_point
 
     @property
     def edges(self) -> Ints:
         """The edges of the curve that each vertex is on: two at its points, one between them; −1 for none."""
         edges = np.full((len(self.near), 2), -1)
         edges[self.loop, 0] = self.edge
-        arriving = np.roll(self.edge, 1)
+        arriving = np.empty_like(self.edge)
+        arriving[self.after] = self.edge
         edges[self.loop, 1] = np.where(arriving == self.edge, -1, arriving)
         return edges
 
 
-def walked(
-    curve_points: npt.ArrayLike, vertices_xy: npt.ArrayLike, faces: npt.ArrayLike, boundary: npt.ArrayLike
-) -> tuple[Sides, Walk]:
-    """Return the sides of a disk, and its boundary as a walk along the curve."""
-    points, near = finite(curve_points, 2), finite(vertices_xy, 2)
-    sides = disk_sides(faces, len(near))
+def walked(outline: Outline, near: Floats, sides: Sides, boundary: npt.ArrayLike) -> Walk:
+    """Return the boundary of a mesh as a walk along an outline."""
     loop = np.asarray(boundary)
-    _require_boundary_loop(sides, loop, near)
-    return sides, walk_along(points, near, loop)
+    first = _require_boundary_loops(sides, loop, near)
+    if len(first) != len(outline.first):
+        raise CertificateError(
+            f"the boundary of the mesh has {len(first) - 1} loops, and the outline has {len(outline.first) - 1}"
+        )
+    return walk_along(outline, near, loop, first)
 
 
-def walk_along(points: Floats, near: Floats, loop: Ints) -> Walk:
-    """Return a row of vertices as a walk along the curve, whose points it must go through."""
-    if len(same := np.flatnonzero((points == np.roll(points, -1, axis=0)).all(axis=1))):
-        raise CertificateError("the curve has the same point twice in a row", where=points[same[:1]])
-    at = _positions_of(points, near[loop])
-    is_point = np.zeros(len(near), dtype=bool)
-    is_point[loop[at]] = True
-    return Walk(points, near, loop, np.repeat(np.arange(len(at)), np.diff(np.append(at, len(loop)))), is_point)
+def walk_along(outline: Outline, near: Floats, loop: Ints, first: Ints) -> Walk:
+    """Return rows of vertices, which begin at ``first``, as a walk along an outline, through all its points."""
+    at = _positions_of(outline, near[loop], first)
+    after = np.arange(1, len(loop) + 1)
+    after[first[1:] - 1] = first[:-1]
+    return Walk(outline, near, loop, after, np.repeat(np.arange(len(at)), np.diff(np.append(at, len(loop)))), at)
 
 
 def common_places(walk: Walk) -> ExactPlaces:
@@ -130,8 +197,9 @@ def common_places(walk: Walk) -> ExactPlaces:
     Where there are vertices between the points of two edges, the place is where these edges cross.
     """
     near, _, place = different(walk.near)
-    points = np.flatnonzero(walk.is_point)
-    between = ~walk.is_point[walk.loop]
+    is_point = walk.is_point
+    points = np.flatnonzero(is_point)
+    between = ~is_point[walk.loop]
     given, edges = np.zeros(len(near), dtype=bool), np.full((len(near), 2), -1)
     given[place[points]] = True
     edges[place[points]] = walk.edges[points]
@@ -139,7 +207,7 @@ def common_places(walk: Walk) -> ExactPlaces:
     rank = np.arange(len(at)) - np.searchsorted(at, at)
     used = (rank < 2) & ~given[at]
     edges[at[used], rank[used]] = edge[used]
-    places = on_edges(near, edges, walk.curve, given)
+    places = on_edges(near, edges, walk.outline.edges, given)
     _require_on(places, *(numbers[~used | np.isinf(places.off[at])] for numbers in (at, edge)))
     return places.of(place)
 
@@ -154,23 +222,34 @@ def _require_on(places: ExactPlaces, at: Ints, edge: Ints) -> None:
             )
 
 
+def require_on_edges(sides: Sides, walk: Walk) -> None:
+    """Check that with each vertex on its own edges of the curve the surface is immersed, with that as its boundary."""
+    require_immersed(sides, walk, on_edges(walk.near, walk.edges, walk.outline.edges, walk.is_point))
+
+
 def require_immersed(sides: Sides, walk: Walk, places: ExactPlaces) -> None:
-    """Check that with the vertices on the curve's edges the disk is immersed, with the curve as its boundary."""
+    """Check that with the vertices at some places the surface is immersed, with the outline as its boundary."""
     require_along_curve(walk, places)
     require_positive(places, sides.start.reshape(-1, 3))
-    _require_single_turns(sides, walk.loop, places)
+    _require_turns(sides, walk, places)
 
 
-def _require_boundary_loop(sides: Sides, loop: Ints, places: Floats) -> None:
-    """Check that the loop is the boundary of the mesh, walked with the mesh on the left."""
+def _require_boundary_loops(sides: Sides, loop: Ints, places: Floats) -> Ints:
+    """Check that a row is the boundary of the mesh, walked with the mesh on the left; return where its loops begin."""
     if loop.ndim != 1 or loop.dtype.kind not in "iu" or len(loop) != np.count_nonzero(sides.twin < 0):
         raise CertificateError("the given boundary is not a row of all boundary vertices of the mesh")
     if loop.min() < 0 or loop.max() >= len(places):
         raise CertificateError("the given boundary names a vertex that does not exist")
     side = sides.boundary_side[loop]
-    wrong = np.flatnonzero((side < 0) | (sides.end[side] != np.roll(loop, -1)))
+    following = sides.end[side]
+    last = np.append(np.flatnonzero(following[:-1] != loop[1:]), len(loop) - 1)
+    first = np.append(0, last + 1)
+    wrong = np.flatnonzero(side < 0)
+    wrong = np.append(wrong, last[following[last] != loop[first[:-1]]])
+    wrong = np.append(wrong, np.flatnonzero(np.bincount(loop)[loop] > 1))
     if len(wrong):
         raise CertificateError("the given boundary leaves the boundary of the mesh", where=places[loop[wrong[:1]]])
+    return first
 
 
 def require_along_curve(walk: Walk, places: ExactPlaces) -> None:
@@ -178,17 +257,26 @@ def require_along_curve(walk: Walk, places: ExactPlaces) -> None:
 
     Of points on one line, the order along it is that of their coordinates.
     """
+    start, end = walk.outline.edges.swapaxes(0, 1)
     with np.errstate(over="ignore"):
-        step = np.roll(walk.curve, -1, axis=0) - walk.curve
+        step = end - start
     axis = np.argmax(np.abs(step), axis=1)
     sign = np.sign(step[np.arange(len(step)), axis])[walk.edge]
-    advance = sign * places.step_sign(walk.loop, np.roll(walk.loop, -1), axis[walk.edge])
+    advance = sign * places.step_sign(walk.loop, walk.loop[walk.after], axis[walk.edge])
     if len(back := np.flatnonzero(advance <= 0)):
         raise CertificateError("the boundary stops or runs backwards along the curve", where=walk.near[walk.loop[back]])
 
 
-def _positions_of(points: Floats, walk: Floats) -> Ints:
-    """Return where the curve's points occur along the boundary, in order."""
+def _positions_of(outline: Outline, walk: Floats, first: Ints) -> Ints:
+    """Return where the points of the outline occur along the boundary, in order."""
+    at: list[int] = []
+    for loop, start in enumerate(first[:-1].tolist()):
+        points = outline.points[outline.first[loop] : outline.first[loop + 1]]
+        at += [start + place for place in _positions_in_loop(points, walk[start : first[loop + 1]])]
+    return np.array(at)
+
+
+def _positions_in_loop(points: Floats, walk: Floats) -> list[int]:
     if not len(walk) or (walk[0] != points[0]).any():
         raise CertificateError("the boundary does not start at the curve's first point", where=points[:1])
     wanted: list[list[float]] = points.tolist()
@@ -198,29 +286,34 @@ def _positions_of(points: Floats, walk: Floats) -> Ints:
             at.append(position)
     if len(at) < len(wanted):
         raise CertificateError("the boundary misses a point of the curve", where=points[len(at) : len(at) + 1])
-    return np.array(at)
+    return at
 
 
-def _require_single_turns(sides: Sides, loop: Ints, places: ExactPlaces) -> None:
-    """Check that the triangles turn once round each inner vertex, and less than once at each boundary vertex.
+def _require_turns(sides: Sides, walk: Walk, places: ExactPlaces) -> None:
+    """Check that the triangles turn once round each inner vertex, and fill the angle at each boundary vertex.
 
     Full turns are counted as passages through the direction of +x: from a direction in [π, 2π) to one in [0, π). The
-    fan at a boundary vertex goes from its outgoing edge to its incoming one.
+    fan at a boundary vertex goes from its outgoing edge to its incoming one, and round the vertex once more for each
+    cusp.
     """
-    upward = _upward(places, sides.start, sides.end)
+    upward, loop = _upward(places, sides.start, sides.end), walk.loop
     # A triangle's corner sweeps from the side that leaves it to the one that arrives, reversed.
     passages = np.bincount(sides.start[~upward & ~upward[sides.previous]], minlength=len(places.near))
-    after, before = np.roll(loop, -1), np.roll(loop, 1)
+    after, before = loop[walk.after], np.empty_like(loop)
+    before[walk.after] = loop
     outgoing, incoming = _upward(places, loop, after), _upward(places, loop, before)
     same = np.flatnonzero(outgoing == incoming)
     turn = places.cross_sign(loop[same], after[same], loop[same], before[same])
     expected = np.ones(len(places.near), dtype=np.int64)
     expected[loop] = incoming
     expected[loop[same]] = turn <= 0
+    expected[loop[walk.at]] += walk.outline.cusps
     wrong = passages != expected
     wrong[loop[same]] |= turn == 0
     if wrong.any():
-        raise CertificateError("the triangles at a vertex turn round it too often", where=places.near[wrong])
+        few = (passages < expected)[np.argmax(wrong)]
+        how = "not often enough" if few else "too often"
+        raise CertificateError(f"the triangles at a vertex turn round it {how}", where=places.near[wrong])
 
 
 def _upward(places: ExactPlaces, start: Ints, end: Ints) -> Bools:

@@ -44,7 +44,8 @@ def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.
     -----
     Why this proves it: seen from above, two triangles either coincide or meet in a common corner or edge or not at
     all. Over a common corner, different vertices have different heights; over a common edge, two different edges have
-    the same order at both ends, hence all along; over a common triangle likewise.
+    the same order at both ends, hence all along; over a common triangle likewise. Where things over one another have a
+    vertex in common, as those that wind round a cusp have, the order is strict at their other corners.
 
     With ``passing``, the order is open at the corners that it names and the same at all others, of which every triangle
     has one, and every edge that is not named. So two triangles over one another meet at most in a segment that cuts
@@ -123,6 +124,7 @@ class _Stacks:
         first, second = self._compared(things)
         a, b = things[first], things[second]
         compared = ~self._is_open(a, b)
+        compared &= a != b
         rises, falls = (
             compared & sides for sides in (self.height[a] < self.height[b], self.height[a] > self.height[b])
         )
@@ -147,6 +149,9 @@ class _Stacks:
         below = self.below[things]
         order = np.lexsort((self.height[things[:, 0]], *below.T[::-1]))
         new = np.concatenate([[True], (below[order[1:]] != below[order[:-1]]).any(axis=1)])
+        if (~new[1:] & (things[order[1:], 0] == things[order[:-1], 0])).any():
+            # Those with their first corner in common have the order of the other ones.
+            order = np.lexsort((*self.height[things].T[::-1], *below.T[::-1]))
         stack = np.cumsum(new) - 1
         size = np.bincount(stack)
         followers = np.cumsum(size)[stack] - np.arange(len(order)) - 1

@@ -42,8 +42,8 @@ class ExactPlaces:
     off : (n,) float
         No coordinate of the place differs more from the double; 0 if the double is the place. Otherwise the place is
         where its two edges cross, or the point of its only edge that is nearest to the double.
-    curve : (m, 2) float
-        The points of the curve; edge i starts at point i.
+    curve : (m, 2, 2) float
+        Both ends of each edge of the curve.
     """
 
     near: Floats
@@ -110,7 +110,7 @@ class ExactPlaces:
         return _cross(start, end, start, self.exact(vertex)) == 0
 
     def _edge(self, edge: int) -> tuple[Point, Point]:
-        return _rational(self.curve[edge]), _rational(self.curve[(edge + 1) % len(self.curve)])
+        return _rational(self.curve[edge, 0]), _rational(self.curve[edge, 1])
 
     def _exact_cross_sign(self, a: int, b: int, c: int, d: int) -> int:
         common = set(self.edges[a].tolist()) & set(self.edges[b].tolist()) - {-1}
@@ -123,11 +123,11 @@ class ExactPlaces:
 def doubles(points: Floats) -> ExactPlaces:
     """Return places that are doubles."""
     nothing = np.full((len(points), 2), -1)
-    return ExactPlaces(points, nothing, np.zeros(len(points)), points[:0])
+    return ExactPlaces(points, nothing, np.zeros(len(points)), np.empty((0, 2, 2)))
 
 
 def on_edges(near: Floats, edges: Ints, curve: Floats, given: Bools) -> ExactPlaces:
-    """Return places on edges of the curve; those that are given are doubles, whatever edges they are on."""
+    """Return places on edges with these ends; those that are given are doubles, whatever edges they are on."""
     off = np.zeros(len(near))
     moved = np.flatnonzero((edges[:, 0] >= 0) & ~given)
     first, second = edges[moved].T
@@ -143,12 +143,12 @@ def on_edges(near: Floats, edges: Ints, curve: Floats, given: Bools) -> ExactPla
 
 
 def _directions(edge: Ints, curve: Floats) -> Floats:
-    return np.asarray(curve[(edge + 1) % len(curve)] - curve[edge])
+    return np.asarray(curve[edge, 1] - curve[edge, 0])
 
 
 def _is_on_upright(near: Floats, edge: Ints, curve: Floats) -> Bools:
     """Tell which edges are horizontal or vertical and have the double on their line."""
-    start, end = curve[edge], curve[(edge + 1) % len(curve)]
+    start, end = curve[edge].swapaxes(0, 1)
     return np.asarray(((start == end) & (start == near)).any(axis=1))
 
 
@@ -156,7 +156,7 @@ def _distance(near: Floats, edge: Ints, curve: Floats) -> Floats:
     """Return upper bounds for the distances from the lines through edges, by Hesse's formula; infinite if unknown."""
     with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
         (ux, uy), scale = _scaled(_directions(edge, curve))
-        vx, vy = (near - curve[edge]).T * scale
+        vx, vy = (near - curve[edge, 0]).T * scale
         left, right = ux * vy, uy * vx
         cross = np.abs(left - right) + _CROSS_ERROR * (np.abs(left) + np.abs(right)) + _UNDERFLOW
         far = _MORE * cross / np.hypot(ux, uy) / scale

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from fractions import Fraction
 
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.certify.disk import check_ball_mesh
+from plyfold.certify.disk import closed_sides, require_pieces
 from plyfold.certify.exact import Floats, Ints, as_faces, finite, pair_keys
 from plyfold.certify.layered import check_layered
 from plyfold.certify.places import doubles
@@ -19,8 +20,15 @@ __all__ = ["check_solid"]
 _ROUNDING = 1e-15
 
 
-def check_solid(vertices: npt.ArrayLike, faces: npt.ArrayLike, thickness: float) -> None:
-    """Check that triangles bound a ball that is as thick everywhere as it should be, and does not meet itself.
+def check_solid(
+    vertices: npt.ArrayLike,
+    faces: npt.ArrayLike,
+    thickness: float,
+    *,
+    pieces: Iterable[int] = (1,),
+    tips: npt.ArrayLike = (),
+) -> None:
+    """Check that triangles bound a solid that is as thick everywhere as it should be, and does not meet itself.
 
     Parameters
     ----------
@@ -30,14 +38,20 @@ def check_solid(vertices: npt.ArrayLike, faces: npt.ArrayLike, thickness: float)
         Vertices of each triangle, counter-clockwise seen from the outside.
     thickness : float
         The vertical thickness.
+    pieces : iterable of int, optional
+        The Euler characteristics of the connected pieces: 1 of a ball, 0 of a ring, and 1 less for each handle. By
+        default the solid is one ball.
+    tips : array_like of int, optional
+        Vertices at which top and bottom meet.
 
     Raises
     ------
     CertificateError
-        If the mesh is not closed, or not a sphere; if going up over any place does not lead by turns into the solid
-        through a triangle that faces down and out through one that faces up, right above it; if a corner of those two
-        are not the roundings of numbers that are exactly the thickness apart; if triangles or edges over one another
-        change their order; or if other triangles are not vertical walls between the two. It names the place.
+        If the mesh is not closed, or its pieces have not twice these Euler characteristics; if going up over any place
+        does not lead by turns into the solid through a triangle that faces down and out through one that faces up,
+        right above it; if a corner of those two are not the roundings of numbers that are exactly the thickness apart;
+        if triangles or edges over one another change their order; or if other triangles are not vertical walls between
+        the two. It names the place.
 
     Notes
     -----
@@ -45,7 +59,7 @@ def check_solid(vertices: npt.ArrayLike, faces: npt.ArrayLike, thickness: float)
     bottom triangle that has the vertices right below. By :func:`check_layered`, the strict order at the corners goes
     for the triangles and edges. So between a bottom triangle and its top there is nothing else, and the prisms between
     them meet in common walls only; the remaining triangles are parts of such walls. The volume follows: the area seen
-    from above, times the thickness.
+    from above, times the thickness. At a tip the solid has no thickness, and grows to it in the triangles around.
 
     Cost: that of :func:`check_layered`.
 
@@ -60,24 +74,30 @@ def check_solid(vertices: npt.ArrayLike, faces: npt.ArrayLike, thickness: float)
     """
     positions = finite(vertices, 3)
     triangles = as_faces(faces, len(positions))
-    check_ball_mesh(triangles, len(positions))
+    require_pieces(closed_sides(triangles, len(positions)), len(positions), [(0, 2 * int(euler)) for euler in pieces])
     turn = doubles(positions[:, :2]).turn(triangles)
     upper, lower, walls = triangles[turn > 0], triangles[turn < 0], triangles[turn == 0]
-    top = _tops(positions, upper, lower)
+    top = _tops(positions, upper, lower, np.unique(np.asarray(tips, dtype=np.int64)))
     _require_thickness(positions, top, thickness)
     _require_prisms(upper, top[lower])
     _require_walls(positions, walls, lower, top)
     check_layered(positions, np.concatenate([upper, lower[:, ::-1]]))
 
 
-def _tops(positions: Floats, upper: Ints, lower: Ints) -> Ints:
-    """Return for each vertex on the bottom the one right above it, for each other one −1; they must alternate."""
+def _tops(positions: Floats, upper: Ints, lower: Ints, tips: Ints) -> Ints:
+    """Return for each vertex on the bottom the one right above it, for each other one −1; they must alternate.
+
+    A tip is above itself.
+    """
     is_top, is_bottom = np.zeros((2, len(positions)), dtype=bool)
     is_top[upper.ravel()] = is_bottom[lower.ravel()] = True
-    if len(bad := np.flatnonzero(is_top == is_bottom)):
+    both = np.zeros(len(positions), dtype=bool)
+    both[tips] = True
+    if len(bad := np.flatnonzero((is_top == is_bottom) != (both & is_top))):
         raise CertificateError("a vertex is not either on the top or on the bottom", where=positions[bad[:1]])
     x, y, z = positions.T
     order = np.lexsort((z, y, x))
+    order = np.repeat(order, 1 + both[order])
     first, second = order[0::2], order[1::2]
     bottom = first[: len(second)]
     fits = is_bottom[bottom] & is_top[second] & (positions[bottom, :2] == positions[second, :2]).all(axis=1)
@@ -94,7 +114,7 @@ def _require_thickness(positions: Floats, top: Ints, thickness: float) -> None:
     """Check that each vertex and the one above it are the roundings of numbers that are exactly the thickness apart."""
     if isinstance(thickness, bool) or not isinstance(thickness, int | float | np.number) or not np.isfinite(thickness):
         raise CertificateError(f"the thickness must be a finite number, not {thickness!r}")
-    bottom = np.flatnonzero(top >= 0)
+    bottom = np.flatnonzero((top >= 0) & (top != np.arange(len(top))))
     low, high = positions[bottom, 2], positions[top[bottom], 2]
     with np.errstate(over="ignore", invalid="ignore"):
         excess = 2 * (high - low - thickness + _lost(high, low))
@@ -145,6 +165,7 @@ def _require_walls(positions: Floats, walls: Ints, lower: Ints, top: Ints) -> No
     """Check that there are two vertical triangles at each edge on the rim of the bottom, and no others.
 
     Their corners are at the ends of the edge and of the one above it. As the mesh is closed, they fill what is between.
+    At a tip there is one triangle alone.
     """
     below = np.arange(len(positions))
     below[top[top >= 0]] = np.flatnonzero(top >= 0)
@@ -156,7 +177,9 @@ def _require_walls(positions: Floats, walls: Ints, lower: Ints, top: Ints) -> No
     (edges, used), (ends, times) = (
         np.unique(keys, return_counts=True) for keys in (side, pair_keys(at[:, [0, 2]], len(positions)))
     )
-    wrong = np.union1d(np.setxor1d(edges[used == 1], ends), ends[times != 2])
+    rim = np.stack(np.divmod(ends, len(positions)))
+    needed = 2 - (top[rim] == rim).sum(axis=0)
+    wrong = np.union1d(np.setxor1d(edges[used == 1], ends), ends[times != needed])
     if len(wrong):
         raise CertificateError(
             "the walls are not along the rim of the bottom, two triangles at each edge",

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.certify.exact import Ints, as_faces, finite
+from plyfold.certify.disk import surface_sides
+from plyfold.certify.exact import Ints, as_faces, as_outline, finite
 from plyfold.certify.immersed import common_places, require_along_curve, require_immersed, walk_along, walked
 from plyfold.certify.layered import require_gap, require_layered, require_no_overlap
 from plyfold.certify.places import require_positive
@@ -14,35 +17,41 @@ __all__ = ["check_rounded", "check_surface"]
 
 
 def check_surface(  # noqa: PLR0913 - the parts of a mesh, and two options
-    curve_points: npt.ArrayLike,
+    loops: npt.ArrayLike | Sequence[npt.ArrayLike],
     vertices: npt.ArrayLike,
     faces: npt.ArrayLike,
     boundary: npt.ArrayLike,
     gap: float = 0.0,
     *,
     passing: npt.ArrayLike = (),
+    cusps: npt.ArrayLike | Sequence[npt.ArrayLike] | None = None,
 ) -> None:
-    """Check that a mesh in space is an embedded disk that seen from above is immersed and bounded by the curve.
+    """Check that a mesh in space is an embedded surface that seen from above is immersed and bounded by the outline.
+
+    It is a disk if the outline is one curve that turns once. :func:`check_surface_mesh` tells what it is otherwise.
 
     Parameters
     ----------
-    curve_points : array_like, shape (n, 2)
-        The closed curve with the surface on its left.
+    loops : array_like, shape (n, 2), or a sequence of such
+        The points of one closed curve or of several, with the surface on the left of each.
     vertices : array_like, shape (v, 3)
     faces : array_like of int, shape (m, 3)
         Vertices of each triangle, counter-clockwise seen from above.
     boundary : array_like of int, shape (b,)
-        Vertices along the curve, from the curve's first point.
+        Vertices along the curve, from the curve's first point; one loop after the other.
     gap : float, optional
         Least vertical distance.
     passing : array_like of int, shape (e, 4), optional
         Edges along which sheets may pass through each other, see :func:`check_layered`.
+    cusps : array_like of int, shape (n,), or a sequence of such, optional
+        How many full turns the angle at each point of each loop has more than one sees; none by default.
 
     Raises
     ------
     CertificateError
-        If :func:`check_immersed_disk` or :func:`check_layered` fails, the latter also where the vertices between points
-        of the curve are at the exact points of their edges: over one another, at the crossing of their two edges.
+        If :func:`check_immersed_surface` or :func:`check_layered` fails, the latter also where the vertices between
+        points of the curve are at the exact points of their edges: over one another, at the crossing of their two
+        edges.
 
     Examples
     --------
@@ -51,25 +60,32 @@ def check_surface(  # noqa: PLR0913 - the parts of a mesh, and two options
     """
     require_gap(gap)
     positions = finite(vertices, 3)
-    sides, walk = walked(curve_points, positions[:, :2], faces, boundary)
+    sides = surface_sides(faces, len(positions))
+    walk = walked(as_outline(loops, cusps), positions[:, :2], sides, boundary)
     places = common_places(walk)
     require_immersed(sides, walk, places)
     require_layered(positions, sides.start.reshape(-1, 3), places, gap, passing)
 
 
 def check_rounded(
-    curve_points: npt.ArrayLike, points: npt.ArrayLike, triangles: npt.ArrayLike, chain: npt.ArrayLike
+    loops: npt.ArrayLike | Sequence[npt.ArrayLike],
+    points: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    chain: npt.ArrayLike,
+    first: npt.ArrayLike | None = None,
 ) -> None:
     """Check that rounding its points has left a mesh of the plane as it was.
 
     Parameters
     ----------
-    curve_points : array_like, shape (n, 2)
+    loops : array_like, shape (n, 2), or a sequence of such
     points : array_like, shape (p, 2)
     triangles : array_like of int, shape (t, 3)
         A mesh that without rounding is one of the plane, with the curve as edges.
     chain : array_like of int, shape (s,)
-        The points of the mesh along the curve; crossings occur twice.
+        The points of the mesh along the curve, one loop after the other; crossings occur twice.
+    first : array_like of int, shape (loops + 1,), optional
+        Where in the chain each loop begins, and last its length; 0 and that by default.
 
     Raises
     ------
@@ -90,7 +106,8 @@ def check_rounded(
     """
     near = finite(points, 2)
     faces = as_faces(triangles, len(near))
-    walk = walk_along(finite(curve_points, 2), near, np.asarray(chain))
+    row = np.asarray(chain)
+    walk = walk_along(as_outline(loops), near, row, np.asarray([0, len(row)] if first is None else first))
     places = common_places(walk)
     require_along_curve(walk, places)
     require_positive(places, faces)

@@ -36,7 +36,7 @@ from plyfold.io.mesh.model import DETAIL, Material, Model, size_of
 from plyfold.io.mesh.saving import save_model
 from plyfold.mesh.cells import DEFAULT_TRIANGLES, refuse_sizes, triangulate_cells
 from plyfold.mesh.sheets import glue_copies
-from plyfold.outline.curve import CurveLike
+from plyfold.outline.given import CurveLike
 from plyfold.outline.points import as_points
 from plyfold.wording import counted
 

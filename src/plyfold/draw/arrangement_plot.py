@@ -1,4 +1,4 @@
-"""The curve with its crossings, borders and cells, shaded by winding number."""
+"""An outline with its crossings, borders and cells, shaded by winding number."""
 
 from __future__ import annotations
 
@@ -11,25 +11,30 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.arrangement import arrange as arrangement_of
 from plyfold.arrays import Floats
 from plyfold.colours import ACCENT, INK, OBSTRUCTION, PAPER, mix, text_colour, winding_colour
-from plyfold.draw.canvas import blank, dots, line, note_below, polygon, write, write_below
+from plyfold.draw.canvas import blank, cusp_signs, dots, line, note_below, polygon, region, write, write_below
 from plyfold.draw.placement import (
     MOST_NUMBERS,
     Frame,
     arrows,
+    border_line,
     border_middle,
+    cell_rings,
     closed,
+    cusps_drawn,
+    drawn_loops,
     drawn_points,
     label_circle,
     line_weight,
+    mark_weight,
 )
-from plyfold.outline.curve import CurveLike
+from plyfold.outline.given import OutlineLike
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from plyfold.obstruction import Obstruction
 
-__all__ = ["plot_arrangement"]
+__all__ = ["mark_cusps", "plot_arrangement"]
 
 _Marked = tuple[tuple[float, float], ...]
 
@@ -39,17 +44,17 @@ _ROOM = 0.04
 
 
 def plot_arrangement(
-    curve: CurveLike,
+    curve: OutlineLike,
     ax: Axes | None = None,
     *,
     obstruction: Obstruction | None = None,
     borders: bool = False,
 ) -> Axes:
-    """Draw the curve with its cells shaded by winding number.
+    """Draw an outline with its cells shaded by winding number; small disks with numbers mark cusps and their indices.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    curve : Outline, Curve, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of curves
     ax : matplotlib Axes, optional
         Where to draw; by default on a new figure.
     obstruction : Obstruction, optional
@@ -69,14 +74,15 @@ def plot_arrangement(
     ['1', '−1']
     """
     arrangement = arrangement_of(curve)
-    axes, points = blank(ax), drawn_points(arrangement)
-    frame = Frame(points)
+    axes, frame = blank(ax), Frame(drawn_points(arrangement))
     _fill_cells(axes, arrangement, frame)
     weight = line_weight(arrangement.n_crossings)
-    line(axes, closed(frame(points)), INK, 1.6 * weight)
+    for loop in drawn_loops(arrangement):
+        line(axes, closed(frame(loop)), INK, 1.6 * weight)
     _arrowheads(axes, arrangement, frame)
     rim = {"edgecolors": PAPER, "linewidths": 0.6 * weight, "zorder": 4}
     dots(axes, frame(arrangement.crossings), ACCENT, 16 * weight**2, **rim)
+    mark_cusps(axes, arrangement, frame)
     _winding_numbers(axes, arrangement, frame, () if obstruction is None else obstruction.where)
     if borders:
         _border_numbers(axes, arrangement, frame)
@@ -89,7 +95,13 @@ def _fill_cells(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
     for cell in range(1, arrangement.n_cells):
         winding = int(arrangement.winding[cell])
         if winding:
-            polygon(axes, frame(arrangement.cell_outline(cell)), winding_colour(winding))
+            region(axes, cell_rings(arrangement, cell, frame), winding_colour(winding))
+
+
+def mark_cusps(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
+    """Mark the cusps of an outline."""
+    places, indices = cusps_drawn(arrangement)
+    cusp_signs(axes, frame(places), indices, mark_weight(arrangement.n_crossings))
 
 
 def _arrowheads(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
@@ -115,7 +127,7 @@ def _border_numbers(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
         note_below(axes, f"{arrangement.n_borders} borders, too many to number")
     taken = [text.get_position() for text in axes.texts]
     for border in range(arrangement.n_borders if arrangement.n_borders <= MOST_NUMBERS else 0):
-        place, (dx, dy) = border_middle(arrangement.border_points(border))
+        place, (dx, dy) = border_middle(border_line(arrangement, border))
         right, left = (frame(place)[0] + side * np.array([dy, -dx]) for side in (_BESIDE, -_BESIDE))
         x, y = left if _room(left, taken) > _room(right, taken) < _ROOM else right
         taken.append((x, y))

@@ -7,26 +7,31 @@ backend is on. That one shows the figures that pyplot knows; it does not know th
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from io import BytesIO
 from textwrap import fill
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
 
 from plyfold.arrays import Floats
-from plyfold.colours import INK, OBSTRUCTION, PAPER
+from plyfold.colours import CUSP, INK, OBSTRUCTION, PAPER
+from plyfold.draw.placement import closed
 
 __all__ = [
     "ShownFigure",
     "blank",
+    "cusp_signs",
     "dots",
     "grid",
     "line",
     "new_axes",
     "note_below",
     "polygon",
+    "region",
     "write",
     "write_below",
 ]
@@ -74,7 +79,16 @@ def blank(ax: Axes | None, size: tuple[float, float] = (5.0, 5.0)) -> Axes:
 
 def polygon(axes: Axes, points: Floats, colour: str, **style: Any) -> None:
     """Fill a polygon."""
-    axes.fill(points[:, 0], points[:, 1], **{"facecolor": colour, "edgecolor": "none", "zorder": 1, **style})
+    region(axes, [points], colour, **style)
+
+
+def region(axes: Axes, rings: Sequence[Floats], colour: str, **style: Any) -> PathPatch:
+    """Fill what polygons bound together, which lies on the left of each, and return it: holes run clockwise."""
+    outline = Path.make_compound_path(*(Path(closed(ring), closed=True) for ring in rings))
+    filled = PathPatch(outline, **{"facecolor": colour, "edgecolor": "none", "zorder": 1, **style})
+    axes.add_patch(filled)
+    axes.autoscale_view()
+    return filled
 
 
 def line(axes: Axes, points: Floats, colour: str, width: float, **style: Any) -> None:
@@ -86,6 +100,15 @@ def line(axes: Axes, points: Floats, colour: str, width: float, **style: Any) ->
 def dots(axes: Axes, points: Floats, colour: str, size: float, **style: Any) -> None:
     """Draw dots, or other markers, of some area in square points."""
     axes.scatter(points[:, 0], points[:, 1], s=size, color=colour, **style)
+
+
+def cusp_signs(axes: Axes, places: Floats, indices: Sequence[int], weight: float, alpha: float = 1.0) -> None:
+    """Mark cusps at some places in the picture: small disks with their indices."""
+    if not indices:
+        return
+    dots(axes, places, CUSP, 95 * weight**2, edgecolors=PAPER, linewidths=0.8 * weight, zorder=6, alpha=alpha)
+    for place, index in zip(places, indices, strict=True):
+        write(axes, place, str(index), 7.0 * weight, color=PAPER, weight="bold", zorder=7)
 
 
 def write(axes: Axes, place: Iterable[float], text: str, size: float, **style: Any) -> None:

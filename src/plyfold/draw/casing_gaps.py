@@ -9,7 +9,7 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Floats
-from plyfold.draw.placement import Frame
+from plyfold.draw.placement import Frame, border_line
 
 if TYPE_CHECKING:
     from plyfold.layering.layering import Layering
@@ -22,7 +22,7 @@ _MOST_OF_BORDER = 1 / 3
 
 
 def cased_strands(layering: Layering, frame: Frame, gap: float) -> Iterator[Floats]:
-    """Yield the curve cut wherever it passes under itself: polylines with gaps at their ends.
+    """Yield the outline cut wherever it passes under itself: polylines with gaps at their ends.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def cased_strands(layering: Layering, frame: Frame, gap: float) -> Iterator[Floa
     Yields
     ------
     (m, 2) float
-        In order along the curve. Without crossings, the closed curve, its first point repeated.
+        In order along the loops. Of a loop that passes under nothing, all of it, its first point repeated.
 
     Examples
     --------
@@ -47,37 +47,46 @@ def cased_strands(layering: Layering, frame: Frame, gap: float) -> Iterator[Floa
     4
     """
     arrangement = layering.immersion.arrangement
-    if arrangement.n_crossings == 0:
-        points = frame(arrangement.border_points(0))
-        yield np.concatenate([points, points[:1]])
-    for borders in cut_strands(arrangement, ~layering.casing):
-        yield strand_with_gaps(arrangement, borders, frame, gap)
+    under = arrangement.crossing_visits[~layering.casing[arrangement.crossing_visits]]
+    cut = np.isin(np.arange(arrangement.n_borders), arrangement.border_after[under])
+    for borders, is_loop in cut_strands(arrangement, cut):
+        yield strand_with_gaps(arrangement, borders, frame, 0.0 if is_loop else gap)
 
 
-def cut_strands(arrangement: Arrangement, cuts: Bools) -> Iterator[list[int]]:
-    """Yield the borders between one visit to be cut at and the next, in order along the curve; nothing without cuts."""
-    visits = np.flatnonzero(cuts).tolist()
-    n = arrangement.n_borders
-    for start, end in zip(visits, visits[1:] + visits[:1], strict=True):
-        yield [(start + i) % n for i in range((end - start - 1) % n + 1)]
+def cut_strands(arrangement: Arrangement, cut: Bools) -> Iterator[tuple[list[int], bool]]:
+    """Yield the borders from one whose start is cut to the next such one, in order along each loop.
+
+    With them comes whether they are a whole loop, which is cut nowhere.
+    """
+    for borders in np.split(np.arange(arrangement.n_borders), np.flatnonzero(np.diff(arrangement.loop_of_border)) + 1):
+        starts = np.flatnonzero(cut[borders])
+        if len(starts):
+            pieces = np.split(np.roll(borders, -starts[0]), starts[1:] - starts[0])
+            yield from ((piece.tolist(), False) for piece in pieces)
+        else:
+            yield borders.tolist(), True
 
 
 def strand_with_gaps(arrangement: Arrangement, borders: Sequence[int], frame: Frame, gap: float) -> Floats:
     """Return consecutive borders as one polyline in the picture, shortened at both ends; not at all by a gap of 0."""
-    lines = [frame(arrangement.border_points(border)) for border in borders]
+    lines = [frame(border_line(arrangement, border)) for border in borders]
     if gap:
-        end = (borders[-1] + 1) % arrangement.n_borders
-        lines[0] = _shortened(lines[0], _gap_at(arrangement, borders[0], gap))
+        start, end = arrangement.start_visit[[borders[0], arrangement.next_border[borders[-1]]]].tolist()
+        lines[0] = _shortened(lines[0], _gap_at(arrangement, start, gap))
         lines[-1] = _shortened(lines[-1][::-1], _gap_at(arrangement, end, gap))[::-1]
     return np.concatenate([*(line[:-1] for line in lines), lines[-1][-1:]])
 
 
 def _gap_at(arrangement: Arrangement, visit: int, gap: float) -> float:
-    """Return how much of a strand to leave out at a visit, so that the gap is as wide as asked for, seen across."""
-    assert arrangement.curve is not None
-    points = arrangement.curve.points
-    start = arrangement.visit_edge[[visit, arrangement.partner[visit]]]
-    (ax, ay), (bx, by) = points[(start + 1) % len(points)] - points[start]
+    """Return how much of a strand to leave out at a visit, so that the gap is as wide as asked for, seen across.
+
+    At a cusp a strand goes under the surface that begins there, and has no gap.
+    """
+    outline, other = arrangement.outline, int(arrangement.partner[visit])
+    if outline is None or other == visit:
+        return 0.0
+    start = arrangement.visit_edge[[visit, other]]
+    (ax, ay), (bx, by) = outline.points[outline.next_point[start]] - outline.points[start]
     sine = abs(ax * by - ay * bx) / (np.hypot(ax, ay) * np.hypot(bx, by))
     return float(gap / max(sine, 1 / _LONGEST_GAP))
 

@@ -10,8 +10,8 @@ import numpy as np
 from plyfold.arrays import Floats
 from plyfold.colours import INK, OBSTRUCTION, PAPER, mix, sheet_colour, text_colour
 from plyfold.draw.arrangement_plot import plot_arrangement
-from plyfold.draw.canvas import blank, dots, grid, line, note_below, polygon, write
-from plyfold.draw.placement import BorderCircle, Frame, drawn_points
+from plyfold.draw.canvas import blank, dots, grid, line, note_below, region, write
+from plyfold.draw.placement import BorderCircle, Frame, cell_rings, drawn_points
 from plyfold.options import refuse_unless_count
 from plyfold.paper.collapsed import (
     CollapsedGraph,
@@ -157,7 +157,7 @@ def plot_marked_cell(arrangement: Arrangement, cell: int, ax: Axes | None = None
     """
     axes = plot_arrangement(arrangement, ax)
     frame = Frame(drawn_points(arrangement))
-    polygon(axes, frame(arrangement.cell_outline(cell)), OBSTRUCTION, alpha=0.45, zorder=1.5)
+    region(axes, cell_rings(arrangement, cell, frame), OBSTRUCTION, alpha=0.45, zorder=1.5)
     return axes
 
 

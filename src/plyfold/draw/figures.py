@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.colours import INK, PAPER
 from plyfold.draw.arrangement_plot import plot_arrangement
+from plyfold.draw.immersion_plot import plot_immersion
 from plyfold.draw.layers_plot import plot_layers
 from plyfold.draw.layout_plot import plot_layout
 from plyfold.draw.surface_plot import plot_surface
@@ -36,7 +37,9 @@ _PANEL = 3.7
 
 
 def overview(value: Arrangement | Immersion | Layering | Surface, obstruction: Obstruction | None = None) -> Figure:
-    """Draw all that is known: the arrangement, the disk layout, the layers, and the surface from two sides.
+    """Draw all that is known: the arrangement, the immersion, the layers, and the surface from two sides.
+
+    Of a disk the immersion is shown as the disk layout, of another surface as it lies over the drawing.
 
     Parameters
     ----------
@@ -123,9 +126,11 @@ def _panels(
     if isinstance(value, Layering | IntersectingLayering):
         return [*_panels(value.immersion, obstruction), ("The layers", partial(plot_layers, value))]
     if isinstance(value, Immersion):
-        return [*_panels(value.arrangement, obstruction), ("The disk layout", partial(plot_layout, value))]
+        title, plot = ("The disk layout", plot_layout) if value.is_disk else ("The surface laid flat", plot_immersion)
+        return [*_panels(value.arrangement, obstruction), (title, partial(plot, value))]
     picture = partial(plot_arrangement, value, obstruction=obstruction, borders=True)
-    return [("The curve, its winding numbers and borders", picture)]
+    what = "curve" if value.n_loops == 1 else "outline"
+    return [(f"The {what}, its winding numbers and borders", picture)]
 
 
 def _views(surface: Surface) -> Panels:

@@ -1,4 +1,4 @@
-"""The layers of a layering pulled apart, and the cased curve seen from above."""
+"""The layers of a layering pulled apart, and the cased outline seen from above."""
 
 from __future__ import annotations
 
@@ -8,10 +8,20 @@ import numpy as np
 
 from plyfold.arrays import Floats
 from plyfold.colours import INK, PAPER, mix, sheet_colour
-from plyfold.draw.canvas import blank, line, polygon, write
+from plyfold.draw.arrangement_plot import mark_cusps
+from plyfold.draw.canvas import blank, cusp_signs, line, region, write
 from plyfold.draw.casing_gaps import cased_strands
 from plyfold.draw.over_under import OverUnder, over_under
-from plyfold.draw.placement import Frame, closed, drawn_points, line_weight
+from plyfold.draw.placement import (
+    Frame,
+    border_line,
+    cell_rings,
+    closed,
+    drawn_loops,
+    drawn_points,
+    line_weight,
+    mark_weight,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,7 +39,8 @@ def plot_layers(layering: Layering | IntersectingLayering, ax: Axes | None = Non
     """Draw the layers one above the other, pulled apart and seen at a slant.
 
     Each layer holds one sheet over every cell it covers, coloured as in :func:`plot_layout`; the strands of the
-    curve that lie in the layer are dark, and lines where the cloth goes on, here or to the next layer, are white.
+    outline that lie in the layer are dark, and lines where the cloth goes on, here or to the next layer, are white.
+    A cusp is marked in the layers of both strands that end there.
 
     Parameters
     ----------
@@ -53,10 +64,12 @@ def plot_layers(layering: Layering | IntersectingLayering, ax: Axes | None = Non
     frame = Frame(points)
     flat = frame(points) @ _SHEAR
     spacing = 0.08 + 0.74 * float(np.ptp(flat[:, 1]))
+    loops = [closed(frame(loop)) @ _SHEAR for loop in drawn_loops(layering.immersion.arrangement)]
     levels = int(layering.level.max(initial=1))
     for level in range(1, levels + 1):
         lift = np.array([0.0, spacing * (level - 1)])
-        line(axes, closed(flat) + lift, mix(INK, PAPER, 0.78), 0.7)
+        for loop in loops:
+            line(axes, loop + lift, mix(INK, PAPER, 0.78), 0.7)
         _layer(axes, layering, level, frame, lift)
         write(axes, (flat[:, 0].min() - 0.03, lift[1]), f"layer {level}", 9.0, ha="right")
     return axes
@@ -66,16 +79,20 @@ def _layer(axes: Axes, layering: Layering | IntersectingLayering, level: int, fr
     immersion = layering.immersion
     arrangement = immersion.arrangement
     for sheet in np.flatnonzero(layering.level == level).tolist():
-        outline = frame(arrangement.cell_outline(int(immersion.sheet_cell[sheet]))) @ _SHEAR + lift
-        polygon(axes, outline, mix(sheet_colour(sheet), PAPER, 0.25), edgecolor=PAPER, linewidth=0.7)
-    for border in np.flatnonzero(layering.level[immersion.own_sheet] == level).tolist():
-        points = arrangement.border_points(border)
-        flat = frame(closed(points) if arrangement.n_crossings == 0 else points) @ _SHEAR
+        rings = [ring @ _SHEAR + lift for ring in cell_rings(arrangement, int(immersion.sheet_cell[sheet]), frame)]
+        region(axes, rings, mix(sheet_colour(sheet), PAPER, 0.25), edgecolor=PAPER, linewidth=0.7)
+    own_level = layering.level[immersion.own_sheet]
+    for border in np.flatnonzero(own_level == level).tolist():
+        flat = frame(border_line(arrangement, border)) @ _SHEAR
         line(axes, flat + lift, INK, 1.6 * line_weight(arrangement.n_crossings))
+    ends = (own_level[arrangement.border_before] == level) | (own_level[arrangement.border_after] == level)
+    cusps = np.flatnonzero(ends & (arrangement.cusp_index > 0))
+    places = frame(arrangement.visit_point[cusps]) @ _SHEAR + lift
+    cusp_signs(axes, places, arrangement.cusp_index[cusps].tolist(), mark_weight(arrangement.n_crossings))
 
 
 def plot_casing(layering: Layering, ax: Axes | None = None, *, cloth: bool = True) -> Axes:
-    """Draw what passes over and under: the curve with a gap wherever it passes under itself.
+    """Draw what passes over and under: the outline with a gap wherever it passes under itself.
 
     Parameters
     ----------
@@ -84,8 +101,8 @@ def plot_casing(layering: Layering, ax: Axes | None = None, *, cloth: bool = Tru
     ax : matplotlib Axes, optional
         Where to draw; by default on a new figure.
     cloth : bool, optional
-        Fill the sheets from below to above, in the colours of :func:`plot_layout`; the curve is dashed where cloth
-        hides it. Otherwise, draw the curve alone, as a knot is drawn.
+        Fill the sheets from below to above, in the colours of :func:`plot_layout`; the outline is dashed where cloth
+        hides it. Otherwise, draw the outline alone, as a knot is drawn.
 
     Returns
     -------
@@ -105,20 +122,20 @@ def plot_casing(layering: Layering, ax: Axes | None = None, *, cloth: bool = Tru
     """
     axes = blank(ax)
     drawn = over_under(layering, colours="sheets", hidden="dashed")
-    width = 1.6 * line_weight(layering.immersion.arrangement.n_crossings)
+    arrangement = layering.immersion.arrangement
+    width, frame = 1.6 * line_weight(arrangement.n_crossings), Frame(drawn_points(arrangement))
     if cloth:
         _cloth(axes, drawn, width)
     else:
-        frame = Frame(drawn_points(layering.immersion.arrangement))
         for strand in cased_strands(layering, frame, _GAP * width / 1.6):
             line(axes, strand, INK, 1.25 * width)
+    mark_cusps(axes, arrangement, frame)
     return axes
 
 
 def _cloth(axes: Axes, drawn: OverUnder, width: float) -> None:
     for piece in drawn.pieces:
-        for ring in piece.rings:
-            polygon(axes, ring, mix(piece.colour, PAPER, 0.25))
+        region(axes, piece.rings, mix(piece.colour, PAPER, 0.25))
     for strand in drawn.strands:
         points = closed(strand.points) if strand.closed else strand.points
         if strand.hidden:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from plyfold.colours import INK, PAPER, mix, sheet_colour, winding_colour
 from plyfold.draw.canvas import blank, line, note_below, polygon, write
 from plyfold.draw.placement import MOST_NUMBERS, BorderCircle, line_weight
+from plyfold.immersion.immersion import require_disk
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,6 +37,11 @@ def plot_layout(immersion: Immersion, ax: Axes | None = None, *, groups: Iterabl
     -------
     matplotlib Axes
 
+    Raises
+    ------
+    InputError
+        If the surface is no disk, which is bounded by one curve and has Euler characteristic 1.
+
     References
     ----------
     .. [MGR11] U. Mukherjee, M. Gopi, J. Rossignac, "Immersion and Embedding of Self-Crossing Loops",
@@ -48,6 +54,7 @@ def plot_layout(immersion: Immersion, ax: Axes | None = None, *, groups: Iterabl
     >>> [text.get_text() for text in ax.texts]
     ['0']
     """
+    require_disk(immersion)
     axes = blank(ax)
     borders, weight = immersion.arrangement.n_borders, line_weight(immersion.arrangement.n_crossings)
     circle = BorderCircle(borders)

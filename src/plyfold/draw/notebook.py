@@ -30,7 +30,7 @@ def obstruction_png(obstruction: Obstruction) -> bytes | None:
     """Return the picture of an obstruction on its drawing, if it knows one."""
     subject = obstruction.subject
     drawn = getattr(subject, "arrangement", subject)
-    if drawn is None or drawn.curve is None:
+    if drawn is None or drawn.outline is None:
         return None
     axes = new_axes(_SIZE)
     plot_obstruction(subject, obstruction, axes)

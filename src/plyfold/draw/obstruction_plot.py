@@ -15,14 +15,14 @@ from plyfold.arrangement.arrangement import arrange as arrangement_of
 from plyfold.arrays import Floats
 from plyfold.colours import OBSTRUCTION, PAPER, mix, sheet_colour, text_colour, winding_colour
 from plyfold.draw.arrangement_plot import plot_arrangement
-from plyfold.draw.canvas import polygon, write, write_below
-from plyfold.draw.placement import Frame, border_middle, drawn_points, label_circle
+from plyfold.draw.canvas import polygon, region, write, write_below
+from plyfold.draw.placement import Frame, border_line, border_middle, cell_rings, drawn_points, label_circle
 from plyfold.errors import InputError
 from plyfold.immersion.immersion import Immersion
 from plyfold.immersion.solve import find_immersion
 from plyfold.layering.orders.search import find_layering
 from plyfold.obstruction import Obstruction
-from plyfold.outline.curve import CurveLike
+from plyfold.outline.given import OutlineLike
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -40,13 +40,13 @@ _BACK = {"above": -1, "below": 1}
 
 
 def plot_obstruction(
-    subject: CurveLike | Immersion, obstruction: Obstruction | None = None, ax: Axes | None = None
+    subject: OutlineLike | Immersion, obstruction: Obstruction | None = None, ax: Axes | None = None
 ) -> Axes:
     """Draw why there is no immersion or no layering, on the drawing.
 
     Parameters
     ----------
-    subject : Curve, array_like of shape (n, 2), shapely geometry, Arrangement or Immersion
+    subject : Outline, Curve, array_like of shape (n, 2), shapely geometry, Arrangement or Immersion, or some curves
         What the obstruction is about; an immersion for obstructions to a layering.
     obstruction : Obstruction, optional
         By default that of ``find_immersion(curve)`` or ``find_layering(immersion)``. Of a pair of sheets that returns
@@ -70,7 +70,7 @@ def plot_obstruction(
     --------
     >>> ax = plot_obstruction([(0, 0), (2, 2), (2, 0), (0, 2)])
     >>> " ".join(ax.texts[-1].get_text().split())
-    'The curve turns 0 times, and the outline of a disk turns once.'
+    'The curve turns 0 times; what bounds a surface turns once, or less by an even number.'
     """
     why = _found(subject) if obstruction is None else obstruction
     if isinstance(subject, Immersion):
@@ -78,7 +78,7 @@ def plot_obstruction(
     return _plot_places(arrangement_of(subject), why, ax)
 
 
-def _found(subject: CurveLike | Immersion) -> Obstruction:
+def _found(subject: OutlineLike | Immersion) -> Obstruction:
     found = find_layering(subject) if isinstance(subject, Immersion) else find_immersion(subject)
     if not isinstance(found, Obstruction):
         raise InputError(f"nothing is in the way: {found!r}", hint="give an immersion to see why it has no layering")
@@ -121,9 +121,8 @@ def _plot_places(arrangement: Arrangement, obstruction: Obstruction, ax: Axes | 
 
 
 def _highlight(axes: Axes, arrangement: Arrangement, cell: int, frame: Frame) -> None:
-    outline = frame(arrangement.cell_outline(cell))
     colour = mix(winding_colour(int(arrangement.winding[cell])), OBSTRUCTION, 0.25)
-    polygon(axes, outline, colour, edgecolor=OBSTRUCTION, linewidth=1.2, zorder=1.5)
+    region(axes, cell_rings(arrangement, cell, frame), colour, edgecolor=OBSTRUCTION, linewidth=1.2, zorder=1.5)
 
 
 def _number_cells(axes: Axes, arrangement: Arrangement, cells: Sequence[int], frame: Frame) -> None:
@@ -143,7 +142,7 @@ def _arrows_between(axes: Axes, immersion: Immersion, steps: Sequence[Step], fra
     """Draw a short arrow across the border from each step to the next; each once, there and back side by side."""
     crossed = {_border_between(immersion, step, following): None for step, following in pairwise(steps)}
     for border, leftward in crossed:
-        middle, (dx, dy) = border_middle(frame(immersion.arrangement.border_points(border)))
+        middle, (dx, dy) = border_middle(frame(border_line(immersion.arrangement, border)))
         forward = np.array([-dy, dx]) if leftward else np.array([dy, -dx])
         keep_right = 0.014 * np.array([forward[1], -forward[0]])
         (x0, y0), (x1, y1) = ((middle + keep_right + length * forward).tolist() for length in (-0.025, 0.025))

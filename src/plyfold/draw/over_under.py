@@ -1,4 +1,4 @@
-"""The layered surface seen from straight above: pieces of cloth from back to front, and the curve where it is seen.
+"""The layered surface seen from straight above: pieces of cloth from back to front, and the outline where it is seen.
 
 Sheets lie over one cell each, and their levels count from below. So drawing level by level puts everything that is
 above something else after it, also where no order of larger pieces would: where three strips lie over one another in a
@@ -18,7 +18,7 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.colours import CLOTH_HIGH, PAPER, layer_colour, mix, sheet_colour
 from plyfold.draw.casing_gaps import cut_strands, strand_with_gaps
-from plyfold.draw.placement import Frame, line_weight
+from plyfold.draw.placement import Frame, border_line, cusps_drawn, drawn_points, line_weight, mark_weight
 from plyfold.errors import InputError
 from plyfold.graphs import components
 from plyfold.layering.layering import Layering
@@ -41,6 +41,7 @@ Hidden: TypeAlias = Literal["removed", "dashed"]
 # The width of lines, as a fraction of the larger side, and of gaps from the middle of the strand above, in widths.
 _STROKE = 0.005
 _GAP = 2.0
+_CUSP = 0.015
 
 # How hidden strands are drawn: dashes on and off, in widths of lines, and how much thinner and paler they are.
 DASHES = (2.2, 1.8)
@@ -75,7 +76,7 @@ class ClothPiece:
 
 @dataclass(frozen=True, eq=False)
 class Strand:
-    """A part of the curve, as long as can be, that is seen or hidden: a polyline, which may be closed."""
+    """A part of the outline, as long as can be, that is seen or hidden: a polyline, which may be closed."""
 
     points: Floats
     hidden: bool
@@ -92,16 +93,24 @@ class OverUnder:
         From back to front.
     strands : tuple of Strand
         Before all pieces; hidden ones first.
+    cusps : (c, 2) float
+        The places of cusps.
+    cusp_indices : tuple of int
     half : (2,) float
         Half the width and half the height.
     stroke : float
         How wide lines should be.
+    cusp_radius : float
+        How large the signs of cusps should be.
     """
 
     pieces: tuple[ClothPiece, ...]
     strands: tuple[Strand, ...]
+    cusps: Floats
+    cusp_indices: tuple[int, ...]
     half: Floats
     stroke: float
+    cusp_radius: float
 
     @property
     def layers(self) -> tuple[tuple[ClothPiece, ...], ...]:
@@ -125,7 +134,8 @@ def over_under(layering: Layering, *, colours: ClothColours = "cloth", hidden: H
     Returns
     -------
     OverUnder
-        Strands end a little before the strand that they pass under. Cost: O(Σ w) and the number of points along the
+        Strands end a little before the strand that they pass under, or at a cusp, where the outline goes on under the
+        surface. Cost: O(Σ w) and the number of points along the
         borders.
 
     Raises
@@ -143,14 +153,18 @@ def over_under(layering: Layering, *, colours: ClothColours = "cloth", hidden: H
     """
     _refuse_options(layering, colours, hidden)
     arrangement = layering.immersion.arrangement
-    points = arrangement.border_points(0) if arrangement.curve is None else arrangement.curve.points
+    points = drawn_points(arrangement)
     frame, stroke = Frame(points), _STROKE * line_weight(arrangement.n_crossings)
+    cusps, indices = cusps_drawn(arrangement)
     strands = sorted(_strands(layering, frame, _GAP * stroke), key=lambda strand: not strand.hidden)
     return OverUnder(
         pieces=tuple(_pieces(layering, frame, colours)),
         strands=tuple(strand for strand in strands if hidden == "dashed" or not strand.hidden),
+        cusps=frame(cusps),
+        cusp_indices=tuple(indices),
         half=np.abs(frame(points)).max(axis=0),
         stroke=stroke,
+        cusp_radius=_CUSP * mark_weight(arrangement.n_crossings),
     )
 
 
@@ -223,25 +237,23 @@ def _following(arrangement: Arrangement, around: Bools, dart: int) -> int:
 
 
 def _dart_points(arrangement: Arrangement, dart: int) -> Floats:
-    points = arrangement.border_points(dart // 2)
-    points = points[::-1] if dart % 2 else points
-    return points if arrangement.n_crossings == 0 else points[:-1]
+    points = border_line(arrangement, dart // 2)
+    return points[:0:-1] if dart % 2 else points[:-1]
 
 
 # ---- strands -------------------------------------------------------------------------------------------------------
 
 
 def _strands(layering: Layering, frame: Frame, gap: float) -> Iterator[Strand]:
-    """Yield the curve in parts that are seen or hidden as a whole.
+    """Yield the outline in parts that are seen or hidden as a whole.
 
     A border is hidden where a sheet lies over its own sheet. Beyond the border, that sheet goes on.
     """
     arrangement = layering.immersion.arrangement
-    assert arrangement.curve is not None
     hidden = layering.border_level < arrangement.winding[arrangement.left_cell]
-    changes = hidden != np.roll(hidden, 1)
-    if not changes.any():
-        yield Strand(frame(arrangement.curve.points), False, True)
-    for borders in cut_strands(arrangement, changes):
+    changes = np.zeros(len(hidden), dtype=bool)
+    changes[arrangement.next_border] = hidden != hidden[arrangement.next_border]
+    for borders, is_loop in cut_strands(arrangement, changes):
         covered = bool(hidden[borders[0]])
-        yield Strand(strand_with_gaps(arrangement, borders, frame, 0.0 if covered else gap), covered, False)
+        points = strand_with_gaps(arrangement, borders, frame, 0.0 if covered or is_loop else gap)
+        yield Strand(points[:-1] if is_loop else points, covered, is_loop)

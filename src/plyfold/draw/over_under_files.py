@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from plyfold.arrays import Floats
-from plyfold.colours import INK
+from plyfold.colours import CUSP, INK
 from plyfold.draw.over_under import DASHES, HIDDEN_OPACITY, HIDDEN_WIDTH, OverUnder, Strand, over_under
 from plyfold.draw.svg import SvgPicture
 from plyfold.errors import InputError
@@ -28,6 +28,8 @@ _NAMESPACES = " xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape'"
 _POINTS_PER_CENTIMETRE = 72.27 / 2.54
 # TeX cannot hold lengths of six metres.
 _WIDEST = 500.0
+# The size of letters in a document, in points.
+_LETTERS = 10.0
 
 # Pieces overlap by so much, so that no light shines through between them.
 _SEAM_PIXELS = 0.6
@@ -77,7 +79,7 @@ def over_under_svg(layering: Layering, **options: Any) -> str:
     -------
     str
         Back to front: a group for each layer with a group for each piece in it, named after its sheets, then the
-        hidden strands, if they are drawn, and the visible ones.
+        hidden strands, if they are drawn, the visible ones, and the signs of cusps.
 
     Raises
     ------
@@ -96,7 +98,7 @@ def over_under_svg(layering: Layering, **options: Any) -> str:
     visible, hidden = ([strand for strand in drawn.strands if strand.hidden == kind] for kind in (False, True))
     width = drawn.stroke * picture.scale
     parts = [*_layers(picture, drawn), *_strands(picture, "hidden", hidden, width)]
-    parts += _strands(picture, "visible", visible, width)
+    parts += [*_strands(picture, "visible", visible, width), *_cusps(picture, drawn)]
     return picture.element(["<title>Over and under</title>", *parts], _NAMESPACES) + "\n"
 
 
@@ -125,6 +127,13 @@ def _strands(picture: SvgPicture, name: str, strands: list[Strand], width: float
     for strand in strands:
         yield f'<path d="{picture.path(strand.points, strand.closed)}"/>'
     yield "</g>"
+
+
+def _cusps(picture: SvgPicture, drawn: OverUnder) -> Iterator[str]:
+    if drawn.cusp_indices:
+        yield '<g id="cusps" inkscape:groupmode="layer" inkscape:label="cusps">'
+        yield from picture.cusps(drawn.cusps, drawn.cusp_indices, drawn.cusp_radius * picture.scale)
+        yield "</g>"
 
 
 # ---- TikZ ------------------------------------------------------------------------------------------------------------
@@ -163,6 +172,7 @@ def over_under_tikz(layering: Layering, *, size: float = 8.0, **options: Any) ->
         raise InputError(f"the size must be from 0 to {_WIDEST:g} centimetres, not {size!r}")
     drawn = over_under(layering, **options)
     lines = [*_tikz_pieces(drawn, size), *(_tikz_strand(strand, size, drawn.stroke) for strand in drawn.strands)]
+    lines += _tikz_cusps(drawn, size)
     return "\n".join([r"\begin{tikzpicture}[line join=round]", *lines, r"\end{tikzpicture}"]) + "\n"
 
 
@@ -173,7 +183,7 @@ def over_under_tex(layering: Layering, **options: Any) -> str:
 
 
 def _tikz_pieces(drawn: OverUnder, size: float) -> Iterator[str]:
-    colours = sorted({piece.colour for piece in drawn.pieces} | {INK})
+    colours = sorted({piece.colour for piece in drawn.pieces} | {INK} | ({CUSP} if drawn.cusp_indices else set()))
     for colour in colours:
         yield rf"\definecolor{{{_tikz_name(colour)}}}{{HTML}}{{{colour[1:].upper()}}}"
     for number, pieces in enumerate(drawn.layers, start=1):
@@ -192,6 +202,14 @@ def _tikz_strand(strand: Strand, size: float, stroke: float) -> str:
         dashes = f"dash pattern=on {on:.3f}pt off {off:.3f}pt"
         style = f"{_tikz_name(INK)}!{100 * HIDDEN_OPACITY:g}, line width={HIDDEN_WIDTH * width:.3f}pt, {dashes}"
     return f"\\draw[{style}]\n  {_tikz_path(strand.points, size)}{' -- cycle' if strand.closed else ''};"
+
+
+def _tikz_cusps(drawn: OverUnder, size: float) -> Iterator[str]:
+    radius = drawn.cusp_radius * size
+    scale = 1.4 * radius * _POINTS_PER_CENTIMETRE / _LETTERS
+    for (x, y), index in zip((drawn.cusps * size).tolist(), drawn.cusp_indices, strict=True):
+        yield f"\\filldraw[{_tikz_name(CUSP)}, draw=white] ({x:.4f},{y:.4f}) circle[radius={radius:.4f}]"
+        yield f"  node[white, scale={scale:.3f}] {{\\textsf{{\\textbf{{{index}}}}}}};"
 
 
 def _tikz_name(colour: str) -> str:

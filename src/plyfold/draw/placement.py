@@ -20,12 +20,17 @@ __all__ = [
     "BorderCircle",
     "Frame",
     "arrows",
+    "border_line",
     "border_middle",
+    "cell_rings",
     "closed",
+    "cusps_drawn",
+    "drawn_loops",
     "drawn_points",
     "geodesic",
     "label_circle",
     "line_weight",
+    "mark_weight",
     "middle_and_size",
     "natural_stretch",
 ]
@@ -35,6 +40,9 @@ T = TypeVar("T", bound=np.generic)
 # Borders are numbered if they are not more.
 MOST_NUMBERS = 60
 
+# A loop gets an arrow if its longest border is longer than this part of the longest of all.
+_SHORTEST_WITH_ARROW = 0.08
+
 
 def closed(points: npt.NDArray[T]) -> npt.NDArray[T]:
     """Return points with the first one repeated at the end."""
@@ -42,8 +50,25 @@ def closed(points: npt.NDArray[T]) -> npt.NDArray[T]:
 
 
 def drawn_points(arrangement: Arrangement) -> Floats:
-    """Return the points of the curve; raises the arrangement's own error if there is no drawing."""
-    return arrangement.border_points(0) if arrangement.curve is None else arrangement.curve.points
+    """Return the points of the outline; raises the arrangement's own error if there is no drawing."""
+    return arrangement.border_points(0) if arrangement.outline is None else arrangement.outline.points
+
+
+def drawn_loops(arrangement: Arrangement) -> tuple[Floats, ...]:
+    """Return the points of each loop of a drawing."""
+    return () if arrangement.outline is None else arrangement.outline.loops
+
+
+def border_line(arrangement: Arrangement, border: int) -> Floats:
+    """Return the polyline of a border with both ends; of a loop that crosses nothing, closed."""
+    points = arrangement.border_points(border)
+    return points if arrangement.start_visit[border] >= 0 else closed(points)
+
+
+def cusps_drawn(arrangement: Arrangement) -> tuple[Floats, list[int]]:
+    """Return the places of all cusps, shape (c, 2), and their indices."""
+    visits = np.flatnonzero(arrangement.cusp_index)
+    return arrangement.visit_point[visits], arrangement.cusp_index[visits].tolist()
 
 
 class Frame:
@@ -57,6 +82,11 @@ class Frame:
         return np.asarray((np.asarray(points, dtype=float).reshape(-1, 2) - self.middle) / self.size)
 
 
+def cell_rings(arrangement: Arrangement, cell: int, frame: Frame) -> list[Floats]:
+    """Return the boundary polygons of a cell in the picture, with the cell on the left of each."""
+    return [frame(ring) for ring in arrangement.cell_outlines(cell)]
+
+
 def middle_and_size(points: Floats) -> tuple[Floats, float]:
     """Return the middle of the bounding box and its longer side, without overflow or loss for far-away drawings."""
     low, high = points.min(axis=0), points.max(axis=0)
@@ -66,6 +96,11 @@ def middle_and_size(points: Floats) -> tuple[Floats, float]:
 def line_weight(crossings: int) -> float:
     """Return how heavy lines and dots should be: 1 for simple curves, less for those with many crossings."""
     return min(1.0, math.sqrt(40 / max(crossings, 1)))
+
+
+def mark_weight(crossings: int) -> float:
+    """Return how large the signs of cusps should be: as :func:`line_weight`, but so that one can read their numbers."""
+    return max(line_weight(crossings), 0.65)
 
 
 def natural_stretch(vertices: Floats) -> float:
@@ -80,15 +115,20 @@ def label_circle(arrangement: Arrangement, cell: int, tolerance: float = 0.005) 
 
     It is the largest inscribed circle to a tolerance, in parts of the cell's size; 0.02 takes a third of the time.
     """
-    outline = arrangement.cell_outline(cell)
-    middle, size = middle_and_size(outline)
-    polygon = shapely.Polygon((outline - middle) / size)
+    outlines = arrangement.cell_outlines(cell)
+    middle, size = middle_and_size(np.concatenate(outlines))
+    shell, *holes = sorted(((outline - middle) / size for outline in outlines), key=_spread, reverse=True)
+    polygon = shapely.Polygon(shell, holes)
     try:
         radius = shapely.maximum_inscribed_circle(polygon, tolerance=tolerance)
     except shapely.GEOSException:
         return (*arrangement.cell_point(cell), 0.0)
     x, y = middle + size * np.array(radius.coords[0])
     return float(x), float(y), size * float(radius.length)
+
+
+def _spread(points: Floats) -> float:
+    return float(np.ptp(points, axis=0).max())
 
 
 def border_middle(points: Floats) -> tuple[Floats, Floats]:
@@ -101,13 +141,15 @@ def border_middle(points: Floats) -> tuple[Floats, Floats]:
 
 
 def arrows(arrangement: Arrangement, most: int = 6) -> list[tuple[Floats, Floats]]:
-    """Return places and unit directions for arrows along the curve: the middles of its longest borders."""
-    lines = [arrangement.border_points(i) for i in range(arrangement.n_borders)]
-    if arrangement.n_crossings == 0:
-        lines = [np.concatenate([lines[0], lines[0][:1]])]
+    """Return places and unit directions for arrows: the middles of the longest borders, and of each loop's longest."""
+    lines = [border_line(arrangement, border) for border in range(arrangement.n_borders)]
     lengths = [float(np.hypot(*np.diff(line, axis=0).T).sum()) for line in lines]
-    longest = sorted(range(len(lines)), key=lambda i: -lengths[i])[:most]
-    return [border_middle(lines[i]) for i in longest if lengths[i] > 0.25 * lengths[longest[0]]]
+    longest = sorted(range(len(lines)), key=lambda i: -lengths[i])
+    of_loop = dict(zip(arrangement.loop_of_border[longest[::-1]].tolist(), longest[::-1], strict=True))
+    least = 0.25 * lengths[longest[0]]
+    shown = [border for border in longest[:most] if lengths[border] > least]
+    shown += [border for border in of_loop.values() if lengths[border] > _SHORTEST_WITH_ARROW * lengths[longest[0]]]
+    return [border_middle(lines[border]) for border in dict.fromkeys(shown)]
 
 
 # ---- arcs in a round disk that never cross unless their ends interleave ----------------------------------------------

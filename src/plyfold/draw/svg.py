@@ -1,4 +1,4 @@
-"""Small pictures as SVG text, for notebooks: of an arrangement, and of a disk layout. No drawing library is needed."""
+"""Small pictures as SVG text, for notebooks: outlines, arrangements and disk layouts. They need no drawing library."""
 
 from __future__ import annotations
 
@@ -10,14 +10,17 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrays import Floats
-from plyfold.colours import ACCENT, INK, PAPER, mix, sheet_colour, text_colour, winding_colour
+from plyfold.colours import ACCENT, CUSP, INK, PAPER, mix, sheet_colour, text_colour, winding_colour
 from plyfold.draw.placement import (
     MOST_NUMBERS,
     BorderCircle,
     arrows,
     border_middle,
+    closed,
+    cusps_drawn,
     label_circle,
     line_weight,
+    mark_weight,
     middle_and_size,
 )
 from plyfold.io.svg_writing import path_data
@@ -25,10 +28,13 @@ from plyfold.io.svg_writing import path_data
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
     from plyfold.immersion.immersion import Group, Immersion
+    from plyfold.outline.curve import Outline
 
-__all__ = ["SvgPicture", "arrangement_svg", "curve_svg", "layout_svg"]
+__all__ = ["SvgPicture", "arrangement_svg", "layout_svg", "outline_svg"]
 
 _STROKE = 2.2
+# The radius of the sign of a cusp, in pixels.
+_CUSP = 6.5
 _FONT = "font-family='system-ui, sans-serif' text-anchor='middle' dominant-baseline='central'"
 
 
@@ -56,9 +62,10 @@ class SvgPicture:
         """Return the ``d`` of a path, without repeated points."""
         return _path(self.pixels(points), closed)
 
-    def area(self, points: Floats, colour: str, inside: str = "") -> str:
-        """Return a filled polygon."""
-        return f"<path d='{self.path(points)}' fill='{colour}'" + (f">{inside}</path>" if inside else "/>")
+    def area(self, rings: Iterable[Floats], colour: str, inside: str = "") -> str:
+        """Return what polygons bound together, which lies on the left of each, filled: holes run clockwise."""
+        outline = "".join(map(self.path, rings))
+        return f"<path d='{outline}' fill='{colour}'" + (f">{inside}</path>" if inside else "/>")
 
     def line(self, points: Floats, colour: str, width: float, closed: bool = False) -> str:
         """Return a polyline of some width in pixels."""
@@ -75,6 +82,13 @@ class SvgPicture:
         x, y = self.pixels(place).tolist()
         words = words.replace("-", "−")
         return f"<text x='{x:g}' y='{y:g}' {_FONT} font-size='{size:.3g}' fill='{colour}'>{words}</text>"
+
+    def cusps(self, places: Floats, indices: Iterable[int], radius: float) -> Iterator[str]:
+        """Yield the signs of cusps, with a radius in pixels: small disks with their indices."""
+        for place, index in zip(places, indices, strict=True):
+            disk = self.dot(place, radius, f"fill='{CUSP}' stroke='{PAPER}' stroke-width='{radius / 8:.2g}'")
+            number = self.text(place, str(index), 1.35 * radius, PAPER)
+            yield f"<g font-weight='bold'><title>cusp of index {index}</title>{disk}{number}</g>"
 
     def arrow(self, place: npt.ArrayLike, direction: npt.ArrayLike) -> str:
         """Return the head of an arrow in a direction of the drawing."""
@@ -105,9 +119,9 @@ def arrangement_svg(arrangement: Arrangement) -> str:
     Parameters
     ----------
     arrangement : Arrangement
-        With a drawing: its cells, shaded by winding number, the curve with its direction, and the crossings.
-        Without one (a Gauss code): the code as a chord diagram, visits in order round a circle and a chord for each
-        crossing.
+        With a drawing: its cells, shaded by winding number, the loops with their directions, the crossings, and cusps
+        with their indices. Without one (a Gauss code): the code as a chord diagram, visits in order round a circle, and
+        a chord for each crossing.
 
     Returns
     -------
@@ -122,28 +136,31 @@ def arrangement_svg(arrangement: Arrangement) -> str:
     >>> picture.startswith("<svg"), picture.count("<path"), picture.count("<circle")
     (True, 5, 1)
     """
-    if arrangement.curve is None:
+    if arrangement.outline is None:
         return _chord_diagram(arrangement)
-    picture, weight = SvgPicture(arrangement.curve.points), line_weight(arrangement.n_crossings)
-    parts = [*_cells(arrangement, picture), picture.line(arrangement.curve.points, INK, _STROKE * weight, closed=True)]
+    picture, weight = SvgPicture(arrangement.outline.points), line_weight(arrangement.n_crossings)
+    loops = (picture.line(loop, INK, _STROKE * weight, closed=True) for loop in arrangement.outline.loops)
+    parts = [*_cells(arrangement, picture), *loops]
     parts += [picture.arrow(place, direction) for place, direction in arrows(arrangement)]
     rim = f"fill='{ACCENT}' stroke='{PAPER}' stroke-width='0.8'"
     parts += [picture.dot(crossing, 3 * weight, rim) for crossing in arrangement.crossings]
+    parts += picture.cusps(*cusps_drawn(arrangement), _CUSP * mark_weight(arrangement.n_crossings))
     return picture.element([*parts, *_labels(arrangement, picture)])
 
 
-def curve_svg(points: Floats) -> str:
-    """Return a picture of a closed polyline, shape (n, 2), as SVG: the line and its direction. It may touch itself."""
-    picture = SvgPicture(points)
-    middle = border_middle(np.concatenate([points, points[:1]]))
-    return picture.element([picture.line(points, INK, _STROKE, closed=True), picture.arrow(*middle)])
+def outline_svg(outline: Outline) -> str:
+    """Return a picture of an outline as SVG: its loops, their directions and cusps. They may touch themselves."""
+    picture, index = SvgPicture(outline.points), np.concatenate(outline.cusps)
+    parts = [picture.line(loop, INK, _STROKE, closed=True) for loop in outline.loops]
+    parts += [picture.arrow(*border_middle(closed(loop))) for loop in outline.loops]
+    return picture.element([*parts, *picture.cusps(outline.points[index > 0], index[index > 0].tolist(), _CUSP)])
 
 
 def _cells(arrangement: Arrangement, picture: SvgPicture) -> Iterator[str]:
     for cell in range(1, arrangement.n_cells):
         winding = int(arrangement.winding[cell])
         title = f"<title>cell {cell}, winding number {winding}</title>"
-        yield picture.area(arrangement.cell_outline(cell), winding_colour(winding), title)
+        yield picture.area(arrangement.cell_outlines(cell), winding_colour(winding), title)
 
 
 def _labels(arrangement: Arrangement, picture: SvgPicture) -> Iterator[str]:
@@ -161,16 +178,19 @@ def _chord_diagram(arrangement: Arrangement) -> str:
     places = np.array([_at_visit(1.0, visit, visits) for visit in range(visits)]).reshape(-1, 2)
     picture = SvgPicture(np.array([(-1.25, -1.25), (1.25, 1.25)]))
     ring = picture.dot((0.0, 0.0), picture.scale, f"fill='none' stroke='{INK}' stroke-width='{_STROKE}'")
+    signs = np.where(arrangement.crossing_of_visit < 0, "", np.where(arrangement.ccw, "+", "-")).tolist()
+    cusps = np.flatnonzero(arrangement.cusp_index)
     partners = enumerate(arrangement.partner.tolist())
     chords = [picture.line(places[[visit, partner]], ACCENT, 1.6) for visit, partner in partners if visit < partner]
     size = min(14.0, 600.0 / max(visits, 1))
     labels = [
-        picture.text(_at_visit(1.13, visit, visits), f"{visit}{'+' if ccw else '-'}", size)
-        for visit, ccw in enumerate(arrangement.ccw.tolist())
+        picture.text(_at_visit(1.13, visit, visits), f"{visit}{sign}", size)
+        for visit, sign in enumerate(signs)
         if size >= 5
     ]
     x, y = top = _at_visit(1.0, -0.5, max(visits, 1))
-    return picture.element([ring, *chords, picture.arrow(top, (-y, x)), *labels])
+    marks = picture.cusps(places[cusps], arrangement.cusp_index[cusps].tolist(), _CUSP)
+    return picture.element([ring, *chords, picture.arrow(top, (-y, x)), *labels, *marks])
 
 
 def _at_visit(radius: float, visit: float, visits: int) -> tuple[float, float]:
@@ -214,7 +234,7 @@ def layout_svg(immersion: Immersion) -> str:
 
 def _group(picture: SvgPicture, circle: BorderCircle, group: Group, weight: float) -> Iterator[str]:
     colour = sheet_colour(group.sheet)
-    yield picture.area(circle.region(group.borders), mix(colour, PAPER, 0.62))
+    yield picture.area([circle.region(group.borders)], mix(colour, PAPER, 0.62))
     for border, other in group.arcs:
         yield picture.line(circle.join(border, other), mix(colour, INK, 0.15), 1.6 * weight)
     for border in group.borders:

@@ -129,8 +129,10 @@ def mesh_data(surface: Surface) -> dict[str, Any]:
 def _frames(surface: Surface) -> list[Floats]:
     """Return where the vertices are on their way from the round disk to the drawing, at equal times from 0 to 1.
 
-    None if doubles cannot hold the disk: then the page shows no way.
+    None if it is no disk, or if doubles cannot hold that: then the page shows no way.
     """
+    if not surface.layering.immersion.is_disk:
+        return []
     try:
         motion = Motion(surface.unwrap())
     except PrecisionError:

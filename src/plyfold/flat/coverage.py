@@ -15,7 +15,7 @@ from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import PlyfoldError, PrecisionError
 from plyfold.mesh.cells import chain_of
-from plyfold.outline.curve import CurveLike
+from plyfold.outline.given import CurveLike
 from plyfold.ragged import count_each
 
 if TYPE_CHECKING:

@@ -19,7 +19,7 @@ from plyfold.flat.triangulate import chosen_immersion
 from plyfold.graphs import spanning_tree
 from plyfold.halfedges import ends_of, glued_pairs
 from plyfold.immersion.immersion import Immersion
-from plyfold.outline.curve import CurveLike
+from plyfold.outline.given import CurveLike
 from plyfold.predicates import orient
 
 if TYPE_CHECKING:

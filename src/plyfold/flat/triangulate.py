@@ -14,7 +14,8 @@ from plyfold.flat.sweep import sweep_triangles
 from plyfold.immersion.immersion import Immersion, require_disk, require_immersion
 from plyfold.immersion.solve import find_immersion
 from plyfold.mesh.cells import refuse_max_area
-from plyfold.outline.curve import Curve, CurveLike, as_curve
+from plyfold.outline.curve import Curve
+from plyfold.outline.given import CurveLike, as_curve
 from plyfold.predicates import orient
 
 __all__ = ["chosen_immersion", "triangulate"]

@@ -15,7 +15,7 @@ from string import ascii_lowercase
 from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange, require_one_loop
 from plyfold.immersion.dual_tree import grow_dual_tree
 from plyfold.immersion.grouping import Grouping, Groupings, find_groupings, list_groupings
-from plyfold.immersion.solve import is_visibly_no_disk
+from plyfold.immersion.obstructions import is_visibly_no_disk
 from plyfold.immersion.word import Word, write_word
 
 __all__ = ["BlankWord", "Letter", "blank_word"]

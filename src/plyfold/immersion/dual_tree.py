@@ -25,7 +25,7 @@ from plyfold.arrays import Ints
 from plyfold.compiled import called_from_loops, run_loop
 from plyfold.graphs import representative
 
-__all__ = ["DualTree", "around_cells", "grow_dual_tree"]
+__all__ = ["DualTree", "around_cells", "grow_dual_tree", "grow_tree"]
 
 called_from_loops(representative)
 
@@ -87,6 +87,12 @@ class DualTree:
         for cell in sorted(on_the_way, key=self.place.tolist().__getitem__, reverse=True):
             children.setdefault(parent[cell], []).append(cell)
         return children
+
+
+def grow_tree(arrangement: Arrangement) -> tuple[Ints, Ints]:
+    """Grow the tree alone, for an outline of any kind: return the parent of each cell and the link to it."""
+    lakes = _flood(arrangement)
+    return lakes.parent, lakes.link
 
 
 def grow_dual_tree(arrangement: Arrangement) -> DualTree:

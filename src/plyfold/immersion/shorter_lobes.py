@@ -78,7 +78,7 @@ def place_of_turning(drawn: Arrangement) -> tuple[tuple[float, float], ...]:
     >>> place_of_turning(arrange([(0, 0), (2, 2), (2, 0), (0, 2)]))
     ((1.0, 1.0),)
     """
-    if len(drawn.curves) != 1 or not drawn.n_crossings:
+    if drawn.n_loops > 1 or drawn.outline is None or not drawn.n_crossings:
         return ()
     chosen = next(lobes_to_leave_out(drawn), None)
     return places_of(drawn, [lobe.first for lobe in chosen] if chosen else [_nearer_to_once(drawn)])

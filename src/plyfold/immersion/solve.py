@@ -1,31 +1,26 @@
-"""Decide, count, list and sample the immersions of a curve (§2.3 of the paper, after Blank)."""
+"""Decide, count, list and sample the immersions of an outline (§2.3 of the paper).
+
+What bounds disks alone, one loop with Euler characteristic 1, is asked for groupings of Blank's word. Every other
+outline is asked for the gluings of its sheets.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange, require_one_loop
-from plyfold.arrangement.base_visit import begun_at, numbered_from
-from plyfold.clock import UNWATCHED, Watch
-from plyfold.errors import InputError
-from plyfold.immersion.dual_tree import DualTree, grow_dual_tree
-from plyfold.immersion.grouping import (
-    Grouping,
-    Groupings,
-    count_groupings,
-    find_groupings,
-    list_groupings,
-    nth_grouping,
-)
-from plyfold.immersion.immersion import Immersion, glue_sheets, require_memory_for_gluing
-from plyfold.immersion.propagation import Conflict
-from plyfold.immersion.shorter_lobes import place_of_turning
-from plyfold.immersion.word import write_word
-from plyfold.obstruction import Obstruction
+from plyfold.arrangement.arrangement import Arrangement, arrange, watched_arrangement
+from plyfold.clock import UNWATCHED, Clock, Watch
+from plyfold.errors import InputError, TimeLimitError
+from plyfold.immersion.contradiction import no_gluing
+from plyfold.immersion.disks import count_disks, find_disks, list_disks, no_grouping, nth_disk
+from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.obstructions import is_visibly_no_disk, may_bound_disk, obstruction, visible_obstruction
+from plyfold.immersion.outlines import count_surfaces, find_surfaces, list_surfaces, nth_surface, random_surface
+from plyfold.obstruction import Obstruction, Unknown
+from plyfold.outline.given import OutlineLike
 
 __all__ = [
     "best_immersion",
@@ -33,48 +28,58 @@ __all__ = [
     "count_immersions",
     "find_immersion",
     "immersions",
-    "is_visibly_no_disk",
-    "negative_winding",
     "nth_immersion",
     "sample_immersion",
-    "subject_of",
-    "visible_obstruction",
     "watched_immersions",
-    "wrong_turning",
 ]
 
-# Above this many ascending links, the conflict that an obstruction names is not made minimal.
-_MINIMISE_UP_TO = 300
 
-
-def find_immersion(curve: CurveLike) -> Immersion | Obstruction:
-    """Find an immersed disk that has the curve as its boundary, or say why there is none (§2.3 of [MGR11]_).
+@overload
+def find_immersion(curve: OutlineLike, connected: bool = False) -> Immersion | Obstruction: ...
+@overload
+def find_immersion(
+    curve: OutlineLike, connected: bool = False, time_limit: float | None = None
+) -> Immersion | Obstruction | Unknown: ...
+def find_immersion(
+    curve: OutlineLike, connected: bool = False, time_limit: float | None = None
+) -> Immersion | Obstruction | Unknown:
+    """Find an immersed surface that has an outline as its boundary, or say why there is none (§2.3 of [MGR11]_).
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of curves
+        One curve that turns once, apart from its cusps, bounds a disk; one that turns 1 − 2g times, a disk with g
+        handles. Several bound one surface, perhaps in several pieces. Each has the surface on its left, so outer
+        boundaries run counter-clockwise and holes clockwise.
+    connected : bool, default False
+        Demand a surface in one piece.
+    time_limit : float, optional
+        Seconds after which to give up; none by default.
 
     Returns
     -------
-    Immersion or Obstruction
+    Immersion or Obstruction or Unknown
         The result is true if there is an immersion. An immersion has been checked against the definition. An
-        obstruction names the theorem that fails: the turning number is not 1, a cell has a negative winding number,
-        or the exhausted word has no grouping.
+        obstruction names the theorem that fails: a cusp has too few sheets beside it (reason ``"cusp"``), the outline
+        turns too often (``"turning number"``), a cell has a negative winding number (``"negative winding"``), the
+        exhausted word of a disk has no grouping (``"no grouping"``), the conditions at some crossings, cusps and feet
+        of bridges contradict each other (``"no gluing"``: ``value`` are visits there), or there are surfaces, but none
+        in one piece (``"pieces"``). Unknown at the time limit only.
 
     Raises
     ------
     CurveError
-        If the input is not a closed curve.
+        If the input is no closed curve, and no list of such.
     MemoryLimitError
         If the gluing of its sheets would not fit into memory. :func:`bounds_disk` decides without it.
-    InputError
-        If it is several closed curves: so far their immersions are found only together with an embedding.
 
     Notes
     -----
-    Exact and polynomial; the decision follows [Bla67]_. After the crossings are known the cost is near-linear in the
-    number of sheets, counted once per border, for ribbons and the like: 16,000 crossings take about 0.2 s. What
-    propagation cannot settle, in curves that cover themselves dozens of times, goes to an interval program.
+    Exact. For one curve that bounds disks polynomial; the decision follows [Bla67]_. After the crossings are known the
+    cost is near-linear in the number of sheets, counted once per border, for ribbons and the like: 16,000 crossings
+    take about 0.2 s. What propagation cannot settle, in curves that cover themselves dozens of times, goes to an
+    interval program. For all others, what follows from the names of the sheets is found in the same time, and the rest
+    goes to a SAT solver: letters and outlines of visible surfaces leave it nothing or little to do.
 
     References
     ----------
@@ -86,28 +91,47 @@ def find_immersion(curve: CurveLike) -> Immersion | Obstruction:
     --------
     >>> limacon = [(3, 0), (1, 3), (-2, 0), (1, -3), (3, 0.5), (1, 1), (0.5, 0), (1, -1)]
     >>> print(find_immersion(limacon))
-    The curve turns 2 times, and the outline of a disk turns once.
+    The curve turns 2 times; what bounds a surface turns once, or less by an even number.
+    >>> find_immersion([[(0, 0), (9, 0), (0, 9)], [(1, 1), (1, 3), (3, 1)]]).pieces
+    (Piece(loops=(0, 1), euler_characteristic=0),)
     """
-    arranged = arrange(curve)
-    obstruction = visible_obstruction(arranged)
-    if obstruction is not None:
-        return obstruction
-    family = _family_of(arranged)
-    return _no_grouping(arranged) if family is None else _glued(family, next(list_groupings(family.groupings)))
+    clock = Clock(time_limit)
+    watch = Watch(clock)
+    try:
+        arranged = watched_arrangement(curve, "perturb", watch)
+        return next(watched_immersions(arranged, watch, connected), None) or _why_not(arranged, connected, watch)
+    except TimeLimitError:
+        return _unknown("whether there is an immersion", clock)
 
 
-def immersions(curve: CurveLike) -> Iterator[Immersion]:
-    """List all immersions of a curve, each once, in a stable order; nothing if there is none.
+def _why_not(arranged: Arrangement, connected: bool, watch: Watch) -> Obstruction:
+    """Return the obstruction of an outline that has no immersion. May raise TimeLimitError."""
+    visible = visible_obstruction(arranged, connected)
+    if visible is not None:
+        return visible
+    if may_bound_disk(arranged):
+        return no_grouping(arranged)
+    if connected and next(watched_immersions(arranged, watch), None) is not None:
+        sentence = "No surface in one piece: all immersions are in several pieces."
+        return obstruction(arranged, "pieces", sentence, (), None)
+    return no_gluing(arranged, watch.clock)
+
+
+def immersions(curve: OutlineLike, connected: bool = False) -> Iterator[Immersion]:
+    """List all immersions of an outline, each once, in a stable order; nothing if there is none.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of curves
+    connected : bool, default False
+        List those in one piece alone.
 
     Yields
     ------
     Immersion
-        There can be exponentially many; they are made one at a time. After the decision each takes time proportional
-        to its size.
+        There can be exponentially many; they are made one at a time. Of disks, each takes time proportional to its size
+        after the decision; of other surfaces, up to as many questions to a SAT solver as there are sheets to choose
+        from, most of them easy.
 
     Examples
     --------
@@ -116,78 +140,113 @@ def immersions(curve: CurveLike) -> Iterator[Immersion]:
     >>> [len(immersion.disk_layout()) for immersion in immersions(milnor)]
     [9, 9]
     """
-    yield from watched_immersions(arrange(curve), UNWATCHED)
+    yield from watched_immersions(arrange(curve), UNWATCHED, connected)
 
 
-def watched_immersions(arranged: Arrangement, watch: Watch) -> Iterator[Immersion]:
+def watched_immersions(arranged: Arrangement, watch: Watch, connected: bool = False) -> Iterator[Immersion]:
     """List the same as :func:`immersions`, or raise TimeLimitError."""
     watch = watch.begin("finding an immersion")
-    family = None if visible_obstruction(arranged) is not None else _family_of(arranged, watch)
-    if family is not None:
-        for grouping in list_groupings(family.groupings, watch):
-            yield _glued(family, grouping)
+    if may_bound_disk(arranged):
+        disks = None if is_visibly_no_disk(arranged) else find_disks(arranged, watch)
+        if disks is not None:
+            yield from list_disks(disks, watch)
+    elif visible_obstruction(arranged, connected) is None:
+        surfaces = find_surfaces(arranged)
+        if surfaces is not None:
+            yield from list_surfaces(surfaces, connected, watch)
 
 
-def count_immersions(curve: CurveLike) -> int:
-    """Count the immersions of a curve, exactly.
+@overload
+def count_immersions(curve: OutlineLike, connected: bool = False) -> int: ...
+@overload
+def count_immersions(curve: OutlineLike, connected: bool = False, time_limit: float | None = None) -> int | Unknown: ...
+def count_immersions(curve: OutlineLike, connected: bool = False, time_limit: float | None = None) -> int | Unknown:
+    """Count the immersions of an outline, exactly.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of curves
+    connected : bool, default False
+        Count those in one piece alone.
+    time_limit : float, optional
+        Seconds after which to give up; none by default.
 
     Returns
     -------
-    int
-        0 if the curve bounds no disk. Immersions that differ by a deformation of the disk count once. Cost: polynomial
-        in the number of crossings, however large the answer.
+    int or Unknown
+        0 if there is none. Immersions that differ by a deformation of the surface count once; curves stay different
+        even where they run the same way. Unknown at the time limit only, and never for one curve that bounds disks:
+        there the cost is polynomial in the number of crossings, however large the answer. Other surfaces are listed,
+        but for parts that have nothing to do with each other, whose numbers multiply.
 
     Examples
     --------
     >>> count_immersions([(0, 0), (1, 0), (0, 1)])
     1
+    >>> two_triangles_and_a_hole = [(0, 0), (9, 0), (0, 9)], [(-1, -1), (9, -1), (-1, 9)], [(1, 1), (1, 3), (3, 1)]
+    >>> count_immersions(two_triangles_and_a_hole)
+    2
     """
-    family = _family(curve)
-    return 0 if family is None else count_groupings(family.groupings)
+    clock = Clock(time_limit)
+    watch = Watch(clock)
+    try:
+        return _count(watched_arrangement(curve, "perturb", watch), connected, watch)
+    except TimeLimitError:
+        return _unknown("how many immersions there are", clock)
 
 
-def bounds_disk(curve: CurveLike) -> bool:
-    """Tell whether a curve is the outline of a disk of cloth laid flat on a table.
+def _count(arranged: Arrangement, connected: bool, watch: Watch) -> int:
+    """Return the number of immersions. May raise TimeLimitError."""
+    if may_bound_disk(arranged):
+        disks = None if is_visibly_no_disk(arranged) else find_disks(arranged)
+        return 0 if disks is None else count_disks(disks)
+    if visible_obstruction(arranged, connected) is not None:
+        return 0
+    surfaces = find_surfaces(arranged)
+    return 0 if surfaces is None else count_surfaces(surfaces, connected, watch.begin("counting the immersions"))
+
+
+def bounds_disk(curve: OutlineLike) -> bool:
+    """Tell whether an outline is that of a disk of cloth laid flat on a table.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of curves
 
     Returns
     -------
     bool
-        Exact. See :func:`find_immersion` for the reason and the cost.
+        Exact. False for several curves, and for one that bounds a disk with handles. See :func:`find_immersion` for the
+        reason and the cost.
 
     Examples
     --------
     >>> bounds_disk([(0, 0), (2, 2), (2, 0), (0, 2)])
     False
     """
-    return _family(curve) is not None
+    arranged = arrange(curve)
+    return not is_visibly_no_disk(arranged) and find_disks(arranged) is not None
 
 
-def sample_immersion(curve: CurveLike, rng: np.random.Generator | int) -> Immersion | Obstruction:
-    """Draw one of the immersions of a curve at random, all with the same probability.
+def sample_immersion(curve: OutlineLike, rng: np.random.Generator | int) -> Immersion | Obstruction:
+    """Draw one of the immersions of an outline at random, all with the same probability.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of curves
     rng : numpy.random.Generator or int
         The source of randomness, or a seed for one.
 
     Returns
     -------
     Immersion or Obstruction
-        As from :func:`find_immersion`. Cost: that of :func:`count_immersions`, however many immersions there are.
+        As from :func:`find_immersion`. Cost: that of :func:`count_immersions`, however many disks there are.
 
     Raises
     ------
     InputError
-        If ``rng`` is neither.
+        If ``rng`` is neither; or if a part of an outline that does not bound disks alone has more than 100,000
+        immersions.
 
     Examples
     --------
@@ -195,12 +254,16 @@ def sample_immersion(curve: CurveLike, rng: np.random.Generator | int) -> Immers
     >>> sample_immersion([(0, 0), (1, 0), (0, 1)], np.random.default_rng(1)).n_sheets
     1
     """
-    dice = _dice(rng)
-    family = _family(curve)
-    if family is None:
-        return find_immersion(curve)
-    index = _random_below(count_groupings(family.groupings), dice)
-    return _glued(family, nth_grouping(family.groupings, index))
+    dice, arranged = _dice(rng), arrange(curve)
+    return _sampled(arranged, dice) or _why_not(arranged, False, UNWATCHED)
+
+
+def _sampled(arranged: Arrangement, dice: np.random.Generator) -> Immersion | None:
+    if may_bound_disk(arranged):
+        disks = None if is_visibly_no_disk(arranged) else find_disks(arranged)
+        return None if disks is None else nth_disk(disks, _random_below(count_disks(disks), dice))
+    surfaces = None if visible_obstruction(arranged) is not None else find_surfaces(arranged)
+    return None if surfaces is None else random_surface(surfaces, dice)
 
 
 def _dice(rng: np.random.Generator | int) -> np.random.Generator:
@@ -212,12 +275,12 @@ def _dice(rng: np.random.Generator | int) -> np.random.Generator:
         ) from error
 
 
-def nth_immersion(curve: CurveLike, index: int) -> Immersion:
+def nth_immersion(curve: OutlineLike, index: int) -> Immersion:
     """Return the immersion that :func:`immersions` lists at a number, without making those before it.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of curves
     index : int
         From 0 to the number of immersions less 1.
 
@@ -229,7 +292,8 @@ def nth_immersion(curve: CurveLike, index: int) -> Immersion:
     Raises
     ------
     InputError
-        If there are not so many immersions.
+        If there are not so many immersions; or if a part of an outline that does not bound disks alone has more than
+        100,000.
 
     Examples
     --------
@@ -238,19 +302,25 @@ def nth_immersion(curve: CurveLike, index: int) -> Immersion:
     >>> nth_immersion(milnor, 1).own_sheet.tolist() == list(immersions(milnor))[1].own_sheet.tolist()
     True
     """
-    family = _family(curve)
-    count = 0 if family is None else count_groupings(family.groupings)
-    if family is None or not 0 <= index < count:
+    arranged = arrange(curve)
+    count = _count(arranged, False, UNWATCHED)
+    if not 0 <= index < count:
         raise InputError(f"there is no immersion {index}", hint=f"the curve has {count}, numbered from 0")
-    return _glued(family, nth_grouping(family.groupings, index))
+    if may_bound_disk(arranged):
+        disks = find_disks(arranged)
+        assert disks is not None
+        return nth_disk(disks, index)
+    surfaces = find_surfaces(arranged)
+    assert surfaces is not None
+    return nth_surface(surfaces, index)
 
 
-def best_immersion(curve: CurveLike, key: Callable[[Immersion], Any]) -> Immersion | Obstruction:
+def best_immersion(curve: OutlineLike, key: Callable[[Immersion], Any]) -> Immersion | Obstruction:
     """Return the immersion with the smallest key, the first one of several.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
+    curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of curves
     key : callable
         Takes an immersion and returns what to compare.
 
@@ -271,51 +341,6 @@ def best_immersion(curve: CurveLike, key: Callable[[Immersion], Any]) -> Immersi
     return min(immersions(arranged), key=key, default=None) or find_immersion(arranged)
 
 
-@dataclass(frozen=True, eq=False)
-class _Family:
-    """All immersions of a curve; tree and word are those of its map as numbered from the base visit."""
-
-    arrangement: Arrangement
-    base: int
-    numbered: Arrangement
-    tree: DualTree
-    groupings: Groupings
-
-
-def _family(curve: CurveLike) -> _Family | None:
-    arranged = arrange(curve)
-    return None if is_visibly_no_disk(arranged) else _family_of(arranged)
-
-
-def _family_of(arranged: Arrangement, watch: Watch = UNWATCHED) -> _Family | None:
-    """Return the family of a curve without a visible obstruction; None if its word has no grouping."""
-    base = arranged.base_visit
-    numbered = numbered_from(arranged, base)
-    tree = grow_dual_tree(numbered)
-    groupings = find_groupings(write_word(tree), watch)
-    return _Family(arranged, base, numbered, tree, groupings) if isinstance(groupings, Groupings) else None
-
-
-def _glued(family: _Family, grouping: Grouping) -> Immersion:
-    require_memory_for_gluing(family.arrangement)
-    word, link = family.groupings.word, family.tree.link.tolist()
-    partner = {link[word.cells[label]]: word.border[letter] for label, letter in grouping.items()}
-    immersion = _numbered_back(glue_sheets(family.numbered, family.tree, partner), family)
-    immersion.check()
-    return immersion
-
-
-def _numbered_back(immersion: Immersion, family: _Family) -> Immersion:
-    """Return the immersion with borders numbered as in the curve's own arrangement; cells are numbered alike."""
-    if family.base == 0:
-        return immersion
-    borders = family.arrangement.n_borders
-    gluing = begun_at(immersion.gluing, int(np.searchsorted(immersion.gluing[:, 0], borders - family.base)))
-    gluing[:, 0] = (gluing[:, 0] + family.base) % borders
-    own_sheet = begun_at(immersion.own_sheet, borders - family.base)
-    return Immersion(family.arrangement, immersion.sheet_cell, immersion.first_sheet, own_sheet, gluing)
-
-
 def _random_below(limit: int, rng: np.random.Generator) -> int:
     """Return a whole number from 0 to limit − 1, however large, all with the same probability."""
     while True:
@@ -324,80 +349,6 @@ def _random_below(limit: int, rng: np.random.Generator) -> int:
             return number
 
 
-# ---- why there is none (§2.4 of the paper) --------------------------------------------------------------------------
-
-
-def is_visibly_no_disk(arranged: Arrangement) -> bool:
-    """Tell whether there is a visible obstruction, without looking for its place."""
-    require_one_loop(arranged, "the search for immersions")
-    return arranged.turning_number != 1 or bool(arranged.winding.min() < 0)
-
-
-def visible_obstruction(arranged: Arrangement) -> Obstruction | None:
-    """Return the obstruction that numbers alone show, if there is one: the turning number or a winding number."""
-    require_one_loop(arranged, "the search for immersions")
-    turning = arranged.turning_number
-    if turning != 1:
-        sentence = f"The curve turns {turning} times, and the outline of a disk turns once."
-        return wrong_turning(arranged, sentence)
-    return negative_winding(arranged)
-
-
-def wrong_turning(arranged: Arrangement, sentence: str) -> Obstruction:
-    """Return the obstruction of a turning number that is not the one looked for, as a sentence says."""
-    place = place_of_turning(arranged)
-    return Obstruction("turning number", sentence, place, arranged.turning_number, subject_of(arranged))
-
-
-def negative_winding(arranged: Arrangement) -> Obstruction | None:
-    """Return the obstruction of a negative winding number, if there is one: the lowest of them."""
-    lowest = int(np.argmin(arranged.winding))
-    winding = int(arranged.winding[lowest])
-    if winding >= 0:
-        return None
-    who = "curve winds" if arranged.n_loops == 1 else "curves wind"
-    sentence = f"The {who} {winding} times around a cell, and cloth cannot cover it a negative number of times."
-    return Obstruction("negative winding", sentence, _places(arranged, [lowest]), winding, subject_of(arranged))
-
-
-def subject_of(arranged: Arrangement) -> Arrangement | None:
-    """Return what a picture of an obstruction shows; there is none yet of several curves."""
-    return arranged if arranged.n_loops == 1 else None
-
-
-def _no_grouping(arranged: Arrangement) -> Obstruction:
-    """Return the obstruction of a curve whose word has no grouping: cells whose ways out are in conflict."""
-    tree = grow_dual_tree(arranged)
-    cells = _conflict(tree)
-    if len(cells) == 1:
-        sentence = "No grouping: the way out of a cell can be joined to no border that would cut off a disk."
-    else:
-        sentence = f"No grouping: the ways out of {len(cells)} cells cannot be joined to borders without crossing."
-    links = tuple(tree.link[cells].tolist())
-    return Obstruction("no grouping", sentence, _places(arranged, cells), links, arranged)
-
-
-def _places(arranged: Arrangement, cells: list[int]) -> tuple[tuple[float, float], ...]:
-    return tuple(arranged.cell_point(cell) for cell in cells if arranged.curves)
-
-
-def _conflict(tree: DualTree) -> list[int]:
-    """Return cells whose ascending links cannot all be joined; as few as leaving out some at a time can reach.
-
-    Begins with those that led to the contradiction. Whole stretches are left out first, each half as long as those
-    before, and single cells at last.
-    """
-    cells = _contradiction(tree, tree.ascending_cells())
-    stretch = len(cells) if len(cells) <= _MINIMISE_UP_TO else 0
-    while stretch > 1:
-        stretch = -(-stretch // 2)
-        for start in range(0, len(cells), stretch)[::-1]:
-            cells = _contradiction(tree, cells[:start] + cells[start + stretch :]) or cells
-    return cells
-
-
-def _contradiction(tree: DualTree, cells: list[int]) -> list[int]:
-    """Return those of some cells that contradict each other; none if their links can be joined."""
-    word = write_word(tree, cells)
-    found = find_groupings(word)
-    return [word.cells[label] for label in found.labels] if isinstance(found, Conflict) else []
+def _unknown(question: str, clock: Clock) -> Unknown:
+    seconds = clock.spent
+    return Unknown("time limit", f"Unknown after {seconds:.3g} s: {question}.", {"seconds": seconds})

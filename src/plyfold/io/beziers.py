@@ -108,18 +108,20 @@ class DrawnPath:
         Each begins where the one before ends.
     closed : bool
         Whether the end is to be joined to the start.
-    name : str
-        What the piece is called in messages.
     """
 
     start: Floats
     segments: tuple[Bezier | EllipticArc, ...]
     closed: bool
-    name: str
 
     def flattened(self, tolerance: float) -> Floats:
         """Return the vertices of a polyline nowhere farther from the outline than ``tolerance``, shape (n, 2)."""
         return np.array([self.start, *(vertex for piece in self.segments for vertex in piece.flattened(tolerance))])
+
+    def nodes(self, tolerance: float) -> list[int]:
+        """Return which vertices of the polyline are the start and the ends of the segments."""
+        steps = [len(piece.flattened(tolerance)) for piece in self.segments]
+        return [0, *np.cumsum(steps).tolist()]
 
 
 def sample_points(outlines: list[DrawnPath]) -> Floats:

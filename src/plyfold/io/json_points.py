@@ -1,40 +1,46 @@
-"""Points and strokes as JSON, and GeoJSON, which is JSON too."""
+"""Points, loops and strokes as JSON, and GeoJSON, which is JSON too."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from plyfold.errors import FileFormatError
-from plyfold.io.vector import read_geojson
+from plyfold.io.cusp_notation import cusps_of_loops
+from plyfold.io.own_version import refuse_later_version
+from plyfold.io.shapes import Line, Shape, shape_of_strokes
+from plyfold.io.vector import shapes_in_geojson
 from plyfold.mistaken import mistaken_code
-from plyfold.outline.curve import Curve
 
-__all__ = ["read_json"]
+__all__ = ["shapes_in_json"]
 
-_HINT = 'write [[x, y], ...] or {"strokes": [[[x, y], ...], ...]}'
+_HINT = 'write [[x, y], ...], {"loops": [[[x, y], ...], ...]} or {"strokes": [[[x, y], ...], ...]}'
 
 
-def read_json(text: str) -> Curve:
-    """Read a list of points, a list of strokes, or GeoJSON.
+def shapes_in_json(text: str) -> list[Shape]:
+    """Read a list of points, loops, strokes, or GeoJSON.
 
     Parameters
     ----------
     text : str
+        ``{"version": 2, "loops": [[[x, y], ...], ...], "cusps": {"LOOP:POINT": INDEX}}``, all but the loops optional;
         ``[[x, y], ...]`` or ``{"points": [[x, y], ...]}``, whose closing edge is implied;
-        ``[[[x, y], ...], ...]`` or ``{"strokes": [[[x, y], ...], ...]}``, joined as strokes; a document that the
-        sketching page has saved; or GeoJSON. A third coordinate is left out.
+        ``[[[x, y], ...], ...]`` or ``{"strokes": [[[x, y], ...], ...]}``, joined as strokes, or loops, if each of them
+        ends where it starts; a document that the sketching page has saved, whose closed strokes are loops; or GeoJSON.
+        A third coordinate is left out.
 
     Returns
     -------
-    Curve
+    list of Shape
+        One; of GeoJSON as :func:`~plyfold.io.vector.shapes_in_geojson` says.
 
     Raises
     ------
     FileFormatError
-        If the text is not JSON or none of these; broken JSON is named by line.
+        If the text is not JSON or none of these, or is of a later version; broken JSON is named by line.
 
     Notes
     -----
@@ -42,23 +48,27 @@ def read_json(text: str) -> Curve:
 
     Examples
     --------
-    >>> len(read_json('{"strokes": [[[0, 0], [4, 0]], [[0, 3], [4, 0]], [[0, 0], [0, 3]]]}'))
-    3
+    >>> [shape] = shapes_in_json('{"loops": [[[0, 0], [4, 0], [0, 3]]], "cusps": {"0:2": 1}}')
+    >>> shape.loops[0].cusps
+    {2: 1}
     """
     value = _parsed(text)
     if isinstance(value, list):
-        return _curve_of_strokes(value) if any(map(_is_stroke, value)) else _curve_of_points(value)
+        return [shape_of_strokes(_lines(value, "strokes")) if any(map(_is_line, value)) else _points(value)]
     if not isinstance(value, dict):
         raise _error("it is neither a list nor an object")
     if "type" in value:
-        return read_geojson(value)
+        return shapes_in_geojson(value)
     if "plyfold" in value:
-        return _curve_of_document(value)
+        return [_document(value)]
     if "strokes" in value:
-        return _curve_of_strokes(value["strokes"])
+        return [shape_of_strokes(_lines(value["strokes"], "strokes"))]
     if "points" in value:
-        return _curve_of_points(value["points"])
-    raise _error("it has neither points nor strokes")
+        return [_points(value["points"], value.get("cusps"))]
+    refuse_later_version(value.get("version"))
+    if "loops" in value:
+        return [_loops(_lines(value["loops"], "loops"), value.get("cusps"))]
+    raise _error("it has neither loops nor points nor strokes")
 
 
 def _parsed(text: str) -> Any:
@@ -70,29 +80,42 @@ def _parsed(text: str) -> Any:
         raise FileFormatError(f"broken JSON ({error})", hint=_HINT) from error
 
 
-def _is_stroke(item: object) -> bool:
+def _is_line(item: object) -> bool:
     return isinstance(item, list) and bool(item) and isinstance(item[0], list)
 
 
-def _curve_of_points(points: object) -> Curve:
+def _lines(lines: object, what: str) -> list[list[Any]]:
+    if not isinstance(lines, list) or not all(isinstance(line, list) for line in lines):
+        raise _error(f"the {what} are not a list of lists of points")
+    return lines
+
+
+def _points(points: object, cusps: object = None) -> Shape:
     if not isinstance(points, list) or not all(isinstance(point, list) for point in points):
         raise _code_error(points) or _error("the points are not a list of [x, y]")
-    return Curve(points)
+    return _loops([points], cusps)
 
 
-def _curve_of_strokes(strokes: object) -> Curve:
-    if not isinstance(strokes, list) or not all(isinstance(stroke, list) for stroke in strokes):
-        raise _error("the strokes are not a list of lists of points")
-    return Curve.from_strokes(strokes)
+def _loops(lines: Sequence[Any], cusps: object) -> Shape:
+    if not lines:
+        raise _error("it has no loop")
+    marks = cusps_of_loops(cusps, [len(line) for line in lines])
+    return Shape(tuple(Line(line, cusps=marked) for line, marked in zip(lines, marks, strict=True)))
 
 
-def _curve_of_document(document: dict[str, Any]) -> Curve:
-    """Return the loop of a document of the sketching page, which writes doubles, large ones without a point."""
+def _document(document: dict[str, Any]) -> Shape:
+    """Return what is drawn in a document of the sketching page, which writes doubles, large ones without a point."""
+    refuse_later_version(document["plyfold"])
     strokes = document.get("strokes")
     if not isinstance(strokes, list) or not all(isinstance(stroke, dict) for stroke in strokes):
         raise _error("it is a document of the sketching page without strokes")
     points = [np.array(stroke.get("points", []), dtype=np.float64) for stroke in strokes]
-    return Curve(points[0]) if len(points) == 1 and strokes[0].get("closed") else Curve.from_strokes(points)
+    closed = [bool(stroke.get("closed")) for stroke in strokes]
+    if not any(closed):
+        return Shape(tuple(Line(line, closed=False) for line in points))
+    marks = cusps_of_loops(document.get("cusps"), [len(line) for line in points])
+    lines = zip(points, closed, marks, strict=True)
+    return Shape(tuple(Line(line, is_loop, cusps=marked) for line, is_loop, marked in lines if len(line)))
 
 
 def _code_error(numbers: object) -> FileFormatError | None:

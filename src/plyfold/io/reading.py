@@ -1,77 +1,154 @@
-"""A curve from a file or from standard input, whatever the format."""
+"""Outlines from a file or from standard input, whatever the format."""
 
 from __future__ import annotations
 
 import os
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from plyfold.errors import FileFormatError, InputError
-from plyfold.io.json_points import read_json
-from plyfold.io.tables import read_npy, read_table
-from plyfold.io.vector import read_wkt
-from plyfold.outline.curve import Curve
+from plyfold.io.flat_meshes import components_of_mesh, mesh_in_obj, mesh_in_ply, outline_of_meshes
+from plyfold.io.json_points import shapes_in_json
+from plyfold.io.shapes import Shape, outline_of_shapes
+from plyfold.io.tables import shapes_in_npy, shapes_in_table
+from plyfold.io.vector import shapes_in_wkt
+from plyfold.outline.curve import Outline
 
-__all__ = ["SIZE_LIMIT", "read"]
+__all__ = ["SIZE_LIMIT", "Contents", "naming_the_file", "read", "read_contents", "read_each"]
 
 SIZE_LIMIT = 256 * 2**20
 """Largest file that is read, in bytes: 256 MiB."""
 
-_FORMAT_OF_SUFFIX = {".svg": "SVG", ".npy": "NPY", ".json": "JSON", ".geojson": "JSON", ".wkt": "WKT", ".csv": "table"}
-_FORMATS = "SVG, CSV or TXT, NPY, JSON, GeoJSON and WKT are read"
-_WKT_START = re.compile(rb"(SRID=\d+;\s*)?(POINT|LINE|POLYGON|MULTI|GEOMETRY|CIRCULAR|COMPOUND|CURVE)", re.IGNORECASE)
+_FORMAT_OF_SUFFIX = {
+    ".svg": "SVG",
+    ".npy": "NPY",
+    ".json": "JSON",
+    ".geojson": "JSON",
+    ".wkt": "WKT",
+    ".csv": "table",
+    ".obj": "OBJ",
+    ".ply": "PLY",
+}
+_FORMATS = "SVG, CSV or TXT, NPY, JSON, GeoJSON, WKT, and flat meshes as OBJ and PLY are read"
+_STARTS = {
+    "NPY": re.compile(rb"\x93NUMPY"),
+    "PLY": re.compile(rb"ply[ \t]*\r?\n"),
+    "SVG": re.compile(rb"<"),
+    "JSON": re.compile(rb"[{\[]"),
+    "WKT": re.compile(rb"(SRID=\d+;\s*)?(POINT|LINE|POLYGON|MULTI|GEOMETRY|CIRCULAR|COMPOUND|CURVE)", re.IGNORECASE),
+    "OBJ": re.compile(rb"(?:\s*(?:#|o |g |s |mtllib )[^\n]*\n)*\s*v[ \t]+[-+.\d]"),
+}
+_OTHER_STARTS = (b"\x1f\x8b", b"\x89PNG", b"\xff\xd8", b"%PDF", b"PK\x03\x04")
 
 
-def read(path: str | Path, *, id: str | None = None, tolerance: float | None = None) -> Curve:
-    r"""Read a closed curve from a file.
+@dataclass(frozen=True, eq=False)
+class Contents:
+    """What a file holds: shapes, each an outline of its own, or some of them one outline together.
+
+    Parameters
+    ----------
+    file : str
+        What it is called in errors.
+    shapes : sequence
+        Whatever the reader of the format made of them; all have a ``name``, which may be empty.
+    outline_of : callable
+        Makes one outline of some of the shapes.
+    """
+
+    file: str
+    shapes: Sequence[Any]
+    outline_of: Callable[[Sequence[Any]], Outline]
+
+    def __len__(self) -> int:
+        return len(self.shapes)
+
+    def outline(self, index: int | None = None) -> Outline:
+        """Return one of the shapes as an outline, counted from 0, or all of them as one."""
+        with naming_the_file(self.file):
+            return self.outline_of(self.shapes if index is None else [self.shapes[self._checked(index)]])
+
+    def name(self, index: int) -> str:
+        """Return what a shape is called in the file; empty if it has no name."""
+        return getattr(self.shapes[index], "name", "")
+
+    def _checked(self, index: int) -> int:
+        if isinstance(index, bool) or not isinstance(index, int) or not 0 <= index < len(self):
+            last = f"0 to {len(self) - 1}" if len(self) > 1 else "0 alone"
+            raise FileFormatError(f"there is no shape {index} in it", hint=f"they are counted from 0: there is {last}")
+        return index
+
+
+def read(
+    path: str | Path,
+    *,
+    id: str | None = None,
+    index: int | None = None,
+    tolerance: float | None = None,
+    uv: bool = False,
+) -> Outline:
+    r"""Read an outline from a file: all that it holds as one, or one of its shapes.
 
     Parameters
     ----------
     path : str or Path
-        An SVG, CSV, TXT, NPY, JSON, GeoJSON or WKT file, at most ``SIZE_LIMIT`` bytes; ``"-"`` reads standard input.
-        Suffixes that say nothing, such as ``.txt``, and standard input are told apart by their content.
+        An SVG, CSV, TXT, NPY, JSON, GeoJSON, WKT, OBJ or PLY file, at most ``SIZE_LIMIT`` bytes; ``"-"`` reads standard
+        input. Suffixes that say nothing, such as ``.txt``, and standard input are told apart by their content.
     id : str, optional
-        The element of an SVG to read; needed if the SVG holds several closed shapes.
+        The element of an SVG to read, a shape or a group, or the ``id`` of a feature in GeoJSON; by default all.
+    index : int, optional
+        Which shape to read, counted from 0 in the order of the file; by default all.
     tolerance : float, optional
         The farthest that a Bézier curve or an arc of an SVG may be from the polyline that stands for it, in the units
         of the result; by default 1/2000 of the diagonal of the bounding box. Other formats have no curved parts.
+    uv : bool, optional
+        Of an OBJ or PLY, take the texture coordinates as the flat mesh, instead of x and y.
 
     Returns
     -------
-    Curve
-        In the file's own coordinates, except that an SVG is turned to y up, so that the curve looks the same.
+    Outline
+        A :class:`Curve`, where there is one loop. In the file's own coordinates, except that an SVG is turned to y up,
+        so that it looks the same. Whatever was left out or changed is in its ``repairs``.
 
     Raises
     ------
     InputError
         If what is given is not the path of a file.
     FileFormatError
-        If the file is missing, empty, broken, too large, of an unknown format, or holds no curve or several.
+        If the file is missing, empty, broken, too large, of an unknown format or a later version, or holds no curve.
     StrokeError
         If open pieces leave a gap too wide to be meant.
     CurveError
-        If the points are no usable curve.
+        If the points are no usable curve, or the triangles no flat mesh.
 
     Notes
     -----
     A list of points (CSV, TXT, NPY, JSON) and a polygon are closed by an edge from the last point to the first. Open
     lines (an open path or polyline, a LINESTRING, several blocks or strokes) are pen strokes instead: they are joined
-    by their nearest ends, gaps are recorded in ``Curve.repairs``, and a gap above a tenth of the diagonal of the
-    bounding box is an error.
+    by their nearest ends, gaps are recorded in ``repairs``, and a gap above a tenth of the diagonal of the bounding box
+    is an error. Lines that all end where they start are loops. Beside loops, open lines are left out, and so are loops
+    whose points lie on one line; ``repairs`` says so.
 
-    * SVG: path, polygon, polyline, line, rect, circle, ellipse, with transforms, groups, ``use`` and viewBox.
+    * SVG: path, polygon, polyline, line, rect, circle, ellipse, with transforms, groups, ``use`` and viewBox. Subpaths
+      are loops, which run as in the file; but where ``fill-rule`` is ``evenodd``, loops of a shape that meet no other
+      one are turned so that the painted side is on their left. ``data-cusps="0:12 1:3x2"`` names cusps by subpath, node
+      and index.
     * CSV, TXT: two columns separated by comma, semicolon or blanks; an optional header line; ``#`` starts a comment; an
-      empty line ends a stroke.
-    * NPY: an (n, 2) array of numbers.
-    * JSON: ``[[x, y], ...]``, ``{"points": [[x, y], ...]}``, a list of such lists as strokes, or
-      ``{"strokes": [[[x, y], ...], ...]}``.
-    * WKT, GeoJSON: LineString, MultiLineString (strokes), Polygon without holes, also as the one feature of a
-      collection.
+      empty line ends a block. Columns named ``loop`` and ``cusp`` tell the loop of a point and its index as a cusp.
+    * NPY: an (n, 2) array of numbers, or a stack of them.
+    * JSON: ``{"version": 2, "loops": [[[x, y], ...], ...], "cusps": {"LOOP:POINT": INDEX}}``; ``[[x, y], ...]``,
+      ``{"points": [[x, y], ...]}``, a list of such lists as strokes, or ``{"strokes": [[[x, y], ...], ...]}``.
+    * WKT, GeoJSON: LineString, MultiLineString, Polygon, MultiPolygon, and collections of them. Shells run
+      counter-clockwise and holes clockwise, whatever the file says, but a polygon without holes that is alone runs as
+      it stands. A property ``cusps`` is as in JSON.
+    * OBJ, PLY: the boundary of a flat mesh, with its cusps, see :meth:`Outline.from_mesh`.
 
-    A third coordinate, in any of them, is left out, and ``Curve.repairs`` says so.
+    A third coordinate, in any of them, is left out, and ``repairs`` says so.
 
     Linear in the size of the file.
 
@@ -84,12 +161,62 @@ def read(path: str | Path, *, id: str | None = None, tolerance: float | None = N
     ...     read(file).points.tolist()
     [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]
     """
+    return read_contents(path, id=id, tolerance=tolerance, uv=uv).outline(index)
+
+
+def read_each(
+    path: str | Path, *, id: str | None = None, tolerance: float | None = None, uv: bool = False
+) -> list[Outline]:
+    r"""Read every shape of a file as an outline of its own: elements of an SVG, features, or parts of a mesh.
+
+    Parameters
+    ----------
+    path, id, tolerance, uv
+        As for :func:`read`.
+
+    Returns
+    -------
+    list of Outline
+
+    Raises
+    ------
+    InputError
+        As :func:`read`, for the first shape that is no outline.
+
+    Notes
+    -----
+    Linear in the size of the file.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "two.wkt"
+    ...     _ = file.write_text("POLYGON ((0 0, 4 0, 0 3, 0 0))\nPOLYGON ((9 0, 9 1, 8 1, 9 0))")
+    ...     read_each(file)
+    [<Curve of 3 points>, <Curve of 3 points>]
+    """
+    contents = read_contents(path, id=id, tolerance=tolerance, uv=uv)
+    return [contents.outline(index) for index in range(len(contents))]
+
+
+def read_contents(
+    path: str | Path, *, id: str | None = None, tolerance: float | None = None, uv: bool = False
+) -> Contents:
+    """Return what a file holds, before it is made one outline; see :func:`read`."""
     if not isinstance(path, str | os.PathLike):
         hint = "points go to pf.Curve; a curve or a geometry can be given as it is wherever a curve can"
         raise InputError(f"a {type(path).__name__} is not the path of a file", hint=hint)
     name = "standard input" if str(path) == "-" else Path(path).name or repr(str(path))
+    with naming_the_file(name):
+        return Contents(name, *_decoded(_content(path), _format_of_path(path), id, tolerance, uv))
+
+
+@contextmanager
+def naming_the_file(name: str) -> Iterator[None]:
+    """Say in an error which file it is about."""
     try:
-        return _decoded(_content(path), _format_of_path(path), id, tolerance)
+        yield
     except InputError as error:
         raise type(error)(f"{name}: {error.message}", error.where, error.hint) from error
 
@@ -131,35 +258,51 @@ def _format_of_path(path: str | Path) -> str | None:
     return _FORMAT_OF_SUFFIX.get(Path(path).suffix.lower())
 
 
-def _decoded(data: bytes, kind: str | None, id: str | None, tolerance: float | None) -> Curve:
+_Read = tuple[Sequence[Any], Callable[[Sequence[Any]], Outline]]
+
+
+def _decoded(data: bytes, kind: str | None, id: str | None, tolerance: float | None, uv: bool) -> _Read:
+    """Return the shapes in a file, and what makes one outline of some of them."""
     if not data.strip():
         raise FileFormatError("it is empty", hint=_FORMATS)
     kind = kind or _sniffed(data)
     if kind == "SVG":
-        from plyfold.io.svg import read_svg  # its library takes a while to load
+        from plyfold.io.svg import outline_of_drawn_shapes, shapes_in_svg  # its library takes a while to load
 
-        return read_svg(data, id, tolerance)
-    if id is not None:
-        raise FileFormatError("only an element of an SVG can be chosen by id", hint="leave the id out")
-    if kind == "NPY":
-        return read_npy(data)
-    readers: dict[str, Callable[[str], Curve]] = {"JSON": read_json, "WKT": read_wkt, "table": read_table}
-    return readers[kind](_text(data))
+        return shapes_in_svg(data, id), partial(outline_of_drawn_shapes, tolerance=tolerance)
+    if kind in ("OBJ", "PLY"):
+        if id is not None:
+            raise FileFormatError("parts of a mesh have no id", hint="choose one by its index, counted from 0")
+        mesh = mesh_in_obj(_text(data), uv) if kind == "OBJ" else mesh_in_ply(data, uv)
+        return components_of_mesh(mesh), outline_of_meshes
+    if uv:
+        raise FileFormatError("only a mesh has texture coordinates", hint="leave out uv")
+    shapes = shapes_in_npy(data) if kind == "NPY" else _READERS[kind](_text(data))
+    return _named(shapes, id), outline_of_shapes
+
+
+_READERS: dict[str, Callable[[str], list[Shape]]] = {
+    "JSON": shapes_in_json,
+    "WKT": shapes_in_wkt,
+    "table": shapes_in_table,
+}
+
+
+def _named(shapes: list[Shape], id: str | None) -> list[Shape]:
+    found = shapes if id is None else [shape for shape in shapes if shape.name == id]
+    if not found:
+        names = ", ".join(shape.name for shape in shapes[:20] if shape.name)
+        hint = f"it has {names}" if names else "leave the id out: only elements of an SVG and features have one"
+        raise FileFormatError(f"nothing in it has the id {id!r}", hint=hint)
+    return found
 
 
 def _sniffed(data: bytes) -> str:
     start = data[:1000].removeprefix(b"\xef\xbb\xbf").lstrip()
-    if start.startswith(b"\x93NUMPY"):
-        return "NPY"
-    if start.startswith(b"<"):
-        return "SVG"
-    if start.startswith((b"{", b"[")):
-        return "JSON"
-    if _WKT_START.match(start):
-        return "WKT"
-    if b"\0" in start or start.startswith((b"\x1f\x8b", b"\x89PNG", b"\xff\xd8", b"%PDF", b"PK\x03\x04")):
+    known = next((kind for kind, pattern in _STARTS.items() if pattern.match(start)), None)
+    if known is None and (b"\0" in start or start.startswith(_OTHER_STARTS)):
         raise FileFormatError("its format is not known", hint=_FORMATS)
-    return "table"
+    return known or "table"
 
 
 def _text(data: bytes) -> str:

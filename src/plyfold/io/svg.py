@@ -3,21 +3,27 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from pyexpat import ErrorString, ExpatError, ParserCreate
 from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
-from svgelements import SVG, Arc, Close, CubicBezier, Length, Move, QuadraticBezier, Shape
+from svgelements import SVG, Arc, Close, CubicBezier, Length, Move, QuadraticBezier
+from svgelements import Shape as ShapeElement
 
 from plyfold.arrays import Floats
 from plyfold.errors import FileFormatError, InputError
 from plyfold.io.beziers import Bezier, DrawnPath, EllipticArc, sample_points
-from plyfold.outline.curve import Curve
-from plyfold.outline.points import LARGEST_COORDINATE, diagonal
+from plyfold.io.cusp_notation import CuspMark, parse_cusps, written_cusp
+from plyfold.io.own_version import SVG_MARK, refuse_later_version
+from plyfold.io.shapes import Line, Shape, outline_of_shapes
+from plyfold.outline.curve import Outline
+from plyfold.outline.direction import even_odd_directions, sense
+from plyfold.outline.points import LARGEST_COORDINATE, Repair, as_points, diagonal
 
-__all__ = ["read_svg"]
+__all__ = ["DrawnShape", "outline_of_drawn_shapes", "shapes_in_svg"]
 
 _TOLERANCE_SHARE = 1 / 2000
 _FINEST_SHARE = 1e-9
@@ -30,8 +36,18 @@ _GEOGRAPHIC = ("gpx", "kml", "gml")
 _SHAPE_HINT = "draw one closed path, polygon, polyline, rect, circle or ellipse"
 
 
-def read_svg(data: bytes, id: str | None = None, tolerance: float | None = None) -> Curve:
-    """Read one closed curve from an SVG document.
+@dataclass(frozen=True, eq=False)
+class DrawnShape:
+    """A shape of an SVG: its pieces, by which rule it is filled, and its cusps, at the nodes of the pieces."""
+
+    pieces: tuple[DrawnPath, ...]
+    name: str
+    even_odd: bool
+    cusps: tuple[CuspMark, ...]
+
+
+def shapes_in_svg(data: bytes, id: str | None = None) -> list[DrawnShape]:
+    """Return the shapes that an SVG document draws, in their order, or those in one of its elements.
 
     Parameters
     ----------
@@ -39,21 +55,55 @@ def read_svg(data: bytes, id: str | None = None, tolerance: float | None = None)
         The document.
     id : str, optional
         The element to read, a shape or a group; by default all that is drawn.
-    tolerance : float, optional
-        Bound on the distance between the drawing and the polyline, in the units of the result (the document's pixels,
-        after all transforms); by default 1/2000 of the diagonal of the bounding box.
 
     Returns
     -------
-    Curve
-        With y up. A single open piece, or several, are joined as strokes.
+    list of DrawnShape
+        With y up.
 
     Raises
     ------
     FileFormatError
-        If the document is broken, holds no shape, or several of which one must be chosen.
+        If the document is broken, or holds no shape.
+
+    Notes
+    -----
+    Linear in the size of the document.
+
+    Examples
+    --------
+    >>> [shape.name for shape in shapes_in_svg(b'<svg><rect id="a" width="9" height="9"/><circle id="b" r="9"/></svg>')]
+    ['a', 'b']
+    """
+    with np.errstate(all="ignore"):  # infinite coordinates are refused when it is flattened
+        shapes = _drawn_shapes(data, id)
+    if not shapes:
+        raise FileFormatError("nothing is drawn in it that has an outline", hint=_SHAPE_HINT)
+    return shapes
+
+
+def outline_of_drawn_shapes(shapes: Sequence[DrawnShape], tolerance: float | None = None) -> Outline:
+    """Return shapes of an SVG as one outline; subpaths are loops, and open paths alone are joined as strokes.
+
+    Parameters
+    ----------
+    shapes : sequence of DrawnShape
+    tolerance : float, optional
+        Bound on the distance between the drawing and the polylines, in the units of the result (the document's pixels,
+        after all transforms); by default 1/2000 of the diagonal of the bounding box.
+
+    Returns
+    -------
+    Outline
+        The directions are those of the file; but of shapes that are filled by even and odd, loops that meet no other
+        loop of their shape are turned so that the painted side is on their left. Repairs say so.
+
+    Raises
+    ------
+    FileFormatError
+        If a coordinate is not finite, or a cusp is not at a node.
     StrokeError
-        If open pieces leave a gap too wide to be meant.
+        If open paths leave a gap too wide to be meant.
 
     Notes
     -----
@@ -61,18 +111,50 @@ def read_svg(data: bytes, id: str | None = None, tolerance: float | None = None)
 
     Examples
     --------
-    >>> read_svg(b'<svg><polygon points="0,0 4,0 0,3"/></svg>').points.tolist()
+    >>> outline_of_drawn_shapes(shapes_in_svg(b'<svg><polygon points="0,0 4,0 0,3"/></svg>')).points.tolist()
     [[0.0, 0.0], [4.0, 0.0], [0.0, -3.0]]
     """
-    with np.errstate(all="ignore"):  # infinite coordinates are refused below
-        outlines = _drawn_outlines(data, id)
-        if not outlines:
-            raise FileFormatError("nothing is drawn in it that has an outline", hint=_SHAPE_HINT)
-        size = _checked_size(sample_points(outlines))
+    with np.errstate(all="ignore"):
+        size = _checked_size(sample_points([piece for shape in shapes for piece in shape.pieces]))
     tolerance = _checked_tolerance(tolerance, size)
-    if any(outline.closed for outline in outlines):
-        return Curve(_only(outlines).flattened(tolerance))
-    return Curve.from_strokes(outline.flattened(tolerance) for outline in outlines)
+    alone = sum(len(shape.pieces) for shape in shapes) == 1
+    return outline_of_shapes([_flattened(shape, tolerance, alone) for shape in shapes])
+
+
+def _flattened(shape: DrawnShape, tolerance: float, alone: bool) -> Shape:
+    cusps = _cusps_at_vertices(shape, tolerance)
+    lines = [
+        Line(piece.flattened(tolerance), piece.closed, cusps=marks)
+        for piece, marks in zip(shape.pieces, cusps, strict=True)
+    ]
+    return _painted(lines, shape.name) if shape.even_odd and not alone else Shape(tuple(lines), shape.name)
+
+
+def _cusps_at_vertices(shape: DrawnShape, tolerance: float) -> list[dict[int, int]]:
+    """Return for each piece the vertices of its polyline that are cusps; they are given by nodes."""
+    found: list[dict[int, int]] = [{} for _ in shape.pieces]
+    for mark in shape.cusps:
+        nodes = shape.pieces[mark.loop].nodes(tolerance) if mark.loop < len(shape.pieces) else []
+        if mark.point >= len(nodes):
+            hint = "count the subpaths from 0, and in each its nodes: the start, and the ends of its segments"
+            raise FileFormatError(f"{shape.name or 'a shape'} has no node {written_cusp(mark)} to be a cusp", hint=hint)
+        found[mark.loop][nodes[mark.point]] = mark.turns
+    return found
+
+
+def _painted(lines: list[Line], name: str) -> Shape:
+    """Return the lines of a shape that is filled by even and odd, with directions where these can be told."""
+    loops = [number for number, line in enumerate(lines) if line.closed]
+    points = [as_points(lines[number].points) for number in loops]
+    repairs = []
+    for number, along, direction in zip(loops, points, even_odd_directions(points) if loops else [], strict=True):
+        lines[number] = lines[number]._replace(direction=direction)
+        x, y = along[0].tolist()
+        if direction == 0:
+            repairs.append(Repair("direction kept (even-odd loops that meet)", (x, y), 0.0))
+        elif sense(along) == -direction:
+            repairs.append(Repair("loop turned round (even-odd)", (x, y), 0.0))
+    return Shape(tuple(lines), name, tuple(repairs))
 
 
 def _checked_size(points: Floats) -> float:
@@ -93,60 +175,53 @@ def _checked_tolerance(tolerance: float | None, size: float) -> float:
     return tolerance
 
 
-def _only(outlines: list[DrawnPath]) -> DrawnPath:
-    if len(outlines) == 1:
-        return outlines[0]
-    names = list(dict.fromkeys(outline.name for outline in outlines))
-    if len(names) == 1:
-        raise FileFormatError(f"{names[0]} has {len(outlines)} separate pieces", hint="keep one closed piece in it")
-    raise FileFormatError(f"it holds several shapes: {_listed(names)}", hint="choose one by its id, or give it an id")
-
-
 def _listed(names: Iterable[str]) -> str:
     names = list(names)
     return ", ".join(names[:20]) + (f" and {len(names) - 20} more" if len(names) > 20 else "")
 
 
-def _drawn_outlines(data: bytes, id: str | None) -> list[DrawnPath]:
-    """Return the pieces of all drawn shapes, or of those in the chosen element."""
+def _drawn_shapes(data: bytes, id: str | None) -> list[DrawnShape]:
+    """Return all drawn shapes that have an outline, or those in the chosen element."""
     document = _safe_document(data)
     try:
-        shapes = _shapes_by_id(document)
-        outlines = [
-            outline for number, shape in enumerate(shapes.get(id, []), 1) for outline in _outlines(shape, number)
-        ]
+        elements = _elements_by_id(document)
+        shapes = [_drawn_shape(element) for element in elements.get(id, [])]
+    except FileFormatError:
+        raise
     except Exception as error:  # svgelements lets through whatever a bad number or attribute runs into
         reason = str(error) or "a number or a command is not understood"
         hint = "check the path data, transforms and lengths of its shapes"
         raise FileFormatError(f"broken SVG: {reason}", hint=hint) from error
-    if id is not None and not shapes.get(id):
-        names = _listed(name for name, found in shapes.items() if name and found)
+    if id is not None and not elements.get(id):
+        names = _listed(name for name, found in elements.items() if name and found)
         raise FileFormatError(f"no shape in it has the id {id!r}", hint=f"ids with shapes: {names or 'none'}")
-    return outlines
+    return [shape for shape in shapes if shape.pieces]
 
 
-def _shapes_by_id(document: bytes) -> dict[str | None, list[Any]]:
+def _elements_by_id(document: bytes) -> dict[str | None, list[Any]]:
     """Return the shapes within each element that has an id, and under None all that are drawn."""
     drawing = SVG.parse(io.BytesIO(document), reify=False, on_error="raise")
     return {name: _shapes_within(element) for name, element in [(None, drawing), *drawing.objects.items()]}
 
 
 def _shapes_within(element: Any) -> list[Any]:
-    if isinstance(element, Shape):
+    if isinstance(element, ShapeElement):
         return [element]
-    return list(element.select(lambda part: isinstance(part, Shape))) if hasattr(element, "select") else []
+    return list(element.select(lambda part: isinstance(part, ShapeElement))) if hasattr(element, "select") else []
 
 
-def _outlines(shape: Any, number: int) -> Iterator[DrawnPath]:
-    """Yield the pieces of one shape, named by its id or number, in final coordinates: transforms applied, y up."""
-    transform = shape.transform
+def _drawn_shape(element: Any) -> DrawnShape:
+    """Return a shape in final coordinates: transforms applied, y up."""
+    transform = element.transform
     matrix = np.array([(transform.a, transform.c), (-transform.b, -transform.d)])
     shift = np.array((transform.e, -transform.f))
-    name = repr(shape.id) if shape.id else f"shape {number} (a {type(shape).__name__.lower()} without id)"
-    for run, closed in _runs(shape.segments(transformed=False)):
+    pieces = []
+    for run, closed in _runs(element.segments(transformed=False)):
         segments = tuple(_segment(part).transformed(matrix, shift) for part in run)
         start = matrix @ _place(run[0].start) + shift
-        yield DrawnPath(start, segments, closed or np.array_equal(start, segments[-1].end), name)
+        pieces.append(DrawnPath(start, segments, closed or np.array_equal(start, segments[-1].end)))
+    cusps = parse_cusps(element.values.get("attributes", {}).get("data-cusps", ""))
+    return DrawnShape(tuple(pieces), element.id or "", element.values.get("fill-rule") == "evenodd", tuple(cusps))
 
 
 def _runs(segments: Iterable[Any]) -> Iterator[tuple[list[Any], bool]]:
@@ -254,7 +329,15 @@ def _link(element: ElementTree.Element) -> str:
 
 
 def _state_size(root: ElementTree.Element) -> None:
-    """Give a drawing without viewBox the one it has by default: svgelements would mix up its width and height."""
+    """Give a drawing without viewBox the one it has by default: svgelements would mix up its width and height.
+
+    Where plyfold has written it, the view box is for viewers alone, and numbers are as they stand.
+    """
+    if root.get(SVG_MARK) is not None:
+        refuse_later_version(root.get(SVG_MARK))
+        for name in ("viewBox", "width", "height"):
+            root.attrib.pop(name, None)
+        return
     sizes = [Length(root.get(side, "100%")).value(ppi=96) for side in ("width", "height")]
     if root.get("viewBox") is None and all(isinstance(size, float) and size > 0 for size in sizes):
         root.set("viewBox", f"0 0 {sizes[0]!r} {sizes[1]!r}")

@@ -6,37 +6,55 @@ import io
 import math
 import re
 import warnings
-from collections.abc import Iterator
+from itertools import groupby
+from typing import NamedTuple
 
 import numpy as np
 
 from plyfold.errors import FileFormatError
+from plyfold.io.shapes import Line, Shape, shape_of_strokes
 from plyfold.mistaken import mistaken_code
-from plyfold.outline.curve import Curve
 
-__all__ = ["read_npy", "read_table"]
+__all__ = ["shapes_in_npy", "shapes_in_table"]
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 
 _X_NAMES = ("x", "lon", "lng", "long", "longitude", "easting")
 _Y_NAMES = ("y", "lat", "latitude", "northing")
+_MORE_NAMES = (("loop", "loops"), ("cusp", "cusps"))
 
-_Stroke = list[tuple[float, ...]]
+
+class _Row(NamedTuple):
+    """A point of a table: its coordinates, which loop it belongs to, its index as a cusp, and the line it stands on."""
+
+    place: tuple[float, ...]
+    loop: str
+    cusp: int
+    line: int
 
 
-def read_table(text: str) -> Curve:
-    r"""Read two columns of numbers; empty lines separate strokes.
+class _Columns(NamedTuple):
+    """Which columns of a table hold the loop and the cusp of each point, counted from 0; the first two are x and y."""
+
+    loop: int | None = None
+    cusp: int | None = None
+
+
+def shapes_in_table(text: str) -> list[Shape]:
+    r"""Read two columns of numbers, and perhaps columns named ``loop`` and ``cusp``.
 
     Parameters
     ----------
     text : str
         One point per line, x and y separated by comma, semicolon or blanks. ``#`` starts a comment. The first line may
-        be a header. A third number is left out.
+        be a header. A column ``loop`` tells to which loop a point belongs, whose points stand together; a column
+        ``cusp`` has its index, mostly 0. Otherwise a third number is left out.
 
     Returns
     -------
-    Curve
-        Of one block, the closing edge is implied; several blocks are joined as strokes.
+    list of Shape
+        One. Of one block, or of loops by name, closing edges are implied. Several blocks between empty lines are loops
+        if each of them ends where it starts, and otherwise strokes.
 
     Raises
     ------
@@ -49,22 +67,53 @@ def read_table(text: str) -> Curve:
 
     Examples
     --------
-    >>> read_table("0 0\n4 0  # right\n0 3").points.tolist()
-    [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]
+    >>> shapes_in_table("0 0\n4 0  # right\n0 3")[0].loops[0].points
+    [(0.0, 0.0), (4.0, 0.0), (0.0, 3.0)]
+    >>> len(shapes_in_table("x,y,loop\n0,0,a\n4,0,a\n0,3,a\n5,5,b\n6,5,b\n5,6,b\n")[0].loops)
+    2
     """
     try:
-        strokes = list(_strokes(text))
+        columns, blocks = _blocks(text)
     except FileFormatError as error:
         if mistake := mistaken_code(text):
             raise FileFormatError(mistake.message, hint=mistake.hint) from error
         raise
-    if not strokes:
+    if not blocks:
         raise FileFormatError("it holds no points", hint="write one point per line: x, y")
-    return Curve(strokes[0]) if len(strokes) == 1 else Curve.from_strokes(strokes)
+    if columns.loop is not None:
+        blocks = _blocks_by_loop([row for block in blocks for row in block])
+    elif len(blocks) > 1:
+        return [_shape_of_blocks(blocks)]
+    return [Shape(tuple(map(_loop, blocks)))]
 
 
-def read_npy(data: bytes) -> Curve:
-    """Read an (n, 2) or (n, 3) array from the content of an NPY file; pickled objects are refused.
+def _shape_of_blocks(blocks: list[list[_Row]]) -> Shape:
+    shape = shape_of_strokes([row.place for row in block] for block in blocks)
+    lines = zip(shape.loops, blocks, strict=True)
+    return Shape(tuple(line._replace(cusps=_loop(block).cusps) for line, block in lines))
+
+
+def _loop(rows: list[_Row]) -> Line:
+    cusps = {number: row.cusp for number, row in enumerate(rows) if row.cusp}
+    return Line([row.place for row in rows], cusps=cusps)
+
+
+def _blocks_by_loop(rows: list[_Row]) -> list[list[_Row]]:
+    """Return the rows of each loop; refuse one that goes on after another, for its order would be a guess."""
+    blocks: dict[str, list[_Row]] = {}
+    for name, block in groupby(rows, key=lambda row: row.loop):
+        points = list(block)
+        if name in blocks:
+            line = points[0].line
+            raise FileFormatError(
+                f"line {line}: loop {name[:40]!r} goes on after another one", hint="write its points together, in order"
+            )
+        blocks[name] = points
+    return list(blocks.values())
+
+
+def shapes_in_npy(data: bytes) -> list[Shape]:
+    """Read an (n, 2) or (n, 3) array, or a stack of such, from the content of an NPY file; pickled objects are refused.
 
     Parameters
     ----------
@@ -72,14 +121,13 @@ def read_npy(data: bytes) -> Curve:
 
     Returns
     -------
-    Curve
+    list of Shape
+        One.
 
     Raises
     ------
     FileFormatError
         If the content is no NPY file, or holds objects.
-    CurveError
-        If the array is no usable curve.
 
     Notes
     -----
@@ -89,8 +137,8 @@ def read_npy(data: bytes) -> Curve:
     --------
     >>> file = io.BytesIO()
     >>> np.save(file, [(0, 0), (4, 0), (0, 3)])
-    >>> len(read_npy(file.getvalue()))
-    3
+    >>> len(shapes_in_npy(file.getvalue())[0].loops)
+    1
     """
     try:
         with warnings.catch_warnings():  # of headers written by Python 2
@@ -101,31 +149,42 @@ def read_npy(data: bytes) -> Curve:
         raise FileFormatError(
             f"it is no plain NPY array ({reason})", hint="save an (n, 2) array with numpy.save"
         ) from error
-    return Curve(points)
+    return [Shape(tuple(map(Line, points if points.ndim == 3 and len(points) else [points])))]
 
 
-def _strokes(text: str) -> Iterator[_Stroke]:
-    """Yield the blocks between empty lines; a line with only a comment is not an empty line."""
-    stroke: _Stroke = []
-    first_line, columns = 0, 0
+def _blocks(text: str) -> tuple[_Columns, list[list[_Row]]]:
+    """Return the blocks between empty lines; a line with only a comment is not an empty line."""
+    blocks: list[list[_Row]] = [[]]
+    known, first_line, count = _Columns(), 0, 0
     header_allowed = True
     for number, line in enumerate(re.split(r"\r\n|\r|\n", text), start=1):
         content = line.partition("#")[0].strip()
-        if not line.strip() and stroke:
-            yield stroke
-            stroke = []
+        if not line.strip() and blocks[-1]:
+            blocks.append([])
         if not content:
             continue
         fields = _SEPARATOR.split(content)
         if header_allowed and not any(map(_is_number, fields)):
-            _refuse_other_columns(fields, number)
+            known = _named_columns(fields, number)
+            first_line, count = (number, len(fields)) if any(known) else (0, 0)
         else:
-            stroke.append(_point(content, number))
-            first_line, columns = first_line or number, columns or len(fields)
-            _refuse_other_length(len(fields), number, columns, first_line)
+            first_line, count = first_line or number, count or len(fields)
+            _refuse_other_length(len(fields), number, count, first_line)
+            blocks[-1].append(_row(content, known, number))
         header_allowed = False
-    if stroke:
-        yield stroke
+    return known, [block for block in blocks if block]
+
+
+def _named_columns(names: list[str], line: int) -> _Columns:
+    """Return the columns that a header names; refuse one that names x and y, but not as the first two."""
+    plain = [name.strip("\"'").lower() for name in names]
+    x, y = ([place for place, name in enumerate(plain) if name in known] for known in (_X_NAMES, _Y_NAMES))
+    if x and y and (0 not in x or 1 not in y):
+        raise FileFormatError(
+            f"line {line}: its columns are {', '.join(names)}", hint="put x and y first, in this order"
+        )
+    loop, cusp = (next((place for place, name in enumerate(plain) if name in known), None) for known in _MORE_NAMES)
+    return _Columns(loop, cusp)
 
 
 def _is_number(field: str) -> bool:
@@ -136,20 +195,27 @@ def _is_number(field: str) -> bool:
     return True
 
 
-def _refuse_other_columns(names: list[str], line: int) -> None:
-    """Refuse a header that names x and y, but not as the first two columns."""
-    plain = [name.strip("\"'").lower() for name in names]
-    x, y = ([place for place, name in enumerate(plain) if name in known] for known in (_X_NAMES, _Y_NAMES))
-    if x and y and (0 not in x or 1 not in y):
-        raise FileFormatError(
-            f"line {line}: its columns are {', '.join(names)}", hint="put x and y first, in this order"
-        )
-
-
 def _refuse_other_length(length: int, line: int, columns: int, first_line: int) -> None:
     if length != columns:
         hint = "write one point per line: x, y"
         raise FileFormatError(f"line {line}: {length} numbers, where line {first_line} has {columns}", hint=hint)
+
+
+def _row(content: str, known: _Columns, line: int) -> _Row:
+    fields = _SEPARATOR.split(content)
+    named = [column for column in known if column is not None]
+    if not named:
+        return _Row(_point(content, line), "", 0, line)
+    plain = ",".join(field for column, field in enumerate(fields) if column not in named)
+    loop = "" if known.loop is None else fields[known.loop]
+    return _Row(_point(plain, line), loop, 0 if known.cusp is None else _index(fields[known.cusp], line), line)
+
+
+def _index(field: str, line: int) -> int:
+    if not field.isdecimal():
+        hint = "write 0 where there is no cusp, and otherwise by how many full turns the angle is larger"
+        raise FileFormatError(f"line {line}: {field[:40]!r} is no index of a cusp", hint=hint)
+    return int(field)
 
 
 def _point(content: str, line: int) -> tuple[float, ...]:

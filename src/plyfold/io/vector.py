@@ -3,39 +3,45 @@
 from __future__ import annotations
 
 import re
-from typing import Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from plyfold.errors import FileFormatError
-from plyfold.outline.curve import Curve, as_curve
+from plyfold.io.cusp_notation import cusps_of_loops
+from plyfold.io.shapes import Line, Shape, shape_of_strokes
+from plyfold.outline.given import left_out_coordinates
+from plyfold.outline.points import Repair, as_planar_points
 
-__all__ = ["read_geojson", "read_wkt"]
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
 
-_HINT = "give one LineString, MultiLineString or Polygon without holes"
-_CONTAINERS = {"FeatureCollection": "features", "GeometryCollection": "geometries", "MultiPolygon": "coordinates"}
+__all__ = ["shapes_in_geojson", "shapes_in_wkt"]
+
+_HINT = "give LineStrings, Polygons, or MultiLineStrings and MultiPolygons"
+# Another geometry on a line of its own; in a collection there would be a comma.
+_NEXT_GEOMETRY = re.compile(r"(?<=\))\s*\n\s*(?=[A-Za-z])")
 
 
-def read_wkt(text: str) -> Curve:
-    """Read a ``LINESTRING``, ``MULTILINESTRING`` (strokes) or ``POLYGON`` without holes.
+def shapes_in_wkt(text: str) -> list[Shape]:
+    """Read lines and polygons as well-known text: one geometry, a collection, or several on lines of their own.
 
     Parameters
     ----------
     text : str
-        Well-known text; a leading ``SRID=...;`` is passed over.
+        A leading ``SRID=...;`` is passed over.
 
     Returns
     -------
-    Curve
+    list of Shape
+        One for each geometry. A ``LINESTRING`` that ends where it starts is a loop, and a ``MULTILINESTRING`` of such;
+        other lines are strokes.
 
     Raises
     ------
     FileFormatError
-        If the text is broken.
-    CurveError
-        If the geometry is not one closed curve.
-    StrokeError
-        If the ends of open lines are too far apart.
+        If the text is broken, or there are other geometries.
 
     Notes
     -----
@@ -43,23 +49,47 @@ def read_wkt(text: str) -> Curve:
 
     Examples
     --------
-    >>> len(read_wkt("POLYGON ((0 0, 4 0, 0 3, 0 0))"))
-    3
+    >>> [shape] = shapes_in_wkt("POLYGON ((0 0, 9 0, 0 9, 0 0), (1 1, 2 1, 1 2, 1 1))")
+    >>> [loop.direction for loop in shape.loops]
+    [1, -1]
     """
-    import shapely
-
     if text.upper().count("COLLECTION") > 1:  # the parser would recurse as deep as they are nested
         raise FileFormatError("it holds a collection in a collection", hint=_HINT)
+    plain = re.sub(r"^\s*SRID=\d+;", "", text, flags=re.IGNORECASE).strip()
+    return [shape for part in _NEXT_GEOMETRY.split(plain) for shape in _shapes_of_geometry(_geometry(part))]
+
+
+def _geometry(text: str) -> BaseGeometry:
+    import shapely
+
     try:
         with np.errstate(all="ignore"):  # NaN and infinity are refused by the curve
-            geometry = shapely.from_wkt(re.sub(r"^\s*SRID=\d+;", "", text, flags=re.IGNORECASE).strip())
+            geometry = shapely.from_wkt(text)
     except shapely.errors.ShapelyError as error:
         raise FileFormatError(f"broken WKT ({error})", hint=_HINT) from error
-    return as_curve(geometry)
+    if geometry.is_empty:
+        raise FileFormatError(f"the {geometry.geom_type} is empty", hint="give a ring or line with points")
+    return geometry
 
 
-def read_geojson(value: dict[str, Any]) -> Curve:
-    """Read a GeoJSON geometry, a feature, or a collection of one.
+def _shapes_of_geometry(geometry: BaseGeometry) -> list[Shape]:
+    import shapely
+    from shapely.geometry import mapping
+
+    said = left_out_coordinates(geometry)
+    shapes = shapes_in_geojson(_as_lists(mapping(shapely.force_2d(geometry))))
+    return [shape._replace(repairs=(*said, *shape.repairs)) for shape in shapes[:1]] + shapes[1:]
+
+
+def _as_lists(value: Any) -> Any:
+    """Return what shapely gives as GeoJSON, with lists in place of its tuples."""
+    if isinstance(value, dict):
+        return {name: _as_lists(part) for name, part in value.items()}
+    return [_as_lists(part) for part in value] if isinstance(value, list | tuple) else value
+
+
+def shapes_in_geojson(value: dict[str, Any]) -> list[Shape]:
+    """Read a GeoJSON geometry, a feature, or a collection.
 
     Parameters
     ----------
@@ -68,14 +98,14 @@ def read_geojson(value: dict[str, Any]) -> Curve:
 
     Returns
     -------
-    Curve
+    list of Shape
+        One for each feature or geometry, named by its ``id``. Shells are to run counter-clockwise and holes clockwise;
+        lines are as in :func:`shapes_in_wkt`. Features may have a property ``cusps``.
 
     Raises
     ------
     FileFormatError
-        If it is no GeoJSON, or not exactly one geometry without holes.
-    StrokeError
-        If the ends of open lines are too far apart.
+        If it is no GeoJSON, or has neither lines nor polygons. Beside them, points are left out; the repairs say so.
 
     Notes
     -----
@@ -83,26 +113,77 @@ def read_geojson(value: dict[str, Any]) -> Curve:
 
     Examples
     --------
-    >>> len(read_geojson({"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [0, 3], [0, 0]]]}))
-    3
+    >>> ring = [[0, 0], [4, 0], [0, 3], [0, 0]]
+    >>> [shape] = shapes_in_geojson({"type": "Polygon", "coordinates": [ring]})
+    >>> shape.loops[0].points
+    [[0, 0], [4, 0], [0, 3], [0, 0]]
     """
-    kind = str(value.get("type"))
+    try:
+        shapes = _shapes(value)
+    except RecursionError as error:
+        raise _error("it is nested too deep") from error
+    repairs = [repair for shape in shapes if not shape.loops for repair in shape.repairs]
+    drawn = [shape for shape in shapes if shape.loops]
+    if drawn:
+        return [drawn[0]._replace(repairs=(*repairs, *drawn[0].repairs)), *drawn[1:]]
+    if shapes:
+        raise _error("it holds points alone")
+    raise _error(f"the {_kind(value)} holds nothing")
+
+
+def _shapes(value: dict[str, Any], name: str = "", cusps: object = None) -> list[Shape]:
+    kind = _kind(value)
+    if kind == "FeatureCollection":
+        return [shape for feature in _list(value.get("features")) for shape in _shapes(_object(feature))]
+    if kind == "GeometryCollection":
+        return [shape for part in _list(value.get("geometries")) for shape in _shapes(_object(part), name)]
     if kind == "Feature":
-        return read_geojson(_object(value.get("geometry")))
-    if kind in _CONTAINERS:
-        only = _only(value.get(_CONTAINERS[kind]), f"the {kind} holds")
-        return _curve_of_rings(only) if kind == "MultiPolygon" else read_geojson(_object(only))
-    if kind == "Polygon":
-        return _curve_of_rings(value.get("coordinates"))
-    if kind == "LineString":
-        return Curve.from_strokes([_positions(value.get("coordinates"))])
-    if kind == "MultiLineString":
-        return Curve.from_strokes([_positions(line) for line in _list(value.get("coordinates"))])
-    raise _error(f"its type {kind[:40]!r} is not one closed curve")
+        return _shapes_of_feature(value)
+    return [_shape(kind, value.get("coordinates"), name, cusps)]
 
 
-def _curve_of_rings(rings: object) -> Curve:
-    return Curve(_positions(_only(rings, "the rings of the polygon are")))
+def _shapes_of_feature(feature: dict[str, Any]) -> list[Shape]:
+    properties, name = feature.get("properties"), feature.get("id")
+    cusps = properties.get("cusps") if isinstance(properties, dict) else None
+    shapes = _shapes(_object(feature.get("geometry")), "" if name is None else str(name), cusps)
+    if cusps is not None and len(shapes) != 1:
+        raise _error("a feature with cusps holds several geometries")
+    return shapes
+
+
+def _kind(value: dict[str, Any]) -> str:
+    return str(value.get("type"))[:40]
+
+
+def _shape(kind: str, coordinates: object, name: str, cusps: object) -> Shape:
+    if kind in ("Point", "MultiPoint"):
+        return Shape((), name, _points_left_out(kind, coordinates))
+    if kind in ("Polygon", "MultiPolygon"):
+        rings = _rings([coordinates] if kind == "Polygon" else _list(coordinates))
+        lengths = [len(_list(ring.points)) for ring in rings]
+        marks = cusps_of_loops(cusps, lengths)
+        return Shape(tuple(ring._replace(cusps=marked) for ring, marked in zip(rings, marks, strict=True)), name)
+    if kind in ("LineString", "LinearRing", "MultiLineString"):
+        lines = _list(coordinates) if kind == "MultiLineString" else [coordinates]
+        shape = shape_of_strokes(map(_positions, lines), name)
+        marks = cusps_of_loops(cusps, [len(_list(line.points)) for line in shape.loops])
+        marked = zip(shape.loops, marks, strict=True)
+        return shape._replace(loops=tuple(line._replace(cusps=cusps_of_line) for line, cusps_of_line in marked))
+    raise _error(f"its type {kind!r} is no line or polygon")
+
+
+def _rings(polygons: Sequence[object]) -> list[Line]:
+    """Return the rings of polygons: of each first its shell, then its holes."""
+    rings = [(number, ring) for polygon in polygons for number, ring in enumerate(_list(polygon))]
+    if not rings:
+        raise _error("a polygon has no ring")
+    return [Line(_positions(ring), direction=-1 if number else 1) for number, ring in rings]
+
+
+def _points_left_out(kind: str, coordinates: object) -> tuple[Repair, ...]:
+    positions = _positions([coordinates] if kind == "Point" else coordinates)
+    points, _ = as_planar_points(positions)
+    return tuple(Repair("point left out", (x, y), 0.0) for x, y in points.tolist())
 
 
 def _positions(line: object) -> list[Any]:
@@ -110,13 +191,6 @@ def _positions(line: object) -> list[Any]:
     positions = [_list(position) for position in _list(line)]
     altitude = [0.0] if any(len(position) > 2 for position in positions) else []
     return [position[:2] + altitude for position in positions]
-
-
-def _only(items: object, what: str) -> object:
-    found = _list(items)
-    if len(found) != 1:
-        raise _error(f"{what} {len(found)}, not one")
-    return found[0]
 
 
 def _list(value: object) -> list[Any]:

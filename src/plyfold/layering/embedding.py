@@ -6,13 +6,15 @@ Two ways lead to an embedding of a disk. Immersion by immersion the order of she
 harder than all of a few immersions. So few immersions are gone through one by one, and where there are more of them the
 curve itself is asked; and so are several curves, or one that bounds a disk with handles. Each solution of the equations
 glues sheets to a surface without self-intersections that has the curves as its boundary and lies to the left of them.
-Its Euler characteristic is the sum of their turning numbers, for it lies flat without branch points; the same holds for
-each of its pieces, which gives their genus. Nothing demands that the surface be in one piece.
+Its Euler characteristic is the sum of their turning numbers, less the indices of their cusps, for it lies flat without
+branch points; the same holds for each of its pieces, which gives their genus. Nothing demands that the surface be in
+one piece, unless it is asked for.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from itertools import islice
 from typing import cast
 
@@ -23,24 +25,28 @@ from plyfold.arrangement.base_visit import borders_numbered_back
 from plyfold.arrays import Ints
 from plyfold.clock import Clock, Watch
 from plyfold.errors import TimeLimitError
+from plyfold.immersion.obstructions import may_bound_disk, obstruction, visible_obstruction
 from plyfold.immersion.solve import bounds_disk, count_immersions, find_immersion, immersions, watched_immersions
 from plyfold.layering.layering import Layering, layering_of_levels
 from plyfold.layering.levels.casing import casing_of_visits
 from plyfold.layering.levels.counting import count_level_solutions
 from plyfold.layering.levels.equations import (
+    Lacking,
+    LevelClauses,
+    all_wanted,
     level_clauses,
     level_equations,
     list_levels,
     no_levels,
-    no_surface,
     solve_levels,
 )
+from plyfold.layering.levels.pieces import not_cut_off
 from plyfold.layering.orders.counting import count_layerings
 from plyfold.layering.orders.listing import layerings
 from plyfold.layering.orders.search import find_layering, undecided
 from plyfold.layering.tables import TooLargeError
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.outline.curve import OutlineLike
+from plyfold.outline.given import OutlineLike
 
 __all__ = ["count_embeddings", "embeddings", "find_embedding"]
 
@@ -50,26 +56,33 @@ _FEW = 100
 _HOW_MANY = "how many embeddings there are"
 
 
-def find_embedding(curve: OutlineLike, time_limit: float | None = None) -> Layering | Obstruction | Unknown:
+def find_embedding(
+    curve: OutlineLike, time_limit: float | None = None, connected: bool = False
+) -> Layering | Obstruction | Unknown:
     """Find a layered surface without self-intersections that has the curve as its outline, or prove that there is none.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
-        One curve bounds a disk, or, if its turning number is 1 − 2g, a disk with g handles. Several curves bound one
-        surface, perhaps in several pieces; they may cross themselves and each other. Each has the surface on its left,
-        so that outer boundaries run counter-clockwise and holes clockwise.
+    curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
+        One curve bounds a disk, or, if its turning number is 1 − 2g, a disk with g handles; the turns that are too many
+        at cusps do not count. Several loops bound one surface, perhaps in several pieces; they may cross themselves and
+        each other. Each has the surface on its left, so that outer boundaries run counter-clockwise and holes
+        clockwise.
     time_limit : float, optional
         Seconds after which to give up; none by default.
+    connected : bool, optional
+        Demand a surface in one piece.
 
     Returns
     -------
     Layering or Obstruction or Unknown
         The result is true if there is an embedding; it has been checked, and its ``immersion`` says over which
-        immersion it lies. An obstruction has the reason ``"turning number"``, ``"negative winding"`` or, of a disk,
-        ``"no grouping"`` (there is no immersion), and otherwise ``"no embedding"``: ``value`` is a tuple of crossings
-        at which no levels of the strands fit together, whatever the immersion; as few as can be found with little
-        effort. At the time limit the answer is Unknown.
+        immersion it lies. An obstruction has the reason ``"turning number"``, ``"negative winding"``, ``"cusp"`` (one
+        that cannot be) or, of a disk, ``"no grouping"`` (there is no immersion); ``"pieces"``, if all embeddings have
+        several and one was demanded (``value`` has the loops of each piece of one); and otherwise ``"no embedding"``:
+        ``value`` is a tuple of crossings, and of cusps as ``("cusp", visit)``, at which no levels of the strands fit
+        together, whatever the immersion; as few as can be found with little effort. At the time limit the answer is
+        Unknown.
 
     Raises
     ------
@@ -81,7 +94,8 @@ def find_embedding(curve: OutlineLike, time_limit: float | None = None) -> Layer
     Exact in both directions. The first immersions of a disk are tried one by one with :func:`~plyfold.find_layering`;
     if none of them lifts and there are more, and for all other outlines, the levels of all borders are a SAT problem
     with O(Σ w) variables and clauses, over borders. Whether an embedded disk can be decided in polynomial time is open
-    [EM09]_. A chain of a hundred disks with 5 immersions each, 1,200 crossings, takes about 0.2 s.
+    [EM09]_. A chain of a hundred disks with 5 immersions each, 1,200 crossings, takes about 0.2 s. Surfaces of several
+    pieces are left out one kind after the other where one piece is demanded.
 
     References
     ----------
@@ -95,13 +109,17 @@ def find_embedding(curve: OutlineLike, time_limit: float | None = None) -> Layer
     >>> ring = find_embedding([[(0, 0), (9, 0), (0, 9)], [(1, 1), (1, 3), (3, 1)]])
     >>> ring.euler_characteristic, len(ring.pieces), ring.genus
     (0, 1, 0)
+    >>> from plyfold import Curve
+    >>> limacon = [(3, 0), (1, 3), (-2, 0), (1, -3), (3, 0.5), (1, 1), (0.5, 0), (1, -1)]
+    >>> sorted(find_embedding(Curve(limacon, cusps={6: 1})).level.tolist())
+    [1, 1, 2]
     """
     clock = Clock(time_limit)
     try:
         arranged = watched_arrangement(curve, "perturb", Watch(clock))
-        if not _may_be_disk(arranged):
-            obstruction = no_surface(arranged)
-            return _from_levels(arranged, clock) if obstruction is None else obstruction
+        if not may_bound_disk(arranged):
+            visible = visible_obstruction(arranged, connected)
+            return _from_levels(arranged, clock, connected) if visible is None else visible
         return _over_immersions(arranged, clock)
     except TimeLimitError:
         return undecided("time limit", "whether there is an embedding", clock)
@@ -119,41 +137,56 @@ def _over_immersions(arranged: Arrangement, clock: Clock) -> Layering | Obstruct
         return cast("Obstruction", find_immersion(arranged))
     number = count_immersions(arranged)
     if number > _FEW:
-        return _from_levels(arranged, clock, f"none of the {_written(number)} immersions lifts; ")
+        return _from_levels(arranged, clock, because=f"none of the {_written(number)} immersions lifts; ")
     which = "the only immersion does not lift" if number == 1 else f"none of the {number} immersions lifts"
     return no_levels(arranged, level_clauses(arranged), clock, f"{which}; ")
 
 
-def _may_be_disk(arranged: Arrangement) -> bool:
-    return arranged.n_loops == 1 == arranged.turning_number
-
-
-def _from_levels(arranged: Arrangement, clock: Clock, because: str = "") -> Layering | Obstruction | Unknown:
+def _from_levels(
+    arranged: Arrangement, clock: Clock, connected: bool = False, because: str = ""
+) -> Layering | Obstruction | Unknown:
     clauses = level_clauses(arranged)
     try:
         level = solve_levels(clauses, clock)
+        if level is None:
+            return no_levels(arranged, clauses, clock, because)
+        whole = next(list_levels(clauses, clock, _several_pieces(arranged, clauses)), None) if connected else level
     except TimeoutError:
         return _unknown("whether there is an embedding", arranged, clock)
-    return no_levels(arranged, clauses, clock, because) if level is None else _layering(arranged, level)
+    found = _layering(arranged, level if whole is None else whole)
+    return _not_in_one_piece(found) if whole is None else found
 
 
-def embeddings(curve: OutlineLike, over: npt.ArrayLike | None = None) -> Iterator[Layering]:
+def _several_pieces(arranged: Arrangement, clauses: LevelClauses) -> Lacking:
+    """Return what forbids solutions of several pieces; of one loop there are none."""
+    return partial(not_cut_off, arranged, clauses) if arranged.n_loops > 1 else all_wanted
+
+
+def _not_in_one_piece(found: Layering) -> Obstruction:
+    pieces = tuple(piece.loops for piece in found.pieces)
+    sentence = f"No embedding in one piece: those that there are fall into pieces, such as {len(pieces)}."
+    return obstruction(found.immersion.arrangement, "pieces", sentence, (), pieces)
+
+
+def embeddings(curve: OutlineLike, over: npt.ArrayLike | None = None, connected: bool = False) -> Iterator[Layering]:
     """List all embeddings of an outline, over all its immersions, each once, in a stable order; nothing if none.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
+    curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
         As for :func:`find_embedding`.
-    over : array_like of bool, shape (2k,) or (k,), optional
-        List only those with this casing, given as for :func:`~plyfold.embed_cased`: several if curves lie in others
-        without crossing them.
+    over : array_like of bool, shape (k,), (2k,) or (visits,), optional
+        List only those with this casing, given as for :func:`~plyfold.embed_cased`: several if loops lie in others
+        without crossing them, or if it does not determine whether the surface climbs or falls at cusps.
+    connected : bool, optional
+        List only those in one piece.
 
     Yields
     ------
     Layering
         Checked. There can be exponentially many; they are made one at a time. Few immersions are gone through one by
-        one. Otherwise each embedding takes at most k + Σ w questions to the SAT solver, w added up over curves, most of
-        them easy, and none of them is in vain for long because an immersion does not lift.
+        one. Otherwise each embedding takes at most k + c + Σ w questions to the SAT solver, with c cusps and w added up
+        over loops, most of them easy, and none of them is in vain for long because an immersion does not lift.
 
     Examples
     --------
@@ -164,28 +197,32 @@ def embeddings(curve: OutlineLike, over: npt.ArrayLike | None = None) -> Iterato
     """
     arranged = arrange(curve)
     casing = None if over is None else casing_of_visits(arranged, over)
-    if no_surface(arranged) is not None or (_may_be_disk(arranged) and not bounds_disk(arranged)):
+    if visible_obstruction(arranged, connected) is not None or (may_bound_disk(arranged) and not bounds_disk(arranged)):
         return
     if casing is None and _has_few_immersions(arranged):
         for immersion in immersions(arranged):
             yield from layerings(immersion)
     else:
-        for level in list_levels(level_clauses(arranged, casing)):
+        clauses = level_clauses(arranged, casing)
+        lacking = _several_pieces(arranged, clauses) if connected else all_wanted
+        for level in list_levels(clauses, lacking=lacking):
             yield _layering(arranged, level)
 
 
 def _has_few_immersions(arranged: Arrangement) -> bool:
-    return _may_be_disk(arranged) and count_immersions(arranged) <= _FEW
+    return may_bound_disk(arranged) and count_immersions(arranged) <= _FEW
 
 
-def count_embeddings(curve: OutlineLike, time_limit: float | None = None) -> int | Unknown:
+def count_embeddings(curve: OutlineLike, time_limit: float | None = None, connected: bool = False) -> int | Unknown:
     """Count the embeddings of an outline over all its immersions, exactly.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
+    curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
     time_limit : float, optional
         Seconds after which to give up; none by default.
+    connected : bool, optional
+        Count only those in one piece.
 
     Returns
     -------
@@ -198,7 +235,8 @@ def count_embeddings(curve: OutlineLike, time_limit: float | None = None) -> int
     Of any number of pieces. For a disk with few immersions, the layerings of all of them. Otherwise the solutions of
     the equations between levels are counted, see :func:`plyfold.layering.levels.counting.count_level_solutions`: a
     curve falls apart where only one sheet lies, and the numbers of its parts multiply. A single part with many
-    immersions and hundreds of crossings can be out of reach.
+    immersions and hundreds of crossings can be out of reach. Where one piece is demanded of several loops, the
+    embeddings are listed one by one.
 
     Examples
     --------
@@ -210,15 +248,17 @@ def count_embeddings(curve: OutlineLike, time_limit: float | None = None) -> int
     """
     clock = Clock(time_limit)
     try:
-        return _count(watched_arrangement(curve, "perturb", Watch(clock)), clock)
+        return _count(watched_arrangement(curve, "perturb", Watch(clock)), clock, connected)
     except TimeLimitError:
         return undecided("time limit", _HOW_MANY, clock)
 
 
-def _count(arranged: Arrangement, clock: Clock) -> int | Unknown:
+def _count(arranged: Arrangement, clock: Clock, connected: bool) -> int | Unknown:
     """Return the number of embeddings. May raise TimeLimitError."""
-    if no_surface(arranged) is not None or (_may_be_disk(arranged) and not bounds_disk(arranged)):
+    if visible_obstruction(arranged, connected) is not None or (may_bound_disk(arranged) and not bounds_disk(arranged)):
         return 0
+    if connected and arranged.n_loops > 1:
+        return _count_in_one_piece(arranged, clock)
     if not _has_few_immersions(arranged):
         return _count_levels(arranged, clock)
     total = 0
@@ -234,6 +274,14 @@ def _layering(arranged: Arrangement, level: Ints) -> Layering:
     return layering_of_levels(arranged, borders_numbered_back(arranged, level))
 
 
+def _count_in_one_piece(arranged: Arrangement, clock: Clock) -> int | Unknown:
+    clauses = level_clauses(arranged)
+    try:
+        return sum(1 for _ in list_levels(clauses, clock, _several_pieces(arranged, clauses)))
+    except TimeoutError:
+        return _unknown(_HOW_MANY, arranged, clock)
+
+
 def _count_levels(arranged: Arrangement, clock: Clock) -> int | Unknown:
     try:
         return count_level_solutions(level_equations(arranged), clock)
@@ -246,7 +294,7 @@ def _count_levels(arranged: Arrangement, clock: Clock) -> int | Unknown:
 def _unknown(question: str, arranged: Arrangement, clock: Clock, reason: str = "time limit") -> Unknown:
     left_open = undecided(reason, question, clock)
     known, sentence = dict(left_open.established) | {"crossings": arranged.n_crossings}, left_open.sentence
-    if _may_be_disk(arranged):
+    if may_bound_disk(arranged):
         known["immersions"] = count_immersions(arranged)
         sentence += f" Number of immersions: {_written(count_immersions(arranged))}."
     return Unknown(reason, sentence, known)

@@ -7,13 +7,22 @@ from dataclasses import dataclass
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrangement.base_visit import visits_from_base
 from plyfold.arrays import Bools, Ints, freeze
 from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import Immersion, Piece, require_memory_for_gluing
 from plyfold.ragged import count_each, starts_of
 from plyfold.wording import counted
 
-__all__ = ["Layering", "borders_beside_top", "check_levels", "layering_of_levels", "meeting_sheets"]
+__all__ = [
+    "Layering",
+    "borders_beside_top",
+    "check_levels",
+    "crossing_visits_by_loop",
+    "glued_along_borders",
+    "layering_of_levels",
+    "meeting_sheets",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,11 +67,11 @@ class Layering:
         # A Gauss code alone has no picture, several curves none yet.
         from plyfold.draw.over_under_files import over_under_svg
 
-        return over_under_svg(self, colours="sheets") if len(self.immersion.arrangement.curves) == 1 else None
+        return over_under_svg(self, colours="sheets") if self.immersion.arrangement.outline else None
 
     @property
     def euler_characteristic(self) -> int:
-        """The sum of the turning numbers of all curves."""
+        """The sum of the turning numbers of all loops, less the indices of their cusps."""
         return self.immersion.euler_characteristic
 
     @property
@@ -72,7 +81,7 @@ class Layering:
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
-        """The connected pieces, in the order of their first curves."""
+        """The connected pieces, in the order of their first loops."""
         return self.immersion.pieces
 
     @property
@@ -82,18 +91,24 @@ class Layering:
 
     @property
     def casing(self) -> Bools:
-        """True where the strand passes over the other one, False where it passes under, shape (2k,), by visits.
+        """True where the strand passes over the other one, False where it passes under and at marks, shape (visits,).
 
-        :func:`~plyfold.embed_cased` gives the layering back, or says which curves lie in others without crossing them.
+        :func:`~plyfold.embed_cased` gives the layering back, or says what the casing does not determine.
         """
         here, there = meeting_sheets(self.immersion)
         return self.level[here] > self.level[there]
 
     @property
     def changes(self) -> int:
-        """How often the curve changes between passing over and passing under, once round; an even number."""
-        casing, arrangement = self.casing, self.immersion.arrangement
-        return int((casing != casing[arrangement.start_visit[arrangement.border_before]]).sum())
+        """How often the curve changes between passing over and passing under, once round; an even number.
+
+        Of several loops, those of all of them together.
+        """
+        casing = self.casing
+        return sum(
+            int((casing[visits] != casing[np.roll(visits, 1)]).sum())
+            for visits in crossing_visits_by_loop(self.immersion.arrangement)
+        )
 
     def check(self) -> None:
         """Check that every cell's levels are 1 … w and that every gluing keeps the order.
@@ -136,9 +151,18 @@ def borders_beside_top(arrangement: Arrangement) -> Ints:
     """Return for every visit the border of its strand that runs along the top cell of the crossing.
 
     The top cell is on the left of both strands. One of them crosses the other from right to left: that one leaves
-    along the top cell, the other one comes along it.
+    along the top cell, the other one comes along it. At a mark both sheets are the same.
     """
     return np.where(arrangement.ccw, arrangement.border_before, arrangement.border_after)
+
+
+def crossing_visits_by_loop(arrangement: Arrangement) -> list[Ints]:
+    """Return the visits to crossings along each loop; along a single one from the base visit on."""
+    visits = visits_from_base(arrangement)
+    visits = visits[arrangement.crossing_of_visit[visits] >= 0]
+    if arrangement.n_loops == 1:
+        return [visits]
+    return np.split(visits, np.searchsorted(visits, arrangement.first_visit[1:-1]))
 
 
 def layering_of_levels(arranged: Arrangement, level: Ints) -> Layering:
@@ -150,7 +174,8 @@ def layering_of_levels(arranged: Arrangement, level: Ints) -> Layering:
         No negative winding number.
     level : (borders,) int
         From 1 to the winding number on the left of the border. At every crossing the two strands have different
-        levels over the top cell, and past the crossing the upper one's is one less on the side away from it.
+        levels over the top cell, and past the crossing the upper one's is one less on the side away from it. At a cusp
+        the levels differ by its index, and at the feet of bridges not at all.
 
     Returns
     -------
@@ -158,22 +183,35 @@ def layering_of_levels(arranged: Arrangement, level: Ints) -> Layering:
         Over each cell the sheets are numbered from below. Cost: O(Σ w), the sheets counted once per border.
     """
     require_memory_for_gluing(arranged)
-    winding, lower = arranged.winding, arranged.winding[arranged.right_cell]
+    winding = arranged.winding
     first_sheet = starts_of(winding)
-    border = np.repeat(np.arange(arranged.n_borders), lower)
-    right = count_each(lower)
-    left = right + (right >= level[border] - 1)
     immersion = Immersion(
         arrangement=arranged,
         sheet_cell=np.repeat(np.arange(arranged.n_cells), winding),
         first_sheet=first_sheet,
         own_sheet=first_sheet[arranged.left_cell] + level - 1,
-        gluing=np.stack(
-            [border, first_sheet[arranged.right_cell[border]] + right, first_sheet[arranged.left_cell[border]] + left],
-            axis=1,
-        ),
+        gluing=np.concatenate([glued_along_borders(arranged, level), _glued_along_bridges(arranged)]),
     )
     layering = Layering(immersion, count_each(winding) + 1)
     immersion.check()
     layering.check()
     return layering
+
+
+def glued_along_borders(arranged: Arrangement, level: Ints) -> Ints:
+    """Return the rows of borders: in order, all sheets on the left but those on the given levels."""
+    first_sheet, lower = starts_of(arranged.winding), arranged.winding[arranged.right_cell]
+    border, right = np.repeat(np.arange(arranged.n_borders), lower), count_each(lower)
+    left = right + (right >= level[border] - 1)
+    return np.stack(
+        [border, first_sheet[arranged.right_cell[border]] + right, first_sheet[arranged.left_cell[border]] + left],
+        axis=1,
+    )
+
+
+def _glued_along_bridges(arranged: Arrangement) -> Ints:
+    """Return the rows of bridges: every sheet goes on as itself."""
+    cell = arranged.cell_of_dart[arranged.bridges[:, 0]]
+    bridge = np.repeat(np.arange(len(cell)), arranged.winding[cell])
+    sheet = starts_of(arranged.winding)[cell[bridge]] + count_each(arranged.winding[cell])
+    return np.stack([arranged.n_borders + bridge, sheet, sheet], axis=1)

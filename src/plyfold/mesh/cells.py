@@ -6,7 +6,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from math import sqrt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from plyfold.mesh.refine import (
     Size,
     chain_of,
     constrained,
+    drawn_outline,
     left_of_chain,
     noded_curve,
     planar_mesh,
@@ -33,6 +34,7 @@ from plyfold.mesh.refine import (
     usual_area,
 )
 from plyfold.options import refuse_unless_number
+from plyfold.ragged import next_in_rows
 
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
@@ -75,7 +77,7 @@ class CellTriangulation:
     Parameters
     ----------
     points : (p, 2) float
-        The points of the curve in their order, bit for bit; then the crossings, rounded; then points added for the
+        The points of the outline in their order, bit for bit; then the crossings, rounded; then points added for the
         quality of the triangles.
     triangles : (t, 3) int
         Counter-clockwise (exactly) and none across a border.
@@ -84,10 +86,13 @@ class CellTriangulation:
     cell : (t,) int
         The cell each triangle lies in; its winding number is at least 1.
     chain : (s,) int
-        The points along the curve in order, from the curve's first point, crossings and added points included (a
-        crossing occurs twice). Piece j of the curve runs from ``chain[j]`` to ``chain[j + 1]``, the last one back.
+        The points along the loops in order, each from its first point, crossings and added points included (a crossing
+        occurs twice). Piece j of the outline runs from ``chain[j]`` to ``chain[j + 1]``, the last one of a loop back to
+        its first point.
     chain_border : (s,) int
         The border each piece belongs to.
+    first_piece : (loops + 1,) int
+        Loop l consists of the pieces from ``first_piece[l]`` up to ``first_piece[l + 1]``.
     left : (s,) int
         The half-edge along each piece, in the triangle on its left; -1 where there is none.
     """
@@ -98,7 +103,13 @@ class CellTriangulation:
     cell: Ints
     chain: Ints
     chain_border: Ints
+    first_piece: Ints
     left: Ints
+
+    @property
+    def chain_end(self) -> Ints:
+        """The point at which each piece of the outline ends."""
+        return self.chain[next_in_rows(self.first_piece)]
 
 
 def triangulate_cells(
@@ -170,9 +181,7 @@ def triangulate_cells(
 
 
 def _refuse_tiny(arrangement: Arrangement) -> None:
-    if arrangement.curve is None:
-        return
-    points = arrangement.curve.points
+    points = drawn_outline(arrangement).points
     if (size := float(np.ptp(points, axis=0).max())) < _SMALLEST_SIZE:
         raise PrecisionError(
             f"a drawing of size {size:.3g} is too small for a mesh: areas have no double",
@@ -195,7 +204,11 @@ def refuse_max_area(points: Floats, max_area: float) -> None:
 
 def _plain(outline: NodedCurve, watch: Watch) -> PlanarMesh:
     """Triangulate without adding points."""
-    return planar_mesh(constrained(outline, watch), outline.points, outline.chain, outline.chain_border)
+    return _planar(constrained(outline, watch), outline)
+
+
+def _planar(library: Any, outline: NodedCurve) -> PlanarMesh:
+    return planar_mesh(library, outline.points, outline.chain, outline.chain_border, outline.first_piece)
 
 
 def _refined(
@@ -207,7 +220,7 @@ def _refined(
     """
     while True:
         library = constrained(outline, watch)
-        plain = planar_mesh(library, outline.points, outline.chain, outline.chain_border)
+        plain = _planar(library, outline)
         winding = arrangement.winding[_cells(arrangement, plain)[0]]
         affordable = refine(library, outline, winding, size, finest, watch=watch)
         if affordable <= finest:
@@ -250,7 +263,7 @@ def _mended(
     winding = arrangement.winding[mesh.cell]
     more = max(enough - winding.sum(), _MENDING * winding.sum())
     limits = Limits(int(more / (2 * winding.mean())), finest)
-    mended = mend_angles(_edged(outline, mesh), sharp, (outline.chain, np.roll(outline.chain, -1)), limits)
+    mended = mend_angles(_edged(outline, mesh), sharp, (outline.chain, outline.chain_end), limits)
     if not mended:
         return None
     drawn = _drawn(outline, mesh, mended)
@@ -267,9 +280,14 @@ def _drawn(outline: NodedCurve, mesh: CellTriangulation, mended: Edged) -> CellT
     points[: len(mesh.points)] = mesh.points
     triangles = mended.start.reshape(-1, 3)
     added = np.flatnonzero(mended.on >= 0)
-    chain, chain_border = split_chain(outline, unit_points, np.stack([mended.on[added], added], axis=1))
-    left = left_of_chain(triangles, chain)
-    return CellTriangulation(points, triangles, mended.beyond, mended.cell, chain, chain_border, left)
+    chain = split_chain(outline, unit_points, np.stack([mended.on[added], added], axis=1))
+    left = left_of_chain(triangles, *_ends(*chain))
+    return CellTriangulation(points, triangles, mended.beyond, mended.cell, *chain, left)
+
+
+def _ends(chain: Ints, chain_border: Ints, first_piece: Ints) -> tuple[Ints, Ints]:
+    """Return the points at both ends of each piece of a chain."""
+    return chain, chain[next_in_rows(first_piece)]
 
 
 def _edged(outline: NodedCurve, mesh: CellTriangulation) -> Edged:
@@ -298,7 +316,8 @@ def _verified(arrangement: Arrangement, mesh: PlanarMesh) -> CellTriangulation:
     moved[np.flatnonzero(np.repeat(keep, 3))] = np.arange(3 * len(kept))
     twin = moved[mesh.twin.reshape(-1, 3)[keep].ravel()]
     points = mesh.points[:-ENCLOSING]
-    verified = CellTriangulation(points, kept, twin, cell[keep], mesh.chain, mesh.chain_border, moved[left])
+    chain = mesh.chain, mesh.chain_border, mesh.first_piece
+    verified = CellTriangulation(points, kept, twin, cell[keep], *chain, moved[left])
     refuse_broken(arrangement, verified)
     return verified
 
@@ -339,6 +358,7 @@ def _without(outline: NodedCurve, mesh: PlanarMesh, unfit: Ints) -> PlanarMesh:
         points=points,
         chain=number[mesh.chain[along]],
         chain_border=mesh.chain_border[along],
+        first_piece=np.append(0, np.cumsum(along))[mesh.first_piece],
         unit_points=(points - outline.centre) / outline.scale,
     )
     return _plain(fewer, UNWATCHED)
@@ -346,9 +366,9 @@ def _without(outline: NodedCurve, mesh: PlanarMesh, unfit: Ints) -> PlanarMesh:
 
 def refuse_broken(arrangement: Arrangement, mesh: CellTriangulation) -> None:
     """Raise PrecisionError where rounding has broken a mesh."""
-    assert arrangement.curve is not None
+    loops = drawn_outline(arrangement).loops
     try:
-        check_rounded(arrangement.curve.points, mesh.points, mesh.triangles, mesh.chain)
+        check_rounded(loops, mesh.points, mesh.triangles, mesh.chain, mesh.first_piece)
     except CertificateError as error:
         raise too_close(error.where) from error
 
@@ -356,11 +376,11 @@ def refuse_broken(arrangement: Arrangement, mesh: CellTriangulation) -> None:
 def _cells(arrangement: Arrangement, mesh: PlanarMesh) -> tuple[Ints, Ints]:
     """Return the cell of each triangle: cut along the curve, the triangles must fall apart into exactly the cells.
 
-    Also the half-edge on the left of each piece of the chain. The faces of a connected plane graph are disks. So if
-    every component of triangles has only the borders of one cell on its sides, the right way round, and every cell
-    only one component, the drawing is the exact one.
+    Also the half-edge on the left of each piece of the chain. The faces of a plane graph are what is inside of their
+    boundary cycles. So if every component of triangles has only the borders of one cell on its sides, the right way
+    round, and every cell only one component, the drawing is the exact one.
     """
-    left = left_of_chain(mesh.triangles, mesh.chain)
+    left = left_of_chain(mesh.triangles, *_ends(mesh.chain, mesh.chain_border, mesh.first_piece))
     if len(missing := np.flatnonzero(left < 0)):
         raise too_close(mesh.points[mesh.chain[missing]])
     right = mesh.twin[left]

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -25,6 +26,8 @@ from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import PlyfoldError, PrecisionError
 from plyfold.halfedges import ends_of
+from plyfold.outline.curve import Outline
+from plyfold.ragged import next_in_rows
 
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
@@ -36,6 +39,7 @@ __all__ = [
     "Size",
     "chain_of",
     "constrained",
+    "drawn_outline",
     "left_of_chain",
     "noded_curve",
     "planar_mesh",
@@ -233,7 +237,7 @@ def _bad_sides(covered: _Covered) -> Floats:
 def _neighbours_on_curve(library: Any, outline: NodedCurve) -> dict[int, set[int]]:
     """Return the points of curve and crossings at the ends of the pieces on which each vertex lies."""
     beside: dict[int, set[int]] = {}
-    pieces = np.stack([outline.chain, np.roll(outline.chain, -1)], axis=1).tolist()
+    pieces = np.stack([outline.chain, outline.chain_end], axis=1).tolist()
     for start, end in pieces:
         beside.setdefault(start, set()).add(end)
         beside.setdefault(end, set()).add(start)
@@ -270,7 +274,7 @@ def split_points(library: Any, outline: NodedCurve) -> Ints:
     vertex, first, second = np.array(rows, dtype=np.int64).reshape(-1, 3).T - ENCLOSING
     vertex, at = np.unique(vertex, return_index=True)
     n = len(outline.points)
-    pairs = np.sort(np.stack([outline.chain, np.roll(outline.chain, -1)], axis=1), axis=1)
+    pairs = np.sort(np.stack([outline.chain, outline.chain_end], axis=1), axis=1)
     key = pairs[:, 0] * n + pairs[:, 1]
     order = np.argsort(key)
     wanted = np.minimum(first[at], second[at]) * n + np.maximum(first[at], second[at])
@@ -305,20 +309,30 @@ ENCLOSING = 3
 
 @dataclass(frozen=True, eq=False)
 class NodedCurve:
-    """The points of curve and crossings, the curve as a chain through them, and the same points in a unit square."""
+    """The points of an outline and its crossings, the loops as a chain through them, and the points in a unit square.
+
+    Piece j of the chain begins at ``chain[j]``, and loop l consists of the pieces from ``first_piece[l]`` up to
+    ``first_piece[l + 1]``.
+    """
 
     points: Floats
     chain: Ints
     chain_border: Ints
+    first_piece: Ints
     unit_points: Floats
     centre: Floats
     scale: float
 
+    @cached_property
+    def chain_end(self) -> Ints:
+        """The point at which each piece ends."""
+        return self.chain[next_in_rows(self.first_piece)]
+
     @property
     def covered(self) -> float:
         """The area of the lifted surface in the unit square: what the curve encloses, times winding numbers."""
-        x, y = self.unit_points[self.chain].T
-        return abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2
+        (x, y), (end_x, end_y) = self.unit_points[self.chain].T, self.unit_points[self.chain_end].T
+        return abs(float(x @ end_y - y @ end_x)) / 2
 
     @property
     def rounding(self) -> float:
@@ -326,29 +340,55 @@ class NodedCurve:
         return float(np.spacing(np.abs(self.points).max()) / self.scale)
 
 
-def noded_curve(arrangement: Arrangement) -> NodedCurve:
-    """Return the curve of a drawing, with its crossings."""
-    curve = arrangement.curve
-    if curve is None:
+def drawn_outline(arrangement: Arrangement) -> Outline:
+    """Return the outline of a drawing; refuse a Gauss code."""
+    if arrangement.outline is None:
         raise PlyfoldError("triangles need a drawing, and this arrangement is a Gauss code alone")
-    points = np.concatenate([curve.points, arrangement.crossings])
-    chain, chain_border = chain_of(arrangement)
-    return NodedCurve(points, chain, chain_border, *_unit_square(points))
+    return arrangement.outline
 
 
-def chain_of(arrangement: Arrangement) -> tuple[Ints, Ints]:
-    """Return points and crossings along the curve (crossing i is number n + i), and the border each is followed by."""
-    edge = arrangement.visit_edge
-    visits = len(edge)
-    n = len(arrangement.curve.points) if arrangement.curve else 0
-    at = edge + np.arange(1, visits + 1)
-    on_curve = np.ones(n + visits, dtype=bool)
+def noded_curve(arrangement: Arrangement) -> NodedCurve:
+    """Return the outline of a drawing, with its crossings."""
+    points = np.concatenate([drawn_outline(arrangement).points, arrangement.crossings])
+    return NodedCurve(points, *chain_of(arrangement), *_unit_square(points))
+
+
+def chain_of(arrangement: Arrangement) -> tuple[Ints, Ints, Ints]:
+    """Return points and crossings along the outline (crossing i is number n + i), loop after loop.
+
+    Also the border that each is followed by, and where the loops begin. Only crossings and points are passed: past the
+    foot of a bridge inside an edge, the next border begins at the next of them.
+    """
+    outline, crossing = drawn_outline(arrangement), arrangement.crossing_of_visit
+    n, visit = len(outline), np.flatnonzero(crossing >= 0)
+    at = arrangement.visit_edge[visit] + np.arange(1, len(visit) + 1)
+    on_curve = np.ones(n + len(visit), dtype=bool)
     on_curve[at] = False
-    chain = np.empty(n + visits, dtype=np.int64)
+    chain, passed = np.empty((2, n + len(visit)), dtype=np.int64)
     chain[on_curve] = np.arange(n)
-    chain[at] = n + arrangement.crossing_of_visit
-    border = (np.cumsum(~on_curve) - 1) % max(visits, 1)
-    return chain, border
+    chain[at] = n + crossing[visit]
+    passed[on_curve] = _visits_before_points(arrangement, outline)
+    passed[at] = visit + 1
+    first_piece = outline.first_point + np.searchsorted(visit, arrangement.first_visit)
+    return chain, _border_after(arrangement, passed, first_piece), first_piece
+
+
+def _visits_before_points(arrangement: Arrangement, outline: Outline) -> Ints:
+    """Return how many visits come before each point of an outline, its own as a cusp included, on earlier loops too."""
+    edge = arrangement.visit_edge
+    before = np.searchsorted(edge, np.arange(len(outline)))
+    return np.asarray(before + np.concatenate(outline.cusps).astype(bool), dtype=np.int64)
+
+
+def _border_after(arrangement: Arrangement, passed: Ints, first_piece: Ints) -> Ints:
+    """Return the borders of pieces before which so many visits come, on earlier loops too."""
+    loop = np.repeat(np.arange(arrangement.n_loops), np.diff(first_piece))
+    first, last = arrangement.first_visit[loop], arrangement.first_visit[loop + 1]
+    # Before its first visit a loop is on the border that its last visit begins; without visits it has one border.
+    border = np.searchsorted(arrangement.loop_of_border, loop)
+    visited = last > first
+    border[visited] = arrangement.border_after[np.where(passed > first, passed, last)[visited] - 1]
+    return border
 
 
 def _unit_square(points: Floats) -> tuple[Floats, Floats, float]:
@@ -368,7 +408,7 @@ def _unit_square(points: Floats) -> tuple[Floats, Floats, float]:
 
 def constrained(outline: NodedCurve, watch: Watch = UNWATCHED) -> Any:
     """Return the constrained Delaunay triangulation; its first three vertices are those of an enclosing triangle."""
-    edges = np.stack([outline.chain, np.roll(outline.chain, -1)], axis=1)
+    edges = np.stack([outline.chain, outline.chain_end], axis=1)
     mesh = cdt.Triangulation(cdt.VertexInsertionOrder.AUTO, cdt.IntersectingConstraintEdges.NOT_ALLOWED, 0.0)
     try:
         watch.wait_for(lambda: _insert(mesh, outline.unit_points, edges.astype(np.uintc)), len(edges))
@@ -383,7 +423,7 @@ def constrained(outline: NodedCurve, watch: Watch = UNWATCHED) -> Any:
 
 
 def _insert(mesh: Any, points: Floats, edges: Any) -> None:
-    mesh.insert_vertices(points)
+    mesh.insert_vertices(np.ascontiguousarray(points))
     mesh.insert_edges(edges)
 
 
@@ -418,16 +458,17 @@ class PlanarMesh:
     twin: Ints
     chain: Ints
     chain_border: Ints
+    first_piece: Ints
 
 
-def planar_mesh(library: Any, points: Floats, chain: Ints, chain_border: Ints) -> PlanarMesh:
-    """Return the library's triangles, over the given points and the chain of the curve through them."""
+def planar_mesh(library: Any, points: Floats, chain: Ints, chain_border: Ints, first_piece: Ints) -> PlanarMesh:
+    """Return the library's triangles, over the given points and the chain of the outline through them."""
     rows = library.triangles_array()
     corners = rows["vertices"].astype(np.int64) - ENCLOSING
     corners[corners < 0] += len(points) + ENCLOSING
     around = np.full((ENCLOSING, 2), np.nan)
     twin = _twins(corners, rows["neighbors"])
-    return PlanarMesh(np.concatenate([points, around]), corners, twin, chain, chain_border)
+    return PlanarMesh(np.concatenate([points, around]), corners, twin, chain, chain_border, first_piece)
 
 
 def _twins(corners: Ints, neighbours: Any) -> Ints:
@@ -446,21 +487,23 @@ def _twins(corners: Ints, neighbours: Any) -> Ints:
 # ---- the curve as a chain of edges of triangles ----------------------------------------------------------------------
 
 
-def split_chain(outline: NodedCurve, unit_points: Floats, added: Ints) -> tuple[Ints, Ints]:
-    """Return the chain along the curve with the points that were added on it, and the borders.
+def split_chain(outline: NodedCurve, unit_points: Floats, added: Ints) -> tuple[Ints, Ints, Ints]:
+    """Return the chain along the outline with the points that were added on it, the borders, and where loops begin.
 
     The added ones are rows (piece of the outline's chain, vertex), in any order.
     """
-    starts, ends = outline.chain, np.roll(outline.chain, -1)
+    starts, ends = outline.chain, outline.chain_end
     piece, vertex = added.T
     direction = unit_points[ends[piece]] - unit_points[starts[piece]]
     advance = ((unit_points[vertex] - unit_points[starts[piece]]) * direction).sum(axis=1)
     every_piece = np.concatenate([np.arange(len(starts)), piece])
     order = np.lexsort((np.concatenate([np.full(len(starts), -np.inf), advance]), every_piece))
-    return np.concatenate([starts, vertex])[order], outline.chain_border[every_piece[order]]
+    piece_of = every_piece[order]
+    first_piece = np.searchsorted(piece_of, outline.first_piece)
+    return np.concatenate([starts, vertex])[order], outline.chain_border[piece_of], first_piece
 
 
-def left_of_chain(triangles: Ints, chain: Ints) -> Ints:
+def left_of_chain(triangles: Ints, chain: Ints, chain_end: Ints) -> Ints:
     """Return the half-edge along each piece of a chain, -1 if there is none; a point starts at most two pieces."""
     start, end = ends_of(triangles)
     pieces = np.arange(len(chain))
@@ -468,7 +511,7 @@ def left_of_chain(triangles: Ints, chain: Ints) -> Ints:
     for order in (pieces, pieces[::-1]):
         piece_from, next_point = np.full((2, max(start.max(), chain.max()) + 1), -1)
         piece_from[chain[order]] = order
-        next_point[chain[order]] = np.roll(chain, -1)[order]
+        next_point[chain[order]] = chain_end[order]
         along = np.flatnonzero(next_point[start] == end)
         left[piece_from[start[along]]] = along
     return left

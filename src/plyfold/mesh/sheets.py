@@ -1,4 +1,4 @@
-"""Copies of the cells' triangles, one per sheet, glued along the borders into a disk."""
+"""Copies of the cells' triangles, one per sheet, glued along the borders into a surface."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _BYTES_PER_COPY = 350
 
 @dataclass(frozen=True, eq=False)
 class SheetMesh:
-    """The disk as a flat triangle mesh.
+    """The surface as a flat triangle mesh.
 
     The copies of a planar triangle follow each other, in the order of the sheets over its cell.
 
@@ -36,7 +36,7 @@ class SheetMesh:
     sheet : (m,) int
         The sheet of each triangle.
     boundary : (b,) int
-        The vertices along the curve, from the curve's first point: 0, 1, …, b − 1.
+        The vertices along the outline, loop after loop, each from its first point: 0, 1, …, b − 1.
     first_copy, first_sheet : (t,) int
         For each planar triangle its first copy and the sheet of that.
     """
@@ -69,13 +69,13 @@ class Seams:
 
 
 def seams_of(immersion: Immersion) -> Seams:
-    """Return the gluing as a table."""
+    """Return the gluing along borders as a table."""
     arrangement = immersion.arrangement
     require_memory_for_gluing(arrangement, _BYTES_PER_SEAM)
     count = arrangement.winding[arrangement.cell_of_dart]
     row = starts_of(count) - immersion.first_sheet[arrangement.cell_of_dart]
     table = np.full(int(count.sum()), -1)
-    border, right, left = immersion.gluing.T
+    border, right, left = immersion.gluing[immersion.gluing[:, 0] < arrangement.n_borders].T
     table[row[2 * border] + left] = right
     table[row[2 * border + 1] + right] = left
     return Seams(row, table)
@@ -87,6 +87,7 @@ def glue_copies(immersion: Immersion, mesh: CellTriangulation) -> SheetMesh:
     Parameters
     ----------
     immersion : Immersion
+        Along bridges each sheet must be glued to itself: so it is in layerings, where gluings keep the order of sheets.
     mesh : CellTriangulation
         Of the same arrangement.
 
@@ -94,7 +95,8 @@ def glue_copies(immersion: Immersion, mesh: CellTriangulation) -> SheetMesh:
     -------
     SheetMesh
         Corners of triangles are joined, not points of sheets: a cell can touch itself at a crossing, and then its
-        sheets have two different vertices there. Cost: linear in the number of copies.
+        sheets have two different vertices there; and round a cusp, several sheets share one vertex. Cost: linear in the
+        number of copies.
 
     Examples
     --------

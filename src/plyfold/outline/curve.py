@@ -1,81 +1,199 @@
-"""Closed polylines, the input of everything else (the self-crossing loop of the paper, §2.1)."""
+"""Outlines: closed polylines that bound a surface together, and the one closed curve (the loop of the paper, §2.1)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
+from functools import cached_property
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.errors import CurveError, InputError
-from plyfold.outline.points import Repair, as_planar_points, left_out
+from plyfold.arrays import Floats, Ints
+from plyfold.errors import CurveError
+from plyfold.outline.from_mesh import boundary_of_mesh
+from plyfold.outline.points import Repair, as_planar_points
 from plyfold.outline.strokes import join_strokes
-from plyfold.predicates import orient
+from plyfold.outline.vertices import Vertices, cleaned, marked, naming_the_curve, whole_turns
 
-if TYPE_CHECKING:
-    from shapely.geometry.base import BaseGeometry
+__all__ = ["Curve", "Cusps", "Outline", "Repair"]
 
+Number = TypeVar("Number", np.float64, np.int64)
 
-__all__ = [
-    "Coded",
-    "Curve",
-    "CurveLike",
-    "Drawn",
-    "Geometry",
-    "OutlineLike",
-    "Repair",
-    "are_several",
-    "as_curve",
-    "as_curves",
-]
-
-
-class Drawn(Protocol):
-    """A value that was made from a curve, such as an arrangement."""
-
-    @property
-    def curve(self) -> Curve | None:
-        """The curve, if it has coordinates."""
-
-
-class Coded(Protocol):
-    """A signed Gauss code."""
-
-    @property
-    def partner(self) -> Any:
-        """The other visit to the same crossing, for each visit."""
-
-    @property
-    def ccw(self) -> Any:
-        """Whether the other strand crosses from right to left, for each visit."""
-
-    @property
-    def outer(self) -> int:
-        """A dart of the unbounded cell."""
-
-
-class Geometry(Protocol):
-    """A geometry of shapely."""
-
-    @property
-    def geom_type(self) -> str:
-        """Its kind, such as ``"Polygon"``."""
-
-
-CurveLike: TypeAlias = (
-    "Curve | Drawn | Coded | Geometry | npt.NDArray[Any] | Sequence[Sequence[float]] | Sequence[npt.NDArray[Any]]"
-)
-"""Whatever stands for a closed curve: a curve, points of shape (n, 2), a shapely geometry, an arrangement or a code."""
-
-OutlineLike: TypeAlias = "CurveLike | Sequence[CurveLike]"
-"""Whatever stands for closed curves that bound a surface together: one curve, or a list of them."""
+Cusps: TypeAlias = "Sequence[npt.ArrayLike] | Mapping[tuple[int, int], int]"
+"""The index of the cusp at each point: an array for each loop, or those of a few as ``{(loop, point): index}``."""
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Curve:
-    """A closed polyline: the points in order, the last one joined to the first.
+class Outline:
+    """Closed polylines that bound a surface together, which lies on the left of each: so holes run clockwise.
+
+    Points, edges and rows are numbered loop after loop. Edge i starts at point i and ends at the next one of its loop.
+
+    Parameters
+    ----------
+    loops : iterable of Curve or array-like of shape (n, 2) or (n, 3)
+        Each as for :class:`Curve`, which is the outline with one loop.
+    cusps : sequence of array-likes of int, or mapping from (loop, point) to int, optional
+        By how many full turns the surface's angle at each point is larger than the one that is seen, from 0 to 360°, on
+        the left: its *index* as a cusp, 0 at almost all points. By default, those of the curves.
+    repairs : iterable of Repair, optional
+        What was changed before the points came here.
+
+    Attributes
+    ----------
+    loops : tuple of ndarray, shape (n, 2), float64, read-only
+    cusps : tuple of ndarray, shape (n,), int64, read-only
+    points : ndarray, shape (all points, 2), float64, read-only
+        The points of all loops, one after the other.
+    repairs : tuple of Repair
+        Everything that was changed in the input.
+    rows : ndarray, shape (all points,), int64, read-only
+        The row that each point has in the arrays it was made from, rows counted loop after loop.
+
+    Raises
+    ------
+    CurveError
+        If there is no loop, if one is none (see :class:`Curve`), or if a cusp's index is no whole number from 0 up.
+
+    Notes
+    -----
+    O(n log n). Outlines are compared by identity.
+
+    Examples
+    --------
+    >>> ring = Outline([[(0, 0), (9, 0), (0, 9)], [(1, 1), (1, 3), (3, 1)]])
+    >>> ring.n_loops, len(ring), ring.first_point.tolist()
+    (2, 6, [0, 3, 6])
+    >>> Outline([[(0, 0), (9, 0), (0, 9)]], {(0, 2): 1}).cusps
+    (array([0, 0, 1]),)
+    """
+
+    loops: tuple[Floats, ...]
+    cusps: tuple[Ints, ...]
+    points: Floats
+    repairs: tuple[Repair, ...]
+    rows: Ints
+
+    def __init__(
+        self, loops: Iterable[Curve | npt.ArrayLike], cusps: Cusps | None = None, repairs: Iterable[Repair] = ()
+    ) -> None:
+        vertices = _vertices_of_loops(list(loops))
+        given = [len(loop.given) for loop in vertices]
+        index = [loop.cusps for loop in vertices] if cusps is None else _index_of_rows(cusps, given)
+        starts = np.cumsum([0, *given])
+        _settle(
+            self,
+            loops=tuple(loop.points for loop in vertices),
+            cusps=tuple(marked(loop, index) for loop, index in zip(vertices, index, strict=True)),
+            points=_one_after_the_other([loop.points for loop in vertices]),
+            repairs=(*repairs, *(repair for loop in vertices for repair in loop.repairs)),
+            rows=_one_after_the_other([start + loop.rows for start, loop in zip(starts, vertices, strict=False)]),
+        )
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def __repr__(self) -> str:
+        loops = f"{self.n_loops} loop" + "s" * (self.n_loops > 1)
+        return f"<Outline of {loops}, {len(self)} points{_cusps_in_words(self)}>"
+
+    def _repr_svg_(self) -> str:
+        from plyfold.draw.svg import outline_svg
+
+        return outline_svg(self)
+
+    @property
+    def n_loops(self) -> int:
+        """Number of closed curves."""
+        return len(self.loops)
+
+    @property
+    def has_cusps(self) -> bool:
+        """Whether some point is a cusp."""
+        return any(index.any() for index in self.cusps)
+
+    @cached_property
+    def first_point(self) -> Ints:
+        """The number of each loop's first point, and last the number of all points, shape (loops + 1,)."""
+        return np.cumsum([0, *map(len, self.loops)])
+
+    @cached_property
+    def next_point(self) -> Ints:
+        """The point that follows each along its loop, shape (points,): where the edge of that number ends."""
+        following = np.arange(1, len(self) + 1)
+        following[self.first_point[1:] - 1] = self.first_point[:-1]
+        return following
+
+    @staticmethod
+    def from_mesh(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> Outline:
+        """Return the boundary of a flat triangle mesh, such as a UV chart or a patch of a body seen from one side.
+
+        Parameters
+        ----------
+        vertices : array-like, shape (v, 2) or (v, 3)
+            Positions; a third column is left out, and ``repairs`` says so. The mesh may lie over itself.
+        faces : array-like of int, shape (t, 3)
+            The vertices of each triangle, counter-clockwise.
+
+        Returns
+        -------
+        Outline
+            A :class:`Curve` if the boundary is one loop. Each loop starts at its lowest vertex; ``rows`` are the
+            numbers of the vertices. Where the triangles at a vertex turn full turns too often, it is a cusp. The mesh
+            is cut at vertices where parts of it touch in a point alone; ``repairs`` names them.
+
+        Raises
+        ------
+        CurveError
+            If a triangle is flat or runs clockwise, three share an edge or two lie on the same side of one, the mesh is
+            closed, or the triangles around an inner vertex turn round it more than once. It names the place.
+
+        Notes
+        -----
+        Exact: turns are counted by signs. O(t log t); 10⁵ triangles take about 0.2 s.
+
+        Examples
+        --------
+        A spiral stair of eight steps of 50° around a point:
+
+        >>> import numpy as np
+        >>> angle = np.radians(50 * np.arange(9))
+        >>> steps = [(0, i, i + 1) for i in range(1, 9)]
+        >>> Outline.from_mesh([(0, 0), *zip(np.cos(angle), np.sin(angle))], steps).cusps
+        (array([1, 0, 0, 0, 0, 0, 0, 0, 0, 0]),)
+        """
+        points, repairs = as_planar_points(vertices)
+        boundary = boundary_of_mesh(points, faces)
+        loops = [points[loop] for loop in boundary.loops]
+        repairs = (*repairs, *boundary.repairs)
+        several = len(loops) > 1
+        outline = Outline(loops, boundary.cusps, repairs) if several else Curve(loops[0], repairs, boundary.cusps[0])
+        # No points were dropped: neighbours on the boundary of a flat mesh differ.
+        _settle(outline, rows=_one_after_the_other(boundary.loops))
+        return outline
+
+    @property
+    def curves(self) -> tuple[Curve, ...]:
+        """Each loop as an outline of its own, with its cusps."""
+        return tuple(Curve(points, (), index) for points, index in zip(self.loops, self.cusps, strict=True))
+
+    def reversed(self) -> Outline:
+        """Return the same outline with each loop run the other way from the same first point, cusps included.
+
+        Examples
+        --------
+        >>> Outline([[(0, 0), (1, 0), (0, 1)]], [[0, 1, 0]]).reversed().cusps
+        (array([0, 0, 1]),)
+        """
+        backward = [np.roll(points[::-1], 1, axis=0) for points in self.loops]
+        return Outline(backward, [np.roll(index[::-1], 1) for index in self.cusps], self.repairs)
+
+
+@dataclass(frozen=True, eq=False, init=False, repr=False)
+class Curve(Outline):
+    """A closed polyline: the points in order, the last one joined to the first. It is an outline with one loop.
 
     Parameters
     ----------
@@ -84,6 +202,8 @@ class Curve:
         other points that repeat the one before them, and a third column, are left out and recorded in ``repairs``.
     repairs : iterable of Repair, optional
         What was changed before the points came here.
+    cusps : array-like of int, shape (n,), or mapping from point to int, optional
+        The index of each point as a cusp, see :class:`Outline`; 0 by default.
 
     Attributes
     ----------
@@ -113,33 +233,26 @@ class Curve:
     ['repeated point dropped at (1, 0)']
     """
 
-    points: npt.NDArray[np.float64]
-    repairs: tuple[Repair, ...]
-    rows: npt.NDArray[np.int64]
-
-    def __init__(self, points: npt.ArrayLike, repairs: Iterable[Repair] = ()) -> None:
-        planar, flattened = as_planar_points(points)
-        given = _without_closing_point(planar)
-        rows = _fresh_rows(given)
-        # All of them, mostly; a copy would cost more than the rest.
-        kept = given if len(rows) == len(given) else given[rows]
-        _refuse_degenerate(kept)
-        kept.setflags(write=False)
-        rows.setflags(write=False)
-        object.__setattr__(self, "points", kept)
-        object.__setattr__(self, "repairs", (*repairs, *flattened, *_dropped_points(given, rows)))
-        object.__setattr__(self, "rows", rows)
-
-    def __len__(self) -> int:
-        return len(self.points)
+    def __init__(
+        self,
+        points: npt.ArrayLike,
+        repairs: Iterable[Repair] = (),
+        cusps: npt.ArrayLike | Mapping[int, int] | None = None,
+    ) -> None:
+        vertices = cleaned(points)
+        if isinstance(cusps, Mapping):
+            cusps = _index_of_rows({(0, vertex): index for vertex, index in cusps.items()}, [len(vertices.given)])[0]
+        _settle(
+            self,
+            loops=(vertices.points,),
+            cusps=(vertices.cusps if cusps is None else marked(vertices, cusps),),
+            points=vertices.points,
+            repairs=(*repairs, *vertices.repairs),
+            rows=vertices.rows,
+        )
 
     def __repr__(self) -> str:
-        return f"<Curve of {len(self)} points>"
-
-    def _repr_svg_(self) -> str:
-        from plyfold.draw.svg import curve_svg
-
-        return curve_svg(self.points)
+        return f"<Curve of {len(self)} points{_cusps_in_words(self)}>"
 
     @classmethod
     def from_strokes(cls, strokes: Iterable[npt.ArrayLike], max_gap: float | None = None) -> Curve:
@@ -198,174 +311,54 @@ class Curve:
         >>> Curve([(0, 0), (1, 0), (0, 1)]).reversed().points.tolist()
         [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]]
         """
-        return Curve(np.roll(self.points[::-1], 1, axis=0), self.repairs)
+        return Curve(np.roll(self.points[::-1], 1, axis=0), self.repairs, np.roll(self.cusps[0][::-1], 1))
 
 
-def as_curve(value: object) -> Curve:
-    """Return whatever stands for a closed curve as a `Curve`.
-
-    Parameters
-    ----------
-    value : Curve, array-like of shape (n, 2), shapely geometry, or a value with a ``curve``
-        A third coordinate, of an array or a geometry, is left out, and ``repairs`` says so.
-        Of the geometries: a ``LinearRing`` or a ``Polygon`` without holes; a ``LineString`` or ``MultiLineString``
-        is taken as strokes, so its ends must nearly meet; a collection of one counts as that one.
-
-    Returns
-    -------
-    Curve
-
-    Raises
-    ------
-    CurveError
-        If the value is not a usable curve.
-    StrokeError
-        If the ends of an open geometry are too far apart.
-
-    Notes
-    -----
-    O(n log n).
-
-    Examples
-    --------
-    >>> import shapely
-    >>> len(as_curve(shapely.box(0, 0, 1, 1)))
-    4
-    """
-    if isinstance(value, Curve):
-        return value
-    if isinstance(getattr(value, "geom_type", None), str):  # a GeoSeries has an array of them
-        return _curve_of_geometry(cast("BaseGeometry", value))
-    if hasattr(value, "curve"):
-        return _curve_of_owner(value.curve)
-    return Curve(cast("npt.ArrayLike", value))
+def _settle(outline: Outline, **attributes: object) -> None:
+    """Write the attributes of a new outline, which is frozen."""
+    vars(outline).update(attributes)
 
 
-def are_several(value: object) -> bool:
-    """Tell a collection of closed curves from a single one.
-
-    Examples
-    --------
-    >>> triangle = [(0, 0), (1, 0), (0, 1)]
-    >>> are_several(triangle), are_several([triangle]), are_several([Curve(triangle), triangle])
-    (False, True, True)
-    """
-    return isinstance(value, list | tuple | np.ndarray) and any(map(_is_curve, value))
-
-
-def _is_curve(value: object) -> bool:
-    if isinstance(value, list | tuple | np.ndarray):
-        return len(value) > 0 and np.ndim(value[0]) == 1
-    return isinstance(value, Curve) or any(hasattr(value, name) for name in ("geom_type", "curve", "partner"))
+def _vertices_of_loops(loops: Sequence[Curve | npt.ArrayLike]) -> list[Vertices]:
+    """Return the vertices of each loop; an error says which one is none."""
+    if not loops:
+        raise CurveError("the outline has no loop", hint="give at least one closed curve")
+    vertices = []
+    for number, loop in enumerate(loops):
+        with naming_the_curve(number, len(loops)):
+            vertices.append(_vertices_of(loop) if isinstance(loop, Outline) else cleaned(loop))
+    return vertices
 
 
-def as_curves(values: Sequence[object]) -> tuple[Curve, ...]:
-    """Return each of several values as a :class:`Curve`; an error says which one is none.
-
-    Examples
-    --------
-    >>> as_curves([[(0, 0), (1, 0), (0, 1)], 42])
-    Traceback (most recent call last):
-    plyfold.errors.CurveError: curve 1 of 2: points need the shape (n, 2), and these have ()
-      hint: give one x and one y per point
-    """
-    curves = []
-    for number, value in enumerate(values):
-        try:
-            curves.append(as_curve(value))
-        except InputError as error:
-            raise type(error)(f"curve {number} of {len(values)}: {error.message}", error.where, error.hint) from error
-    return tuple(curves)
+def _vertices_of(curve: Outline) -> Vertices:
+    """Return the vertices of a curve that has been cleaned before."""
+    if curve.n_loops > 1:
+        raise CurveError(
+            f"this outline has {curve.n_loops} loops", where=curve.loops[1][:1], hint="give them one by one"
+        )
+    return Vertices(curve.points, np.arange(len(curve)), curve.points, curve.repairs, curve.cusps[0])
 
 
-def _curve_of_owner(curve: object) -> Curve:
-    if isinstance(curve, Curve):
-        return curve
-    raise CurveError("this arrangement has no coordinates", hint="make it from a curve instead of a Gauss code")
+def _index_of_rows(cusps: Cusps, given: Sequence[int]) -> list[npt.ArrayLike]:
+    """Return the index of each row of each loop; ``given`` is the number of rows of each."""
+    if not isinstance(cusps, Mapping):
+        if len(cusps) != len(given):
+            raise CurveError(f"there are cusps for {len(cusps)} loops, and {len(given)} loops")
+        return list(cusps)
+    index = [np.zeros(count, dtype=np.int64) for count in given]
+    for (loop, vertex), turns in cusps.items():
+        if not (0 <= loop < len(given) and 0 <= vertex < given[loop]):
+            raise CurveError(f"there is no point {vertex} of loop {loop} to be a cusp", hint="both count from 0")
+        index[loop][vertex] = whole_turns(turns)
+    return list(index)
 
 
-def _curve_of_geometry(geometry: BaseGeometry) -> Curve:
-    if geometry.is_empty:
-        raise CurveError(f"the {geometry.geom_type} is empty", hint="give a ring or line with points")
-    match geometry.geom_type:
-        case "Polygon":
-            return _curve_of_polygon(geometry)
-        case "LinearRing":
-            return Curve(_planar(geometry), _left_out(geometry))
-        case "LineString" | "MultiLineString":
-            points, repairs = join_strokes(map(_planar, getattr(geometry, "geoms", [geometry])))
-            return Curve(points, (*_left_out(geometry), *repairs))
-    if len(parts := getattr(geometry, "geoms", [])) == 1:
-        return as_curve(parts[0])
-    hint = "give a LinearRing, a LineString or a Polygon without holes"
-    raise CurveError(f"a {geometry.geom_type} is not one closed curve", hint=hint)
+def _one_after_the_other(arrays: Sequence[npt.NDArray[Number]]) -> npt.NDArray[Number]:
+    whole = np.concatenate(arrays)
+    whole.setflags(write=False)
+    return whole
 
 
-def _curve_of_polygon(polygon: BaseGeometry) -> Curve:
-    if len(polygon.interiors):
-        hole = _planar(polygon.interiors[0])
-        raise CurveError("the polygon has a hole", where=hole[:1], hint="give its exterior alone")
-    return Curve(_planar(polygon.exterior), _left_out(polygon))
-
-
-def _planar(geometry: BaseGeometry) -> npt.NDArray[np.float64]:
-    import shapely
-
-    places: npt.NDArray[np.float64] = shapely.get_coordinates(geometry)
-    return places
-
-
-def _left_out(geometry: BaseGeometry) -> tuple[Repair, ...]:
-    """Return the record of the altitudes and measures that a geometry has and a curve has not."""
-    import shapely
-
-    had = {"z": geometry.has_z, "m": shapely.geos_version >= (3, 12, 0) and geometry.has_m}
-    return tuple(repair for name, has in had.items() if has for repair in left_out(name, _planar(geometry)))
-
-
-def _without_closing_point(points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    closed = len(points) > 1 and np.array_equal(points[0], points[-1])
-    return points[:-1] if closed else points
-
-
-def _fresh_rows(points: npt.NDArray[np.float64]) -> npt.NDArray[np.int64]:
-    """Return the first row of each run of equal points; a run across the end belongs to the first point."""
-    x, y = points.T
-    if not ((x[1:] == x[:-1]) & (y[1:] == y[:-1])).any() and not np.array_equal(points[:1], points[-1:]):
-        return np.arange(len(points))
-    fresh = (points != np.roll(points, 1, axis=0)).any(axis=1)
-    fresh[:1] = True
-    last = np.flatnonzero(fresh)[-1:]
-    fresh[last] = (last == 0) | (points[last] != points[:1]).any(axis=1)
-    return np.flatnonzero(fresh)
-
-
-def _dropped_points(points: npt.NDArray[np.float64], kept: npt.NDArray[np.int64]) -> list[Repair]:
-    if len(kept) == len(points):
-        return []
-    places = dict.fromkeys((x, y) for x, y in np.delete(points, kept, axis=0).tolist())
-    return [Repair("repeated point dropped", place, 0.0) for place in places]
-
-
-def _refuse_degenerate(points: npt.NDArray[np.float64]) -> None:
-    if _has_a_corner(points):
-        return
-    distinct = np.unique(points, axis=0)
-    if len(distinct) < 3:
-        count = "no points" if len(distinct) == 0 else f"only {len(distinct)} different point(s)"
-        raise CurveError(f"the curve has {count}", where=distinct, hint="a closed curve needs at least three")
-    # In lexicographic order the extreme points differ, and on a line they are its two ends.
-    if not orient(distinct[0], distinct[-1], distinct).any():
-        hint = "a curve that runs back and forth on one line bounds nothing"
-        raise CurveError("all points lie on one line", where=[distinct[0], distinct[-1]], hint=hint)
-
-
-def _has_a_corner(points: npt.NDArray[np.float64]) -> bool:
-    """Tell whether one of the first points, or the one that seems farthest, is off the line through the first two."""
-    if len(points) < 3:
-        return False
-    if orient(points[0], points[1], points[2:6]).any():
-        return True
-    x, y = (points - points[0]).T
-    farthest = int(np.abs(x[1] * y - y[1] * x).argmax())
-    return bool(orient(points[0], points[1], points[farthest]))
+def _cusps_in_words(outline: Outline) -> str:
+    count = sum(int(np.count_nonzero(index)) for index in outline.cusps)
+    return f", {count} cusp" + "s" * (count > 1) if count else ""

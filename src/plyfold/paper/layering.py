@@ -42,9 +42,9 @@ import numpy as np
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering
 from plyfold.layering.orders.search import OrderProblem, order_problem, places_of_cells
-from plyfold.layering.sat import minimal_core, solve
 from plyfold.obstruction import Obstruction
 from plyfold.paper.collapsed import CollapsedGraph, edge_collapsed_graphs
+from plyfold.sat import minimal_core, solve
 
 __all__ = ["find_layering"]
 

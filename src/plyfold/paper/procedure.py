@@ -53,7 +53,7 @@ from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
 from plyfold.graphs import representative
 from plyfold.immersion.dual_tree import around_cells, grow_dual_tree
 from plyfold.immersion.immersion import Immersion
-from plyfold.immersion.solve import visible_obstruction
+from plyfold.immersion.obstructions import visible_obstruction
 from plyfold.obstruction import Obstruction
 from plyfold.paper.gluing import glue_layout
 

@@ -15,6 +15,7 @@ from plyfold.errors import FileFormatError, InputError, StrokeError
 from plyfold.gallery import CURVES
 from plyfold.io.reading import read
 from plyfold.outline.curve import Curve
+from plyfold.outline.given import as_curve
 from plyfold.sketch.pictures import PNG_START, png_document, svg_document
 from plyfold.sketch.schema import (
     MOST_BYTES,
@@ -175,7 +176,7 @@ def _read(name: str, content: bytes) -> Curve:
     with tempfile.TemporaryDirectory(prefix="plyfold-") as folder:
         path = Path(folder) / safe
         path.write_bytes(content)
-        return read(path)
+        return as_curve(read(path))
 
 
 def _document_of(curve: Curve) -> Document:

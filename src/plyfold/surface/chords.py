@@ -1,7 +1,10 @@
-"""Points in the middle of edges between borders.
+"""Points in the middle of edges: of those between borders, and of those at cusps.
 
 Where two sheets pass through each other along a border, their order is open at the border's points and strict at all
 others. So every edge but those of the border needs a point where it is strict.
+
+Round a cusp the surface climbs like a spiral stair: the steeper, the nearer to the cusp. So the triangles there are
+made smaller and smaller, and narrower first.
 """
 
 from __future__ import annotations
@@ -15,8 +18,14 @@ from plyfold.errors import PrecisionError
 from plyfold.halfedges import ends_of, half_edges_from_to, twins_of
 from plyfold.mesh.cells import CellTriangulation
 from plyfold.predicates import orient
+from plyfold.ragged import next_in_rows
 
-__all__ = ["split_chords"]
+__all__ = ["split_at_cusps", "split_chords"]
+
+# How often the edges that a cusp sees are halved, then those that end there; each time these edges are half as long.
+_NARROWER, _SHORTER = 2, 6
+# Edges at cusps are not halved where they are so many roundings short.
+_SHORTEST = 2.0**24
 
 
 def split_chords(mesh: CellTriangulation, borders: Ints) -> CellTriangulation:
@@ -54,7 +63,7 @@ def split_chords(mesh: CellTriangulation, borders: Ints) -> CellTriangulation:
 def _first_pieces_of_short_borders(mesh: CellTriangulation) -> Ints:
     """Return half-edges: after cutting them in two, no border is a single piece, and no cell a single triangle."""
     first, count = np.unique(mesh.chain_border, return_index=True, return_counts=True)[1:]
-    # The first border goes on at the end of the chain; any of its pieces will do.
+    # A loop's first border goes on at the loop's end; any of its pieces will do.
     return np.asarray(mesh.left[first[count < 4]])
 
 
@@ -62,7 +71,7 @@ def _chords(mesh: CellTriangulation, borders: Ints) -> Ints:
     """Return the half-edges inside cells that join two points of the given borders, one for each edge."""
     open_point = np.zeros(len(mesh.points), dtype=bool)
     pieces = np.flatnonzero(np.isin(mesh.chain_border, borders))
-    open_point[mesh.chain[pieces]] = open_point[mesh.chain[(pieces + 1) % len(mesh.chain)]] = True
+    open_point[mesh.chain[pieces]] = open_point[mesh.chain_end[pieces]] = True
     start, end = ends_of(mesh.triangles)
     right = mesh.twin[mesh.left]
     inside = mesh.twin >= 0
@@ -70,8 +79,62 @@ def _chords(mesh: CellTriangulation, borders: Ints) -> Ints:
     return np.flatnonzero(inside & open_point[start] & open_point[end] & (start < end))
 
 
+def split_at_cusps(mesh: CellTriangulation, cusps: Ints) -> CellTriangulation:
+    """Make triangles at cusps smaller: in rings round them, each half as wide as the next one.
+
+    Parameters
+    ----------
+    mesh : CellTriangulation
+    cusps : (c,) int
+        Points of the outline.
+
+    Returns
+    -------
+    CellTriangulation
+        No other triangles change, but those beside the ones at cusps.
+
+    Raises
+    ------
+    PrecisionError
+        If double precision has no point in the middle of an edge.
+
+    Examples
+    --------
+    >>> from plyfold import arrange
+    >>> from plyfold.mesh.cells import triangulate_cells
+    >>> square = triangulate_cells(arrange([(0, 0), (2, 0), (2, 2), (0, 2)]), triangles=0)
+    >>> float(np.hypot(*split_at_cusps(square, np.array([0])).points.T)[1:].min())
+    0.015625
+    """
+    for round_ in range(_SHORTER if len(cusps) else 0):
+        if round_ < _NARROWER:
+            mesh = _halved(mesh, _seen_from(mesh, cusps))
+        mesh = _halved(mesh, _half_edges_at(mesh, cusps))
+    return mesh
+
+
+def _half_edges_at(mesh: CellTriangulation, cusps: Ints) -> Ints:
+    """Return the half-edges at cusps, one for each edge, that are long enough to be halved."""
+    start, end = ends_of(mesh.triangles)
+    at_cusp = np.isin(start, cusps)
+    # What only runs to a cusp, on the rim of the mesh, or from one to another one.
+    other = np.isin(end, cusps) & ((mesh.twin < 0) | ~at_cusp[mesh.twin])
+    found = np.flatnonzero((at_cusp & ~(np.isin(end, cusps) & (start > end))) | (other & ~at_cusp))
+    length = np.abs(mesh.points[start[found]] - mesh.points[end[found]]).max(axis=1)
+    return np.asarray(found[length > _SHORTEST * np.spacing(np.abs(mesh.points).max())])
+
+
+def _seen_from(mesh: CellTriangulation, cusps: Ints) -> Ints:
+    """Return the half-edges opposite to a cusp in their triangle, one for each edge."""
+    opposite = np.flatnonzero(np.isin(mesh.triangles[:, [2, 0, 1]].ravel(), cusps))
+    twin = mesh.twin[opposite]
+    return opposite[~(np.isin(twin, opposite) & (twin < opposite))]
+
+
 def _halved(mesh: CellTriangulation, half_edges: Ints) -> CellTriangulation:
     """Put a point in the middle of edges, each given by one half-edge, and join it to what is on both sides."""
+    if not len(half_edges):
+        return mesh
     start, end = ends_of(mesh.triangles)
     points = np.concatenate([mesh.points, mesh.points[start[half_edges]] / 2 + mesh.points[end[half_edges]] / 2])
     middle = np.full(len(start) + 1, -1)  # one more, for sides without a twin
@@ -85,7 +148,9 @@ def _halved(mesh: CellTriangulation, half_edges: Ints) -> CellTriangulation:
     cell = np.concatenate([mesh.cell[kept], np.repeat(mesh.cell[touched], list(map(len, fans)))])
     cut = np.flatnonzero(middle[mesh.left] >= 0)
     chain = np.insert(mesh.chain, cut + 1, middle[mesh.left[cut]])
-    return _triangulation(points, triangles, cell, chain, np.insert(mesh.chain_border, cut + 1, mesh.chain_border[cut]))
+    chain_border = np.insert(mesh.chain_border, cut + 1, mesh.chain_border[cut])
+    first_piece = mesh.first_piece + np.searchsorted(cut, mesh.first_piece)
+    return _triangulation(points, triangles, cell, (chain, chain_border, first_piece))
 
 
 def _fan(corners: list[int], middles: list[int]) -> list[tuple[int, int, int]]:
@@ -96,17 +161,10 @@ def _fan(corners: list[int], middles: list[int]) -> list[tuple[int, int, int]]:
     return [(centre, a, b) for a, b in pairwise(ring[at + 1 :] + ring[:at])]
 
 
-def _triangulation(points: Floats, triangles: Ints, cell: Ints, chain: Ints, chain_border: Ints) -> CellTriangulation:
+def _triangulation(points: Floats, triangles: Ints, cell: Ints, chain: tuple[Ints, Ints, Ints]) -> CellTriangulation:
     """Return a triangulation with its half-edges; all triangles must be counter-clockwise."""
     a, b, c = points[triangles].swapaxes(0, 1)
     if len(flat := np.flatnonzero(orient(a, b, c) <= 0)):
         raise PrecisionError("double precision cannot hold a point in the middle of an edge", where=a[flat])
-    return CellTriangulation(
-        points=points,
-        triangles=triangles,
-        twin=twins_of(triangles),
-        cell=cell,
-        chain=chain,
-        chain_border=chain_border,
-        left=half_edges_from_to(triangles, chain, np.roll(chain, -1)),
-    )
+    left = half_edges_from_to(triangles, chain[0], chain[0][next_in_rows(chain[2])])
+    return CellTriangulation(points, triangles, twins_of(triangles), cell, *chain, left)

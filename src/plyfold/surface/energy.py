@@ -22,6 +22,7 @@ import numpy as np
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.matrices import diagonal_matrix, factorised, summed
+from plyfold.ragged import next_in_rows
 from plyfold.surface.glue import LiftedMesh, numbers_of_copies
 
 __all__ = ["Cloth", "Response", "cloth_of", "held_response", "response"]
@@ -34,6 +35,11 @@ _TIE = 1e-3
 # Thinner triangles (double area by longest side squared) and smaller areas (by the mean) count as if they were not,
 # for their numbers would drown all others.
 _THINNEST = 1e-2
+# Triangles at cusps have next to no energy: there is a hole in the cloth, round which it may climb.
+_AT_CUSPS = 1e-6
+# How much pieces that lie over each other are drawn together, with the energy of the slope as the unit of energy, and
+# the mean width of the cloth as that of length.
+_ATTRACTION = 1e-3
 _SMALLEST = 1e-4
 
 
@@ -91,15 +97,17 @@ def cloth_of(points: Floats, mesh: LiftedMesh, stiffness: float, flat: float, wa
     corners = points[mesh.planar_vertex]
     corners = (corners - corners[0]) / np.ptp(corners, axis=0).max()
     outline = corners[mesh.boundary]
-    perimeter = np.hypot(*(np.roll(outline, -1, axis=0) - outline).T).sum()
-    even = np.ones(len(mesh.faces))
-    laplacian, area = watch.wait_for(lambda: _cotangent_laplacian(corners, mesh.faces, even), len(even))
+    perimeter = np.hypot(*(outline[next_in_rows(mesh.first_boundary)] - outline).T).sum()
+    weight = np.where(np.isin(mesh.faces, mesh.cusps).any(axis=1), _AT_CUSPS, 1.0)
+    laplacian, area = watch.wait_for(lambda: _cotangent_laplacian(corners, mesh.faces, weight), len(weight))
+    if len(mesh.first_boundary) > 2:
+        laplacian = laplacian + _ties(mesh, area, _ATTRACTION * (perimeter / area.sum()) ** 2)
     mean_width = 2 * area.sum() / perimeter
     plain = Cloth(laplacian, area, (stiffness * mean_width) ** 2)
     if flat == 1:
         return plain
     share = plain.smoothed(_alone(mesh).astype(np.float64), watch).clip(0, 1)
-    weighted, _ = _cotangent_laplacian(corners, mesh.faces, flat ** share[mesh.faces].mean(axis=1))
+    weighted, _ = _cotangent_laplacian(corners, mesh.faces, weight * flat ** share[mesh.faces].mean(axis=1))
     return Cloth(weighted, area * flat**share, plain.bending)
 
 
@@ -142,8 +150,25 @@ def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[
     local *= weight[:, None, None]
     rows, columns = np.repeat(faces, 3, axis=1).ravel(), np.tile(faces, (1, 3)).ravel()
     laplacian = summed(local.ravel(), rows, columns, (n, n))
-    area = np.bincount(faces.ravel(), np.repeat(double_area / 6, 3), minlength=n)
+    area = np.bincount(faces.ravel(), np.repeat(weight * double_area / 6, 3), minlength=n)
     return laplacian, np.maximum(area, _SMALLEST * area.mean())
+
+
+def _ties(mesh: LiftedMesh, area: Floats, strength: float) -> Any:
+    """Return the matrix of the energy that draws pieces together which lie over each other, in a linear system alone.
+
+    Pieces that lie apart from all others are tied by one vertex each, so that their heights are known.
+    """
+    from scipy.sparse import coo_array
+
+    n = len(area)
+    lower, upper = mesh.stacked[mesh.piece[mesh.stacked[:, 0]] != mesh.piece[mesh.stacked[:, 1]]].T
+    apart = np.unique(mesh.heap, return_index=True)[1][1:]
+    ends = np.concatenate([lower, np.zeros_like(apart)]), np.concatenate([upper, apart])
+    weight = np.concatenate([strength * np.minimum(area[lower], area[upper]), np.ones(len(apart))])
+    rows, columns = np.concatenate([*ends, *ends]), np.concatenate([*ends, *ends[::-1]])
+    signs = np.concatenate([weight, weight, -weight, -weight])
+    return coo_array((signs, (rows, columns)), shape=(n, n)).tocsr()
 
 
 def _alone(mesh: LiftedMesh) -> Bools:

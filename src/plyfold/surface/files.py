@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 import numpy as np
 
-from plyfold.arrays import Floats
+from plyfold.arrays import Floats, Ints
 from plyfold.colours import layer_colour, rgb, sheet_colour
 from plyfold.disk.motion import shapes_of_disk
 from plyfold.errors import InputError, PrecisionError
 from plyfold.io.mesh.model import DETAIL, Material, Model, size_of, summed_at_vertices
 from plyfold.options import refuse_unless_flag
+from plyfold.ragged import next_in_rows
 
 if TYPE_CHECKING:
     from plyfold.surface.lift import Surface
@@ -31,8 +32,8 @@ def model_of_surface(surface: Surface, colours: Colouring = "layers", unwrapped:
     colours : {"layers", "sheets"}
         A colour for each layer, in smooth transition, or for each sheet.
     unwrapped : bool, optional
-        Give texture coordinates in the unwound disk, and the shapes ``flat`` and ``disk``; by default if double
-        precision can hold that disk.
+        Give texture coordinates in the unwound disk, and the shapes ``flat`` and ``disk``; by default if the surface is
+        a disk and double precision can hold it unwound.
 
     Returns
     -------
@@ -41,7 +42,8 @@ def model_of_surface(surface: Surface, colours: Colouring = "layers", unwrapped:
     Raises
     ------
     InputError
-        If the colouring is unknown, or ``unwrapped`` neither true, false nor None.
+        If the colouring is unknown, ``unwrapped`` neither true, false nor None, or the disk is asked for of a surface
+        that is none.
     PrecisionError
         If the disk is asked for, and double precision cannot hold it.
 
@@ -73,25 +75,30 @@ def model_of_solid(solid: Solid, colours: Colouring = "layers", unwrapped: bool 
     """Return the model of a solid; see :func:`model_of_surface`. Its walls are not smoothed."""
     surface = solid.surface
     model = model_of_surface(surface, colours, unwrapped)
-    up = np.repeat([solid.thickness / 2, -solid.thickness / 2], len(surface.vertices))[:, None] * (0.0, 0.0, 1.0)
-    walls = len(solid.faces) - 2 * len(surface.faces)
+    cusps = surface.cusps
+    upward = np.full((len(surface.vertices), 1), solid.thickness / 2)
+    upward[cusps] = 0.0
+    up = np.concatenate([upward, -np.delete(upward, cusps, axis=0)]) * (0.0, 0.0, 1.0)
+    # The ends of walls that are tips take a triangle off.
+    pointed = np.isin(surface.boundary, cusps).astype(np.int64)
+    walls = 2 - pointed - pointed[next_in_rows(surface.first_boundary)]
     return Model(
         vertices=solid.vertices,
         faces=solid.faces,
         material=solid.sheet,
         materials=model.materials,
-        smooth=np.concatenate([np.zeros(2 * len(surface.faces), dtype=np.int64), 1 + np.arange(walls) // 2]),
+        smooth=np.append(np.zeros(2 * len(surface.faces), dtype=np.int64), np.repeat(1 + np.arange(len(walls)), walls)),
         closed=True,
         detail=min(model.detail, solid.thickness),
-        colours=_twice(model.colours),
-        uv=_twice(model.uv),
-        shapes={name: np.tile(places, (2, 1)) + up for name, places in model.shapes.items()},
+        colours=None if model.colours is None else _twice(model.colours, cusps),
+        uv=None if model.uv is None else _twice(model.uv, cusps),
+        shapes={name: _twice(places, cusps) + up for name, places in model.shapes.items()},
     )
 
 
 def _unwrapped(surface: Surface, wanted: bool | None) -> tuple[Floats | None, dict[str, Floats]]:
     """Return texture coordinates, and the surface flat on the table, on its way to a disk, and as that disk."""
-    if wanted is False:
+    if wanted is False or (wanted is None and not surface.layering.immersion.is_disk):
         return None, {}
     try:
         unwound = surface.unwrap()
@@ -120,5 +127,6 @@ def _layer_colours(surface: Surface) -> Floats:
     return np.asarray(total / np.bincount(surface.faces.ravel(), minlength=len(total))[:, None])
 
 
-def _twice(values: Floats | None) -> Floats | None:
-    return None if values is None else np.tile(values, (2, 1))
+def _twice(values: Floats, cusps: Ints) -> Floats:
+    """Return the values of a surface's vertices for those of a solid; its lower side lacks the cusps."""
+    return np.concatenate([values, np.delete(values, cusps, axis=0)])

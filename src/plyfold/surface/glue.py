@@ -1,15 +1,18 @@
-"""The disk of glued sheets, with the order in which they lie upon each other."""
+"""The surface of glued sheets, with the order in which they lie upon each other."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.halfedges import following
+from plyfold.graphs import components
+from plyfold.halfedges import ends_of, following
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering
@@ -21,6 +24,7 @@ from plyfold.ragged import count_each, pairs_in_each
 __all__ = [
     "LiftedMesh",
     "copies_over_each_other",
+    "cusps_of",
     "intersection_curves",
     "numbers_of_copies",
     "passing_edges",
@@ -32,7 +36,7 @@ __all__ = [
 
 @dataclass(frozen=True, eq=False)
 class LiftedMesh:
-    """The disk as a triangle mesh, with everything but its heights.
+    """The surface as a triangle mesh, with everything but its heights.
 
     Parameters
     ----------
@@ -43,7 +47,11 @@ class LiftedMesh:
     sheet : (m,) int
         The sheet of each triangle.
     boundary : (b,) int
-        The vertices along the curve, from the curve's first point: 0, 1, …, b − 1.
+        The vertices along the outline, loop after loop, each from its first point: 0, 1, …, b − 1.
+    first_boundary : (loops + 1,) int
+        Where in this row each loop begins, and last its length.
+    cusps : (c,) int
+        The vertices at cusps.
     level : (v,) int
         How many vertices lie below each vertex, over the same point.
     stacked : (c, 2) int
@@ -58,9 +66,27 @@ class LiftedMesh:
     faces: Ints
     sheet: Ints
     boundary: Ints
+    first_boundary: Ints
+    cusps: Ints
     level: Ints
     stacked: Ints
     passing: Ints
+
+    @cached_property
+    def piece(self) -> Ints:
+        """The connected piece that each vertex is in, (v,)."""
+        if len(self.first_boundary) == 2:  # no piece is without boundary
+            return np.zeros(len(self.level), dtype=np.int64)
+        start, end = ends_of(self.faces)
+        return components(len(self.level), start, end)
+
+    @cached_property
+    def heap(self) -> Ints:
+        """A number for each vertex, (v,): the same for pieces that lie over each other."""
+        if len(self.first_boundary) == 2:
+            return self.piece
+        lower, upper = self.piece[self.stacked].T
+        return components(int(self.piece.max()) + 1, lower, upper)[self.piece]
 
 
 def stack_sheets(
@@ -100,15 +126,30 @@ def stack_sheets(
         passing = passing_edges(layering, mesh, glued)
         stacked = stacked_but_passing(stacked, level, glued.planar_vertex, passing)
     return LiftedMesh(
-        glued.planar_vertex, glued.faces, glued.sheet, glued.boundary, level=level, stacked=stacked, passing=passing
+        planar_vertex=glued.planar_vertex,
+        faces=glued.faces,
+        sheet=glued.sheet,
+        boundary=glued.boundary,
+        first_boundary=mesh.first_piece,
+        cusps=np.flatnonzero(np.isin(mesh.chain, cusps_of(immersion.arrangement))),
+        level=level,
+        stacked=stacked,
+        passing=passing,
     )
+
+
+def cusps_of(arrangement: Arrangement) -> Ints:
+    """Return the points of the outline that are cusps."""
+    outline = arrangement.outline
+    return np.empty(0, dtype=np.int64) if outline is None else np.flatnonzero(np.concatenate(outline.cusps))
 
 
 def _stacks(immersion: Immersion, sheet_level: Ints, mesh: CellTriangulation, glued: SheetMesh) -> tuple[Ints, Ints]:
     """Return the level of each vertex and the pairs of vertices next to each other over a point.
 
     Around a crossing lie four cells; every sheet of the other three is glued to one of the highest cell, so its
-    order is the order of all vertices over the crossing. Along a border, likewise.
+    order is the order of all vertices over the crossing. Along a border, likewise. Of a cusp, the sheets around it are
+    next to each other in this order, and have the vertex in common.
     """
     winding = immersion.arrangement.winding[mesh.cell]
     corner_of_point = np.zeros(len(mesh.points), dtype=np.int64)
@@ -117,7 +158,7 @@ def _stacks(immersion: Immersion, sheet_level: Ints, mesh: CellTriangulation, gl
     planar_vertex, vertex = glued.planar_vertex, glued.faces.ravel()
     top = corner_of_point[planar_vertex]
     sheets = winding[top // 3]
-    # Every vertex over a point is the corner of exactly one copy of the point's highest triangle.
+    # Every vertex over a point is the corner of a copy of the point's highest triangle, and no cusp of only one.
     at = np.unique(planar_vertex, return_index=True)[1]
     repeated = np.repeat(top[at], sheets[at])
     sheet = glued.first_sheet[repeated // 3] + count_each(sheets[at])
@@ -125,6 +166,8 @@ def _stacks(immersion: Immersion, sheet_level: Ints, mesh: CellTriangulation, gl
     level = np.empty(len(planar_vertex), dtype=np.int64)
     level[stacked_vertex] = sheet_level[sheet] - 1
     order = np.lexsort((level, planar_vertex))
+    if len(stacked_vertex) > len(level):
+        level[order] = count_each(np.bincount(planar_vertex))
     above = np.flatnonzero(np.diff(planar_vertex[order]) == 0)
     return level, np.stack([order[above], order[above + 1]], axis=1)
 

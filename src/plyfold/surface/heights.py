@@ -93,8 +93,8 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
     Returns
     -------
     (v,) float
-        Heights of the mesh's vertices, the lowest 0 unless there are pins; all 0 if no two sheets overlap and nothing
-        is pinned. For each row (lower, upper) of ``mesh.stacked``, ``z[lower] + gap <= z[upper]`` holds exactly, or
+        Heights of the mesh's vertices, the lowest 0 unless there are pins, also of pieces that lie over no other; all 0
+        if no two sheets overlap and nothing is pinned. For each row (lower, upper) of ``mesh.stacked``, ``z[lower] + gap <= z[upper]`` holds exactly, or
         with a share of the gap near intersections.
 
     Raises
@@ -199,7 +199,9 @@ def _settled(z: Floats, mesh: LiftedMesh, pins: Pins, held: Bools, fixed: Floats
         return np.where(held, fixed, z)
     if len(pins.heights):
         return np.asarray(z + (pins.heights[0] - (pins.rows(mesh) @ z)[0]))
-    return np.asarray(z - z.min())
+    lowest = np.full(int(mesh.heap.max()) + 1, np.inf)
+    np.minimum.at(lowest, mesh.heap, z)
+    return np.asarray(z - lowest[mesh.heap])
 
 
 def _kept_apart(z: Floats, mesh: LiftedMesh, distance: Floats, held: Bools) -> Floats:

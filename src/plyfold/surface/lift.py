@@ -14,7 +14,7 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, watched_arrangement
 from plyfold.arrays import Floats, Ints, freeze
-from plyfold.certify import check_surface
+from plyfold.certify import check_surface, check_surface_mesh
 from plyfold.clock import UNWATCHED, Clock, Progress, Watch
 from plyfold.disk.unwrap import UnwoundDisk, unwound_mesh
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
@@ -22,16 +22,19 @@ from plyfold.immersion.immersion import Immersion, require_disk
 from plyfold.immersion.solve import find_immersion, watched_immersions
 from plyfold.io.mesh.saving import refuse_ending, save_model
 from plyfold.io.saving import save_bytes
+from plyfold.layering.embedding import find_embedding
 from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
 from plyfold.layering.orders.search import first_layering
 from plyfold.mesh.cells import DEFAULT_TRIANGLES, area_of_edge, refuse_broken, refuse_sizes, triangulate_cells
-from plyfold.obstruction import IMMERSION_REASONS, Obstruction
+from plyfold.mesh.refine import drawn_outline
+from plyfold.obstruction import IMMERSION_REASONS, Obstruction, Unknown
 from plyfold.options import refuse_unless_flag, refuse_unless_number
-from plyfold.outline.curve import Curve, CurveLike
-from plyfold.surface.chords import split_chords
+from plyfold.outline.curve import Curve, Outline
+from plyfold.outline.given import OutlineLike
+from plyfold.surface.chords import split_at_cusps, split_chords
 from plyfold.surface.files import Colouring, model_of_surface
-from plyfold.surface.glue import intersection_curves, stack_sheets
+from plyfold.surface.glue import cusps_of, intersection_curves, stack_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, flat_weight, refuse_stiffness, smooth_heights
 from plyfold.surface.thicken import Solid, thicken
 from plyfold.wording import counted
@@ -52,14 +55,18 @@ class Surface:
     layering : Layering or IntersectingLayering
         The order of the sheets that the surface realises.
     vertices : (n, 3) float
-        Where x and y are those of the drawing; the curve's own points have the input's coordinates, bit for bit.
+        Where x and y are those of the drawing; the outline's own points have the input's coordinates, bit for bit.
     faces : (m, 3) int
         Vertices of each triangle, counter-clockwise seen from above.
     sheet : (m,) int
         The sheet that each triangle belongs to.
     boundary : (b,) int
-        Vertices along the curve in order, from its first point: 0, 1, …, b − 1. Crossings and points added on edges
-        are among them.
+        Vertices along the outline, loop after loop, each from its first point: 0, 1, …, b − 1. Crossings and points
+        added on edges are among them.
+    first_boundary : (loops + 1,) int
+        Loop l has the vertices from ``boundary[first_boundary[l]]`` up to ``boundary[first_boundary[l + 1]]``.
+    cusps : (c,) int
+        Vertices at which the surface winds round a cusp of the outline like a spiral stair.
     gap : float
         Sheets over the same point are at least this far apart, at every vertex. Near intersections the distance of
         the sheets concerned is at least half the way along them to the intersection, where that is less.
@@ -82,6 +89,8 @@ class Surface:
     faces: Ints
     sheet: Ints
     boundary: Ints
+    first_boundary: Ints
+    cusps: Ints
     gap: float
     passing: Ints = field(default_factory=lambda: np.empty((0, 4), dtype=np.int64))
     intersections: tuple[Floats, ...] = ()
@@ -95,17 +104,23 @@ class Surface:
 
     @property
     def curve(self) -> Curve:
-        """The curve that the surface has as its outline."""
+        """The curve that the surface has as its outline, if that is one curve; InputError if it has several loops."""
         drawn = self.layering.immersion.arrangement.curve
         assert drawn is not None
         return drawn
 
+    @property
+    def outline(self) -> Outline:
+        """The outline of the surface, with all its loops and cusps."""
+        return drawn_outline(self.layering.immersion.arrangement)
+
     def check(self) -> None:
         """Prove the surface right with the independent checkers of :mod:`plyfold.certify`.
 
-        Every triangle is positive seen from above, the mesh is a disk, its outline is the curve, the angles at its
-        vertices are those of an immersion, and the sheets over every point are in strict order. Where sheets may pass
-        through each other, they do so only in triangles along the edges that :attr:`passing` names.
+        Every triangle is positive seen from above, the mesh has as many pieces, holes and handles as the layering says,
+        its boundary is the outline, the angles at its vertices are those of an immersion and of the cusps, and the
+        sheets over every point are in strict order. Where sheets may pass through each other, they do so only in
+        triangles along the edges that :attr:`passing` names.
 
         Raises
         ------
@@ -116,11 +131,17 @@ class Surface:
         -----
         About a second for 100,000 triangles.
         """
-        gap = 0.0 if len(self.passing) else self.gap
-        check_surface(self.curve.points, self.vertices, self.faces, self.boundary, gap, passing=self.passing)
+        gap, outline = 0.0 if len(self.passing) else self.gap, self.outline
+        mesh = self.vertices, self.faces, self.boundary
+        check_surface(outline.loops, *mesh, gap, passing=self.passing, cusps=outline.cusps)
+        pieces = self.layering.immersion.pieces
+        kinds = [(len(piece.loops), piece.euler_characteristic) for piece in pieces]
+        check_surface_mesh(self.faces, len(self.vertices), kinds)
 
     def unwrap(self) -> UnwoundDisk:
         """Spread the cloth out as a round disk: one-to-one, the boundary by arc length, no triangle flipped.
+
+        Only a surface that is a disk can be.
 
         Returns
         -------
@@ -130,6 +151,8 @@ class Surface:
 
         Raises
         ------
+        InputError
+            If the surface is no disk.
         PrecisionError
             If double precision cannot hold the disk; it names the place.
         """
@@ -137,7 +160,7 @@ class Surface:
 
     @cached_property
     def _unwound(self) -> UnwoundDisk:
-        immersion = self.layering.immersion
+        immersion = require_disk(self.layering.immersion)
         return unwound_mesh(immersion, self.vertices, self.faces, self.sheet, self.boundary)
 
     def thicken(self, thickness: float) -> Solid:
@@ -188,8 +211,8 @@ class Surface:
             like ``sheet_3_level_2``. With ``"sheets"``, an OBJ gets its materials in an ``.mtl`` file beside it.
         unwrapped : bool, optional
             In a GLB, OBJ or PLY, texture coordinates from :meth:`unwrap`; in a GLB, moreover, the surface flat on the
-            table and unwound to a disk, as morph targets ``flat`` and ``disk`` and an animation. By default, if double
-            precision can hold that disk.
+            table and unwound to a disk, as morph targets ``flat`` and ``disk`` and an animation. By default, if the
+            surface is a disk and double precision can hold it unwound.
 
         Raises
         ------
@@ -231,7 +254,7 @@ class Surface:
 
 
 def lift(  # noqa: PLR0913 - each option is keyword-only and independent
-    curve: CurveLike | Immersion | Layering | IntersectingLayering,
+    curve: OutlineLike | Immersion | Layering | IntersectingLayering,
     *,
     allow_intersections: bool = False,
     gap: float | None = None,
@@ -316,10 +339,13 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     drawn = layering.immersion.arrangement
     distance = _distance(drawn, gap)
     max_area = area_of_edge(size, max_area)
-    refuse_sizes(cast(Curve, drawn.curve).points, triangles, max_area)
+    refuse_sizes(drawn_outline(drawn).points, triangles, max_area)
     refuse_stiffness(stiffness)
     weight = flat_weight(flat)
     cells = triangulate_cells(drawn, max_area, triangles, watch)
+    if len(cusps := cusps_of(drawn)):
+        cells = split_at_cusps(cells, cusps)
+        refuse_broken(drawn, cells)
     if isinstance(layering, IntersectingLayering):
         cells = split_chords(cells, layering.intersections[:, 0])
         refuse_broken(drawn, cells)
@@ -327,7 +353,18 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     heights = smooth_heights(cells.points, mesh, distance, stiffness=stiffness, pins=pins, flat=weight, watch=watch)
     vertices = np.column_stack([cells.points[mesh.planar_vertex], heights])
     curves = intersection_curves(vertices, mesh)
-    return Surface(layering, vertices, mesh.faces, mesh.sheet, mesh.boundary, distance, mesh.passing, curves)
+    return Surface(
+        layering=layering,
+        vertices=vertices,
+        faces=mesh.faces,
+        sheet=mesh.sheet,
+        boundary=mesh.boundary,
+        first_boundary=mesh.first_boundary,
+        cusps=mesh.cusps,
+        gap=distance,
+        passing=mesh.passing,
+        intersections=curves,
+    )
 
 
 def _refuse_wrong_kinds(allow_intersections: object, stiffness: object, pins: object, flat: object) -> None:
@@ -341,11 +378,11 @@ def _refuse_wrong_kinds(allow_intersections: object, stiffness: object, pins: ob
 
 
 def _distance(drawn: Arrangement, gap: float | None) -> float:
-    if drawn.curve is None:
+    if drawn.outline is None:
         raise PlyfoldError(
             "a surface needs a drawing, and this is a Gauss code alone", hint="build it from points to lift it"
         )
-    size = float(np.ptp(drawn.curve.points, axis=0).max())
+    size = float(np.ptp(drawn.outline.points, axis=0).max())
     if gap is None:
         return _DEFAULT_GAP * size
     refuse_unless_number("gap", gap)
@@ -355,25 +392,46 @@ def _distance(drawn: Arrangement, gap: float | None) -> float:
 
 
 def layering_of(
-    curve: CurveLike | Immersion | Layering | IntersectingLayering,
+    curve: OutlineLike | Immersion | Layering | IntersectingLayering,
     allow_intersections: bool,
     watch: Watch = UNWATCHED,
 ) -> Layering | IntersectingLayering:
     """Return the layering that :func:`lift` lifts, with its options and errors."""
     if isinstance(curve, Layering | IntersectingLayering):
-        require_disk(curve.immersion)
         return curve
     choose = _least_intersecting if allow_intersections else _liftable
     if isinstance(curve, Obstruction):
-        raise (NotImmersibleError if curve.reason in IMMERSION_REASONS else NotEmbeddableError)(curve)
+        raise _refusal(curve)
     if isinstance(curve, Immersion):
-        return choose([require_disk(curve)], watch)
+        return choose([curve], watch)
     drawn = watched_arrangement(curve, "perturb", watch)
+    if not allow_intersections and not _is_plain(drawn):
+        return _embedding(drawn, watch)
     candidates = watched_immersions(drawn, watch)
     first = next(candidates, None)
     if first is None:
         raise NotImmersibleError(cast(Obstruction, find_immersion(drawn)))
     return choose(chain([first], candidates), watch)
+
+
+def _is_plain(drawn: Arrangement) -> bool:
+    """Tell whether an outline is one curve without cusps that may bound a disk: its immersions are soon found."""
+    return drawn.n_loops == 1 == drawn.turning_number and not len(cusps_of(drawn))
+
+
+def _embedding(drawn: Arrangement, watch: Watch) -> Layering:
+    """Return an embedding of any outline, found without its immersions."""
+    watch.begin("layering the sheets")
+    found = find_embedding(drawn, watch.clock.left)
+    if isinstance(found, Layering):
+        return found
+    if isinstance(found, Unknown):
+        raise TimeLimitError(found.sentence, stage="layering the sheets")
+    raise _refusal(found)
+
+
+def _refusal(obstruction: Obstruction) -> NotImmersibleError | NotEmbeddableError:
+    return (NotImmersibleError if obstruction.reason in IMMERSION_REASONS else NotEmbeddableError)(obstruction)
 
 
 def _liftable(candidates: Iterable[Immersion], watch: Watch) -> Layering:

@@ -14,6 +14,7 @@ from plyfold.errors import InputError, PrecisionError
 from plyfold.halfedges import ends_of
 from plyfold.io.mesh.saving import save_model
 from plyfold.options import refuse_unless_number
+from plyfold.ragged import next_in_rows
 from plyfold.surface.files import Colouring, model_of_solid
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ __all__ = ["Solid", "thicken"]
 
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """The points at most half the thickness above or below a surface: a ball, bounded by triangles.
+    """The points at most half the thickness above or below a surface, bounded by triangles: of a disk, a ball.
 
     Parameters
     ----------
@@ -33,10 +34,11 @@ class Solid:
     thickness : float
         Measured vertically, in units of the drawing.
     vertices : (2n, 3) float
-        The upper side, vertex by vertex as in the surface, then the lower side.
+        The upper side, vertex by vertex as in the surface, then the lower side. At a cusp, where all steps of a stair
+        meet, the solid ends in a tip, and the lower side has no vertex of its own.
     faces : (2m + 2b, 3) int
         Counter-clockwise seen from the outside: the upper side, the lower side, and two triangles of the vertical wall
-        for each edge of the boundary.
+        for each edge of the boundary; one where that ends in a tip.
     sheet : (2m + 2b,) int
         The sheet that each triangle belongs to.
 
@@ -69,15 +71,16 @@ class Solid:
     def check(self) -> None:
         """Prove with the independent checker :func:`plyfold.certify.check_solid` that it is a solid.
 
-        It is closed and has its outside outside, it is as thick everywhere as it should be, to the last rounding, and
-        it nowhere meets itself.
+        It is closed and has its outside outside, it is as thick everywhere as it should be, to the last rounding, it
+        has as many pieces, holes and handles as the surface, and it nowhere meets itself.
 
         Raises
         ------
         CertificateError
             Naming the condition and the place.
         """
-        check_solid(self.vertices, self.faces, self.thickness)
+        pieces = [piece.euler_characteristic for piece in self.surface.layering.immersion.pieces]
+        check_solid(self.vertices, self.faces, self.thickness, pieces=pieces, tips=self.surface.cusps)
 
     def export(
         self,
@@ -117,6 +120,7 @@ def thicken(surface: Surface, thickness: float) -> Solid:
     -------
     Solid
         The surface moved up and down by half the thickness, and vertical walls along its boundary. Cost: O(n log n).
+        Round a cusp the surface is a spiral stair as steep as one likes: it becomes thinner in the triangles there.
 
     Raises
     ------
@@ -132,15 +136,20 @@ def thicken(surface: Surface, thickness: float) -> Solid:
     """
     _refuse_thickness(surface, thickness)
     n, b = len(surface.vertices), len(surface.boundary)
-    up = np.array([0.0, 0.0, thickness / 2])
-    vertices = np.concatenate([surface.vertices + up, surface.vertices - up])
-    _require_strict_order(vertices)
-    upper, following = surface.boundary, np.roll(surface.boundary, -1)
-    lower, lower_following = upper + n, following + n
+    up = np.zeros((n, 3))
+    up[:, 2] = thickness / 2
+    up[surface.cusps] = 0.0
+    below = n + np.arange(n) - np.searchsorted(surface.cusps, np.arange(n))
+    below[surface.cusps] = surface.cusps
+    vertices = np.concatenate([surface.vertices + up, np.delete(surface.vertices - up, surface.cusps, axis=0)])
+    _require_strict_order(vertices, below)
+    upper, following = surface.boundary, surface.boundary[next_in_rows(surface.first_boundary)]
+    lower, lower_following = below[upper], below[following]
     walls = np.stack([lower, lower_following, following, lower, following, upper], axis=1).reshape(2 * b, 3)
-    faces = np.concatenate([surface.faces, surface.faces[:, ::-1] + n, walls])
+    faces = np.concatenate([surface.faces, below[surface.faces[:, ::-1]], walls])
     sheet = np.concatenate([surface.sheet, surface.sheet, np.repeat(_sheets_along(surface), 2)])
-    return Solid(surface, float(thickness), vertices, faces, sheet)
+    real = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
+    return Solid(surface, float(thickness), vertices, faces[real], sheet[real])
 
 
 def _refuse_thickness(surface: Surface, thickness: float) -> None:
@@ -156,13 +165,14 @@ def _refuse_thickness(surface: Surface, thickness: float) -> None:
         )
 
 
-def _require_strict_order(vertices: Floats) -> None:
-    """Check that rounding has left both sides of each sheet apart, and neighbouring sheets."""
-    n = len(vertices) // 2
+def _require_strict_order(vertices: Floats, below: Ints) -> None:
+    """Check that rounding has left both sides of each sheet apart, but for the tips, and neighbouring sheets."""
+    n = len(below)
     x, y, z = vertices[:n].T
     order = np.lexsort((z, y, x))
-    upward = np.stack([vertices[n:][order], vertices[:n][order]], axis=1).reshape(-1, 3)
-    over = (upward[1:, :2] == upward[:-1, :2]).all(axis=1)
+    upward = np.stack([below[order], order], axis=1).ravel()
+    over = (vertices[upward[1:], :2] == vertices[upward[:-1], :2]).all(axis=1) & (upward[1:] != upward[:-1])
+    upward = vertices[upward]
     if len(bad := np.flatnonzero(over & ~(upward[1:, 2] > upward[:-1, 2]))):
         raise PrecisionError(
             "the solid is thinner than rounding errors, or what is between its sheets is",
@@ -174,8 +184,8 @@ def _require_strict_order(vertices: Floats) -> None:
 def _sheets_along(surface: Surface) -> Ints:
     """Return the sheet of the triangle at each edge of the boundary; edge i starts at the i-th boundary vertex."""
     start, end = ends_of(surface.faces)
-    b = len(surface.boundary)
-    side = np.flatnonzero((start < b) & (end == (start + 1) % b))
+    following, b = next_in_rows(surface.first_boundary), len(surface.boundary)
+    side = np.flatnonzero((start < b) & (end == following[np.minimum(start, b - 1)]))
     sheet = np.empty(b, dtype=np.int64)
     sheet[start[side]] = surface.sheet[side // 3]
     return sheet

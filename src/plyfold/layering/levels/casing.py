@@ -3,7 +3,9 @@
 Over each cell, number the sheets 1 … w from below. Every gluing keeps the order, so it is determined by the level that
 it misses: that of the border's own sheet. Past a crossing the strand below keeps its level, for the one above it does
 not matter; the strand above loses a level if it leaves the other one's left side, and gains one if it enters it. So
-walking along the curve gives all levels, from a border of the unbounded cell, where there is only one.
+walking along the curve gives all levels, from a border of the unbounded cell, where there is only one. At a cusp the
+casing does not say whether the surface climbs or falls, and of several loops not where each begins: then the equations
+are solved all together.
 """
 
 from __future__ import annotations
@@ -12,20 +14,21 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrangement.arrangement import Arrangement, watched_arrangement
+from plyfold.arrangement.base_visit import borders_numbered_back
 from plyfold.arrays import Bools, Ints
 from plyfold.clock import Clock, Watch
 from plyfold.errors import InputError, TimeLimitError
+from plyfold.immersion.obstructions import visible_obstruction
 from plyfold.layering.layering import Layering, borders_beside_top, layering_of_levels
 from plyfold.layering.levels.equations import (
     LevelClauses,
     level_clauses,
     no_levels,
-    no_surface,
     solve_levels,
 )
 from plyfold.layering.orders.search import undecided
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.outline.curve import OutlineLike
+from plyfold.outline.given import OutlineLike
 
 __all__ = ["casing_of_visits", "embed_cased"]
 
@@ -39,12 +42,13 @@ def embed_cased(
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
-        One curve bounds a disk, perhaps with handles; several bound one surface, with holes and handles, perhaps in
-        several pieces.
-    over : array_like of bool, shape (2k,) or (k,)
-        For each visit of ``arrange(curve)``, whether the strand passes over the other one; or for each crossing,
-        whether it does so at the first of its two visits.
+    curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such
+        One curve bounds a disk, perhaps with handles; several loops bound one surface, with holes and handles, perhaps
+        in several pieces.
+    over : array_like of bool, shape (k,), (2k,) or (visits,)
+        For each crossing of ``arrange(curve)``, whether the strand passes over the other one at the first of its two
+        visits; or for each visit to a crossing, whether it does so there; or for each visit, false at cusps and at the
+        feet of bridges, as :attr:`Layering.casing <plyfold.Layering.casing>` has it.
     time_limit : float, optional
         Seconds after which to give up; none by default.
 
@@ -52,20 +56,23 @@ def embed_cased(
     -------
     Layering or Obstruction or Unknown
         The only layered surface with this casing, over an immersion of its own; or the reason why there is none: the
-        turning number, a negative winding number, or ``"casing"``: the first crossing (``value``) along the curve,
-        from a border of the unbounded cell, at which the levels do not agree with what is given. Of several curves
-        ``value`` is a tuple of crossings at which no levels fit together, and the reason ``"no embedding"``.
+        turning number, a negative winding number, an impossible cusp, or ``"casing"``: the first crossing (``value``)
+        along the curve, from a border of the unbounded cell, at which the levels do not agree with what is given. Of
+        several loops, or with cusps, ``value`` names crossings and cusps at which no levels fit together, as in
+        :func:`~plyfold.find_embedding`, and the reason is ``"no embedding"``.
 
     Raises
     ------
     InputError
-        If ``over`` has the wrong length, or both strands or none are to pass over at some crossing. Of several curves,
-        also if several surfaces have this casing: it does not determine the level of a curve that lies in others
-        without crossing them. ``embeddings(curves, over)`` lists them all.
+        If ``over`` has the wrong length, or both strands or none are to pass over at some crossing; or if several
+        surfaces have this casing: it does not determine the level of a loop that lies in others without crossing them,
+        nor whether the surface climbs or falls at a cusp. Where the rest leaves only one choice, that is the answer;
+        ``embeddings(curve, over)`` lists them all.
 
     Notes
     -----
-    One pass, O(k), and O(Σ w) to write down the immersion [EM09]_ (theorem 1). Of several curves, a SAT problem.
+    One pass, O(k), and O(Σ w) to write down the immersion [EM09]_ (theorem 1). Of several loops, or with cusps, a SAT
+    problem.
 
     References
     ----------
@@ -89,54 +96,83 @@ def embed_cased(
 
 def _embed(arranged: Arrangement, over: npt.ArrayLike, clock: Clock) -> Layering | Obstruction | Unknown:
     casing = casing_of_visits(arranged, over)
-    obstruction = no_surface(arranged)
+    obstruction = visible_obstruction(arranged)
     if obstruction is not None:
         return obstruction
-    if arranged.n_loops > 1:
-        return _embed_several(arranged, casing, clock)
+    if arranged.n_loops > 1 or len(arranged.crossing_visits) < len(casing):
+        return _embed_by_equations(arranged, casing, clock)
     start = int(np.flatnonzero(arranged.winding[arranged.left_cell] == 1)[0])
     level = _levels_along(arranged, casing, start)
     obstruction = _first_fault(arranged, casing, level, start)
     return layering_of_levels(arranged, level) if obstruction is None else obstruction
 
 
-def _embed_several(arranged: Arrangement, casing: Bools, clock: Clock) -> Layering | Obstruction | Unknown:
+def _embed_by_equations(arranged: Arrangement, casing: Bools, clock: Clock) -> Layering | Obstruction | Unknown:
     clauses = level_clauses(arranged, casing)
     try:
         level = solve_levels(clauses, clock)
-        if level is not None:
-            _require_only(arranged, clauses, level, clock)
+        other = None if level is None else _other_solution(clauses, level, clock)
     except TimeoutError:
         return undecided("time limit", _QUESTION, clock)
-    return no_levels(arranged, clauses, clock) if level is None else layering_of_levels(arranged, level)
-
-
-def _require_only(arranged: Arrangement, clauses: LevelClauses, level: Ints, clock: Clock) -> None:
-    """Refuse a casing that other levels have as well. Raises TimeoutError when the time is over."""
-    differing = clauses.other_than(level)
-    other = solve_levels(clauses, clock, [differing]) if differing else None
+    if level is None:
+        return no_levels(arranged, clauses, clock)
+    level = borders_numbered_back(arranged, level)
     if other is not None:
-        free = np.unique(arranged.loop_of_border[level != other]).tolist()
-        raise InputError(
-            f"several surfaces have this casing: it does not determine the level of curve {', '.join(map(str, free))}",
-            where=[arranged.curves[loop].points[0] for loop in free],
-            hint="embeddings(curves, over) lists them all",
-        )
+        raise _not_determined(arranged, level, borders_numbered_back(arranged, other))
+    return layering_of_levels(arranged, level)
+
+
+def _other_solution(clauses: LevelClauses, level: Ints, clock: Clock) -> Ints | None:
+    """Return other levels with the same casing, if there are any. Raises TimeoutError when the time is over."""
+    differing = clauses.other_than(level)
+    return solve_levels(clauses, clock, [differing]) if differing else None
+
+
+def _not_determined(arranged: Arrangement, level: Ints, other: Ints) -> InputError:
+    """Return the error that other levels have the same casing: at some cusps they climb or fall the other way."""
+    change, other_change = (found[arranged.border_after] - found[arranged.border_before] for found in (level, other))
+    cusps = np.flatnonzero((arranged.cusp_index > 0) & (change != other_change))
+    loops = np.unique(arranged.loop_of_border[level != other]).tolist()
+    if len(cusps):
+        open_choice = f"whether the surface climbs or falls at {len(cusps)} cusps"
+        places = arranged.visit_point[cusps].tolist() if arranged.outline else []
+    else:
+        open_choice = f"the level of curve {', '.join(map(str, loops))}"
+        places = [arranged.outline.loops[loop][0] for loop in loops] if arranged.outline else []
+    return InputError(
+        f"several surfaces have this casing: it does not determine {open_choice}",
+        where=places,
+        hint="embeddings(curves, over) lists them all",
+    )
 
 
 def casing_of_visits(arranged: Arrangement, over: npt.ArrayLike) -> Bools:
-    """Return over and under by visits, from either form; refuse anything else."""
+    """Return over and under by visits, from any form; refuse anything else."""
     given = np.array(over, ndmin=1)
-    visits = len(arranged.partner)
-    if given.ndim != 1 or len(given) not in (visits, visits // 2) or not np.isin(given, [0, 1]).all():
+    visits, at_crossings, k = len(arranged.partner), arranged.crossing_visits, arranged.n_crossings
+    if given.ndim != 1 or len(given) not in (k, 2 * k, visits) or not np.isin(given, [0, 1]).all():
         raise InputError(
-            f"over and under must be {visits // 2} truth values, one for each crossing, or {visits}, one for each visit"
+            f"over and under must be {k} truth values, one for each crossing, or {visits}, one for each visit"
         )
     casing = given.astype(bool)
     if len(casing) < visits:
-        first_visit = np.arange(visits) < arranged.partner
-        casing = casing[arranged.crossing_of_visit] == first_visit
-    same = np.flatnonzero(casing == casing[arranged.partner])
+        by_visit = np.zeros(visits, dtype=bool)
+        first_visit = (np.arange(visits) < arranged.partner)[at_crossings]
+        passes = casing if len(casing) == 2 * k else casing[arranged.crossing_of_visit[at_crossings]] == first_visit
+        by_visit[at_crossings] = passes
+        casing = by_visit
+    _refuse_ambiguous(arranged, casing)
+    return casing
+
+
+def _refuse_ambiguous(arranged: Arrangement, casing: Bools) -> None:
+    is_mark = arranged.crossing_of_visit < 0
+    if casing[is_mark].any():
+        raise InputError(
+            f"visit {int(np.flatnonzero(casing & is_mark)[0])} is to pass over, and is a cusp or the foot of a bridge",
+            hint="give false there",
+        )
+    same = np.flatnonzero((casing == casing[arranged.partner]) & ~is_mark)
     if len(same):
         crossing = int(arranged.crossing_of_visit[same[0]])
         raise InputError(
@@ -144,7 +180,6 @@ def casing_of_visits(arranged: Arrangement, over: npt.ArrayLike) -> Bools:
             where=_place(arranged, crossing),
             hint="one of the two visits must be over, and the other one under",
         )
-    return casing
 
 
 def _levels_along(arranged: Arrangement, casing: Bools, start: int) -> Ints:

@@ -4,44 +4,51 @@ Number the sheets over each cell 1 … w from below. In a surface without self-i
 order, so all of it is determined by one whole number for each border: the level of its own sheet, from 1 to the winding
 number on its left. At a crossing, let a and b be the levels of the two strands over the top cell, the one on the left
 of both. They differ. Past the crossing each strand bounds a sheet over a side cell, where the other strand's sheet is
-missing: the strand above has lost a level there, the one below has not. These equations are the only ones, whatever the
-immersion, the number of curves or the genus.
+missing: the strand above has lost a level there, the one below has not. At a cusp of index m the surface climbs or
+falls by m levels, like a spiral stair; at the foot of a bridge, where all gluings keep the order too, nothing happens.
+These equations are the only ones, whatever the immersion, the number of loops or the genus.
 
 For the SAT solver the equations are clauses, in the order encoding: each border e has a variable x(e, i) for every i
-from 1 to w − 1: its level is at most i. Each crossing has one variable more: the first strand lies above the second.
+from 1 to w − 1: its level is at most i. Each crossing has one variable more: the first strand lies above the second. So
+has each cusp: the surface climbs there.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
+from typing import TypeAlias
 
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.base_visit import begun_at, numbered_from, visits_from_base
 from plyfold.arrays import Bools, Ints, freeze
-from plyfold.clock import Clock
+from plyfold.clock import NO_LIMIT, Clock
 from plyfold.errors import PlyfoldError
-from plyfold.immersion.solve import negative_winding, subject_of, wrong_turning
-from plyfold.layering.sat import Clauses, minimal_core, solutions_by_choice, solve
+from plyfold.immersion.obstructions import obstruction
 from plyfold.memory import require_memory
 from plyfold.obstruction import Obstruction
 from plyfold.ragged import count_each, starts_of
+from plyfold.sat import Clauses, minimal_core, solutions_by_choice, solve
 
 __all__ = [
+    "Lacking",
     "LevelClauses",
     "LevelEquations",
-    "contradicting_crossings",
+    "all_wanted",
+    "clauses_of",
+    "contradiction",
     "level_clauses",
     "level_equations",
     "list_levels",
     "no_levels",
-    "no_surface",
     "solve_levels",
 ]
+
+Lacking: TypeAlias = Callable[[Ints], Sequence[int] | None]
 
 # The variable that is always true stands for x(e, i) with i ≥ w, its opposite for x(e, 0).
 _TRUE = 1
@@ -60,15 +67,22 @@ class LevelEquations:
     highest : (borders,) int
         The winding number on the left of each border, at least 1: its level is between 1 and this.
     loop : (borders,) int
-        The curve that each border belongs to.
+        The loop that each border belongs to.
     top, bottom : (k, 2) int
         For both strands of each crossing, the border beside the top cell and the one beside the bottom cell.
+    before, after : (marks,) int
+        For each mark, which is a cusp or the foot of a bridge, the border that ends there and the one that starts.
+    index : (marks,) int
+        By how many levels these two differ: the index of the cusp, 0 at feet.
     """
 
     highest: Ints
     loop: Ints
     top: Ints
     bottom: Ints
+    before: Ints
+    after: Ints
+    index: Ints
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -79,11 +93,17 @@ class LevelEquations:
         return len(self.top)
 
     @property
-    def anchors(self) -> Ints:
-        """For each curve, a border of it on which fewest levels are possible.
+    def cusps(self) -> Ints:
+        """Which of the marks are cusps."""
+        return np.flatnonzero(self.index)
 
-        Over and under at the crossings say how the level changes along a curve, so they and the levels of these borders
-        determine all levels. Of a curve that comes to the outside, or over a cell with w = 1, nothing is left open.
+    @property
+    def anchors(self) -> Ints:
+        """For each loop, a border of it on which fewest levels are possible.
+
+        Over and under at the crossings, up and down at the cusps say how the level changes along a loop, so they and
+        the levels of these borders determine all levels. Of a loop that comes to the outside, or over a cell with
+        w = 1, nothing is left open.
         """
         by_loop = np.lexsort((self.highest, self.loop))
         return by_loop[np.unique(self.loop[by_loop], return_index=True)[1]]
@@ -96,6 +116,7 @@ class LevelEquations:
             ((level >= 1) & (level <= self.highest)).all()
             and (at_top[:, 0] != at_top[:, 1]).all()
             and (at_bottom == at_top - above).all()
+            and (np.abs(level[self.before] - level[self.after]) == self.index).all()
         )
 
 
@@ -112,11 +133,15 @@ def level_equations(arranged: Arrangement) -> LevelEquations:
     first = _first_strands(arranged)
     second = arranged.partner[first]
     before, after = arranged.border_before, arranged.border_after
+    marks = np.flatnonzero(arranged.partner == np.arange(len(arranged.partner)))
     return LevelEquations(
         highest=arranged.winding[arranged.left_cell],
         loop=arranged.loop_of_border,
         top=np.stack([before[first], after[second]], axis=1),
         bottom=np.stack([after[first], before[second]], axis=1),
+        before=before[marks],
+        after=after[marks],
+        index=arranged.cusp_index[marks],
     )
 
 
@@ -124,19 +149,6 @@ def _first_strands(arranged: Arrangement) -> Ints:
     """Return for each crossing the visit that is crossed from right to left, in the order of first visits."""
     first = np.flatnonzero(arranged.ccw)
     return first[np.argsort(np.minimum(first, arranged.partner[first]))]
-
-
-def no_surface(arranged: Arrangement) -> Obstruction | None:
-    """Return the obstruction that numbers alone show, if there is one: the turning number or a winding number.
-
-    The outline of a connected surface that lies flat turns 2 times less 2 for each handle and 1 for each of its curves.
-    """
-    loops, turning = arranged.n_loops, arranged.turning_number
-    if turning > loops or (loops - turning) % 2:
-        who, most = ("curve turns", "once") if loops == 1 else (f"{loops} curves together turn", f"{loops} times")
-        sentence = f"The {who} {turning} times; what bounds a surface turns {most}, or less by an even number."
-        return wrong_turning(arranged, sentence)
-    return negative_winding(arranged)
 
 
 # ---- as clauses for the SAT solver -----------------------------------------------------------------------------------
@@ -169,20 +181,33 @@ class LevelClauses:
         return list(range(start, start + self.equations.n_crossings))
 
     @cached_property
+    def climbs(self) -> list[int]:
+        """The variable of each cusp: the surface climbs there."""
+        start = _TRUE + 1 + int((self.equations.highest - 1).sum()) + self.equations.n_crossings
+        return list(range(start, start + len(self.equations.cusps)))
+
+    @property
+    def n_variables(self) -> int:
+        """Number of variables."""
+        equations = self.equations
+        return _TRUE + int((equations.highest - 1).sum()) + equations.n_crossings + len(equations.cusps)
+
+    @cached_property
     def choices(self) -> list[int]:
-        """Variables that determine a solution: all crossings, and the level of one border of each curve."""
-        return [*self.first_over, *self._at_most(*self._anchors).tolist()]
+        """Variables that determine a solution: all crossings and cusps, and the level of one border of each loop."""
+        return [*self.first_over, *self.climbs, *self.at_most(*self._anchors).tolist()]
 
     def other_than(self, level: Ints) -> list[int]:
-        """Return the clause that some curve lies on another level than in a solution, given the same casing."""
+        """Return the clause that tells other solutions with the same casing from one: by a choice that differs."""
         border, i = self._anchors
-        variable = self._at_most(border, i)
+        variable, cusps = self.at_most(border, i), self.equations.cusps
+        rises = level[self.equations.after[cusps]] > level[self.equations.before[cusps]]
         clause: list[int] = np.where(level[border] <= i, -variable, variable).tolist()
-        return clause
+        return [*clause, *(-climbs if up else climbs for climbs, up in zip(self.climbs, rises, strict=True))]
 
     @cached_property
     def _anchors(self) -> tuple[Ints, Ints]:
-        """The variables x(e, i) of one border e of each curve, as e and i; few, for most have a border with w = 1."""
+        """The variables x(e, i) of one border e of each loop, as e and i; few, for most have a border with w = 1."""
         anchor = self.equations.anchors
         count = self.equations.highest[anchor] - 1
         return np.repeat(anchor, count), 1 + count_each(count)
@@ -190,12 +215,7 @@ class LevelClauses:
     @property
     def every(self) -> Iterator[list[int]]:
         """All of them."""
-        return chain(self.of_borders, chain.from_iterable(self.of_crossings))
-
-    @property
-    def n_variables(self) -> int:
-        """Number of variables."""
-        return _TRUE + int((self.equations.highest - 1).sum()) + self.equations.n_crossings
+        return chain(self.of_borders, *self.of_crossings, *self.of_marks)
 
     @cached_property
     def of_borders(self) -> list[list[int]]:
@@ -203,7 +223,7 @@ class LevelClauses:
         self._require_memory()
         highest = self.equations.highest
         border, i = np.repeat(np.arange(len(highest)), highest), count_each(highest)
-        rows = np.stack([-self._at_most(border, i), self._at_most(border, i + 1)], axis=1)
+        rows = np.stack([-self.at_most(border, i), self.at_most(border, i + 1)], axis=1)
         # The second clause says nothing; it makes the solver's models name every variable.
         return [[_TRUE], [self.n_variables, -self.n_variables], *_without_constants(rows)[1]]
 
@@ -215,7 +235,7 @@ class LevelClauses:
         levels = self.equations.highest[top[:, 0]] + 1
         crossing, i = np.repeat(np.arange(len(top)), levels), count_each(levels)
         over = np.array(self.first_over, dtype=np.int64)[crossing]
-        x = self._at_most
+        x = self.at_most
         rows = []
         for upper, lower, holds in ((0, 1, over), (1, 0, -over)):
             upper_top, upper_bottom = top[crossing, upper], bottom[crossing, upper]
@@ -229,14 +249,27 @@ class LevelClauses:
                 (-x(upper_top, i), x(upper_bottom, i), x(upper_bottom, i)),
                 (-x(upper_bottom, i - 1), x(upper_top, i), x(upper_top, i)),
             ]
-        which, clauses = _without_constants(np.concatenate([np.stack(row, axis=1) for row in rows]))
-        demands: list[list[list[int]]] = [[] for _ in top]
-        for number, clause in zip(np.tile(crossing, len(rows))[which].tolist(), clauses, strict=True):
-            demands[number].append(clause)
+        demands = _by_demand(len(top), np.tile(crossing, len(rows)), np.concatenate([np.stack(row, 1) for row in rows]))
         if self.first_is_over is not None:
             for number, (variable, holds) in enumerate(zip(self.first_over, self.first_is_over, strict=True)):
                 demands[number].append([variable if holds else -variable])
         return demands
+
+    @cached_property
+    def of_marks(self) -> list[list[list[int]]]:
+        """What each mark demands: two levels that differ by no more than its index, and at cusps by no less."""
+        equations, x = self.equations, self.at_most
+        levels = equations.highest[equations.before]
+        mark, i = np.repeat(np.arange(len(levels)), levels), 1 + count_each(levels)
+        before, after, index = equations.before[mark], equations.after[mark], equations.index[mark]
+        near = [(-x(one, i), x(other, i + index)) for one, other in ((before, after), (after, before))]
+        at_cusp = index > 0
+        i, before, after, index = i[at_cusp], before[at_cusp], after[at_cusp], index[at_cusp]
+        climbs = np.repeat(self.climbs, levels[equations.cusps])
+        far = [(-climbs, -x(after, i), x(before, i - index)), (climbs, -x(before, i), x(after, i - index))]
+        demands = _by_demand(len(levels), np.tile(mark, 2), np.concatenate([np.stack(row, 1) for row in near]))
+        more = _by_demand(len(levels), np.tile(mark[at_cusp], 2), np.concatenate([np.stack(row, 1) for row in far]))
+        return [[*some, *others] for some, others in zip(demands, more, strict=True)]
 
     def _require_memory(self) -> None:
         levels = int(self.equations.highest.sum())
@@ -257,9 +290,29 @@ class LevelClauses:
             raise PlyfoldError("internal check failed: levels of the borders around every crossing fit together")
         return np.asarray(level, dtype=np.int64)
 
-    def _at_most(self, border: Ints, i: Ints) -> Ints:
+    def possible(self, literals: Ints) -> list[int]:
+        """Leave out of a clause the literals that are always false."""
+        left: list[int] = literals[literals != -_TRUE].tolist()
+        return left
+
+    def at_most(self, border: Ints, i: Ints) -> Ints:
+        """Return the literals x(e, i): the level of a border is at most i."""
         variable = np.where(i < self.equations.highest[border], self._before[border] + i, _TRUE)
         return np.where(i > 0, variable, -_TRUE)
+
+
+def _by_demand(number: int, demand: Ints, rows: Ints) -> list[list[list[int]]]:
+    """Return the clauses of each of so many demands, given the demand of each row of literals."""
+    which, clauses = _without_constants(rows)
+    demands: list[list[list[int]]] = [[] for _ in range(number)]
+    for place, clause in zip(demand[which].tolist(), clauses, strict=True):
+        demands[place].append(clause)
+    return demands
+
+
+def clauses_of(rows: Sequence[Sequence[Ints]]) -> list[list[int]]:
+    """Return the clauses of rows of literals, which are arrays as long as each other, without what is always so."""
+    return list(chain.from_iterable(_without_constants(np.stack(row, axis=1))[1] for row in rows))
 
 
 def _without_constants(rows: Ints) -> tuple[Ints, list[list[int]]]:
@@ -277,18 +330,30 @@ def solve_levels(clauses: LevelClauses, clock: Clock, more: Clauses = ()) -> Int
     return None if model is None else clauses.levels(model)
 
 
-def list_levels(clauses: LevelClauses) -> Iterator[Ints]:
-    """Yield all solutions, each once."""
-    return map(clauses.levels, solutions_by_choice(clauses.every, clauses.choices))
+def all_wanted(level: Ints) -> None:
+    """Leave nothing out."""
 
 
-def contradicting_crossings(clauses: LevelClauses, clock: Clock) -> list[int]:
-    """Return crossings whose equations have no solution, given that those of all crossings have none.
+def list_levels(clauses: LevelClauses, clock: Clock = NO_LIMIT, lacking: Lacking = all_wanted) -> Iterator[Ints]:
+    """Yield all solutions, each once. Raises TimeoutError when the time is over.
+
+    If only some are wanted, ``lacking`` returns for levels that are not a clause that all those wanted meet.
+    """
+    models = solutions_by_choice(clauses.every, clauses.choices, clock, lambda model: lacking(clauses.levels(model)))
+    return map(clauses.levels, models)
+
+
+def contradiction(clauses: LevelClauses, clock: Clock) -> tuple[list[int], list[int]]:
+    """Return crossings and cusps whose equations have no solution, given that all together have none.
 
     As few as leaving out one after the other can reach; where the solver does not know soon, a crossing stays, and when
     the time is over, so do all the others.
     """
-    return minimal_core(clauses.of_crossings, clauses.of_borders, clock, _EFFORT)
+    crossings, cusps = clauses.equations.n_crossings, clauses.equations.cusps.tolist()
+    feet = (clauses.of_marks[foot] for foot in np.flatnonzero(clauses.equations.index == 0))
+    demands = [*clauses.of_crossings, *(clauses.of_marks[cusp] for cusp in cusps)]
+    core = minimal_core(demands, chain(clauses.of_borders, *feet), clock, _EFFORT)
+    return [i for i in core if i < crossings], [i - crossings for i in core if i >= crossings]
 
 
 def level_clauses(arranged: Arrangement, casing: Bools | None = None) -> LevelClauses:
@@ -305,8 +370,14 @@ def level_clauses(arranged: Arrangement, casing: Bools | None = None) -> LevelCl
 
 def no_levels(arranged: Arrangement, clauses: LevelClauses, clock: Clock, because: str = "") -> Obstruction:
     """Return the obstruction of an outline whose equations have no solution."""
-    from_base = list(dict.fromkeys(arranged.crossing_of_visit[visits_from_base(arranged)].tolist()))
-    crossings = tuple(sorted(from_base[crossing] for crossing in contradicting_crossings(clauses, clock)))
-    sentence = f"No embedding: {because}no levels of the strands fit together at {len(crossings)} crossings."
-    places = tuple((x, y) for x, y in arranged.crossings[list(crossings)].tolist()) if arranged.curves else ()
-    return Obstruction("no embedding", sentence, places, crossings, subject_of(arranged))
+    visits = visits_from_base(arranged)
+    crossing, is_cusp = arranged.crossing_of_visit[visits], arranged.cusp_index[visits] > 0
+    crossing_from_base, cusp_from_base = list(dict.fromkeys(crossing[crossing >= 0].tolist())), visits[is_cusp].tolist()
+    among_crossings, among_cusps = contradiction(clauses, clock)
+    crossings = sorted(crossing_from_base[i] for i in among_crossings)
+    cusps = sorted(cusp_from_base[i] for i in among_cusps)
+    at = f"{len(crossings)} crossings" + f" and {len(cusps)} cusps" * bool(cusps)
+    sentence = f"No embedding: {because}no levels of the strands fit together at {at}."
+    places = np.concatenate([arranged.crossings[crossings], arranged.visit_point[cusps]]) if arranged.outline else ()
+    where, value = tuple((x, y) for x, y in places), (*crossings, *(("cusp", visit) for visit in cusps))
+    return obstruction(arranged, "no embedding", sentence, where, value)

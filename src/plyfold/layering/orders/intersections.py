@@ -28,9 +28,9 @@ from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import check_levels
 from plyfold.layering.orders.maxsat import equal_or_failing, fewest_failures
 from plyfold.layering.orders.search import OrderProblem, independent_orders
-from plyfold.layering.sat import StoppableSolver, search_in_time
 from plyfold.memory import number_of_tuples, require_memory
 from plyfold.ragged import count_each, pairs_in_each
+from plyfold.sat import StoppableSolver, search_in_time
 from plyfold.wording import counted
 
 __all__ = ["IntersectingLayering", "border_lengths", "least_intersecting_layering"]
@@ -78,7 +78,7 @@ class IntersectingLayering:
         """Rows (border, lower, upper), shape (m, 3): where and which sheets pass through each other.
 
         They lie over the cell on the right of the border; on its left, the sheets that are glued to them lie the other
-        way round.
+        way round. Bridge j counts as border n_borders + j.
         """
         border, lower, upper, left_lower, left_upper = _glued_pairs(self.immersion).T
         risen = self.level[upper] > self.level[lower]
@@ -88,7 +88,7 @@ class IntersectingLayering:
 
     @property
     def total_length(self) -> float:
-        """Length of the intersections, measured along the borders in units of the drawing.
+        """Length of the intersections, measured along the borders and bridges in units of the drawing.
 
         For a Gauss code every border counts as 1.
         """
@@ -167,11 +167,21 @@ def _levels_in_time(immersion: Immersion, clock: Clock) -> tuple[Ints, bool]:
 
 
 def border_lengths(arrangement: Arrangement) -> Floats:
-    """Return the length of each border in units of the drawing; 1 for a Gauss code."""
-    if not arrangement.curves:
-        return np.ones(arrangement.n_borders)
-    steps = (np.diff(arrangement.border_points(border), axis=0) for border in range(arrangement.n_borders))
-    return np.array([np.hypot(*step.T).sum() for step in steps])
+    """Return the length of each border, and then of each bridge, in units of the drawing; 1 for a Gauss code."""
+    if arrangement.outline is None:
+        return np.ones(arrangement.n_borders + len(arrangement.bridges))
+    along = [_length(arrangement, border) for border in range(arrangement.n_borders)]
+    border, is_backward = np.divmod(arrangement.bridges, 2)
+    feet = arrangement.start_visit[np.where(is_backward, arrangement.next_border[border], border)]
+    x, y = np.diff(arrangement.visit_point[feet], axis=1).reshape(-1, 2).T
+    return np.append(along, np.hypot(x, y))
+
+
+def _length(arrangement: Arrangement, border: int) -> float:
+    points = arrangement.border_points(border)
+    if arrangement.start_visit[border] < 0:
+        points = np.append(points, points[:1], axis=0)
+    return float(np.hypot(*np.diff(points, axis=0).T).sum())
 
 
 def _glued_pairs(immersion: Immersion) -> Ints:
@@ -185,7 +195,8 @@ def _glued_pairs(immersion: Immersion) -> Ints:
 
 def _require_memory(immersion: Immersion, bytes_per_pair: int) -> None:
     arrangement = immersion.arrangement
-    lower = arrangement.winding[arrangement.right_cell]
+    bridged = arrangement.cell_of_dart[arrangement.bridges[:, 0]]
+    lower = arrangement.winding[np.append(arrangement.right_cell, bridged)]
     pairs = (number_of_tuples(lower, 2) - int(lower.sum())) // 2
     require_memory(
         bytes_per_pair * pairs,

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering
 from plyfold.layering.orders.search import OrderProblem, order_problem
-from plyfold.layering.sat import solve
+from plyfold.sat import solve
 
 __all__ = ["layerings", "solutions"]
 

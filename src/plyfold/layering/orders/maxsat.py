@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from plyfold.clock import Clock
-from plyfold.layering.sat import Clauses, StoppableSolver, in_time, solve
+from plyfold.sat import Clauses, StoppableSolver, in_time, solve
 
 __all__ = ["equal_or_failing", "fewest_failures"]
 

@@ -19,14 +19,13 @@ from dataclasses import replace
 from functools import partial
 from itertools import chain
 
-from plyfold.arrangement.base_visit import visits_from_base
 from plyfold.clock import Clock
 from plyfold.immersion.immersion import Immersion
-from plyfold.layering.layering import Layering, meeting_sheets
+from plyfold.layering.layering import Layering, crossing_visits_by_loop, meeting_sheets
 from plyfold.layering.orders.maxsat import equal_or_failing, fewest_failures
 from plyfold.layering.orders.search import OrderProblem, order_problem_in_time, solve_orders, undecided
-from plyfold.layering.sat import StoppableSolver, search_in_time
 from plyfold.obstruction import Obstruction, Unknown
+from plyfold.sat import StoppableSolver, search_in_time
 
 __all__ = ["nicest_layering"]
 
@@ -71,7 +70,7 @@ def nicest_layering(immersion: Immersion, time_limit: float | None = None) -> La
     over = _over(problem)
     good = found
     with suppress(TimeoutError):
-        good = problem.layering(_greedy(problem, over, clock))
+        good = problem.layering(_greedy(problem, list(chain(*over)), clock))
     true, least = _fewest_changes(problem, over, clock)
     if true is not None:
         return problem.layering(true)
@@ -79,11 +78,11 @@ def nicest_layering(immersion: Immersion, time_limit: float | None = None) -> La
     return replace(unknown, established={**unknown.established, "layering": good, "changes at least": least})
 
 
-def _over(problem: OrderProblem) -> list[int]:
-    """Return for each visit, from the base visit on, the literal that is true if the strand passes over."""
-    from_base = visits_from_base(problem.immersion.arrangement)
-    here, there = (sheets[from_base] for sheets in meeting_sheets(problem.immersion))
-    return [int(literal) for literal in problem.above(there, here)]
+def _over(problem: OrderProblem) -> list[list[int]]:
+    """Return for each visit to a crossing, loop by loop, the literal that is true if the strand passes over."""
+    here, there = meeting_sheets(problem.immersion)
+    loops = crossing_visits_by_loop(problem.immersion.arrangement)
+    return [problem.above(there[visits], here[visits]).tolist() for visits in loops]
 
 
 def _greedy(problem: OrderProblem, over: list[int], clock: Clock) -> list[int]:
@@ -102,7 +101,7 @@ def _walk(over: list[int], solver: StoppableSolver) -> list[int]:
     return list(solver.get_model())
 
 
-def _fewest_changes(problem: OrderProblem, over: list[int], clock: Clock) -> tuple[list[int] | None, int]:
+def _fewest_changes(problem: OrderProblem, over: list[list[int]], clock: Clock) -> tuple[list[int] | None, int]:
     """Return a solution with the fewest changes, None if the time is over, and a lower bound for its changes."""
     pairs = _neighbours(over)
     certain = sum(times for (first, second), times in pairs.items() if first == -second)
@@ -115,11 +114,11 @@ def _fewest_changes(problem: OrderProblem, over: list[int], clock: Clock) -> tup
     return true, certain + least
 
 
-def _neighbours(over: list[int]) -> Counter[tuple[int, int]]:
-    """Count the pairs of different literals that follow each other along the curve, in either order, signs exchanged.
+def _neighbours(over: list[list[int]]) -> Counter[tuple[int, int]]:
+    """Count the pairs of different literals that follow each other along a loop, in either order, signs exchanged.
 
     The first literal has the smaller variable and is positive.
     """
-    pairs = zip(over, over[1:] + over[:1], strict=True)
+    pairs = (pair for loop in over for pair in zip(loop, loop[1:] + loop[:1], strict=True))
     ordered = (sorted(pair, key=abs) for pair in pairs if pair[0] != pair[1])
     return Counter((abs(first), second if first > 0 else -second) for first, second in ordered)

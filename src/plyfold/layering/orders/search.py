@@ -20,18 +20,17 @@ from typing import Literal, TypeAlias, cast
 
 import numpy as np
 
-from plyfold.arrangement.base_visit import visits_from_base
 from plyfold.arrays import Ints, freeze
 from plyfold.clock import NO_LIMIT, Clock, Progress
 from plyfold.errors import InputError, TimeLimitError
 from plyfold.graphs import components, shortest_path
 from plyfold.immersion.immersion import Immersion, require_immersion
-from plyfold.layering.layering import Layering, meeting_sheets
-from plyfold.layering.sat import minimal_core, solve
+from plyfold.layering.layering import Layering, crossing_visits_by_loop, meeting_sheets
 from plyfold.loading import FOR_LAYERINGS, load_libraries
 from plyfold.memory import number_of_tuples, require_memory
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.ragged import count_each, starts_of
+from plyfold.sat import minimal_core, solve
 
 __all__ = [
     "FixedOrders",
@@ -259,7 +258,7 @@ _BYTES_PER_TRIPLE = 200
 
 @dataclass(frozen=True, eq=False)
 class OrderProblem:
-    """The orders of sheets over an immersed disk that no pair of sheets contradicts by itself.
+    """The orders of sheets over an immersion that no pair of sheets contradicts by itself.
 
     Parameters
     ----------
@@ -364,7 +363,7 @@ def independent_orders(immersion: Immersion, clock: Clock = NO_LIMIT) -> OrderPr
 
 def places_of_cells(immersion: Immersion, cells: Iterable[int]) -> tuple[tuple[float, float], ...]:
     """Return a point in each of the cells, in order of appearance; none if there is no drawing."""
-    if immersion.arrangement.curve is None:
+    if immersion.arrangement.outline is None:
         return ()
     return tuple(immersion.arrangement.cell_point(cell) for cell in dict.fromkeys(cells))
 
@@ -383,7 +382,8 @@ def _literals(immersion: Immersion, graph: PairGraph) -> Ints:
     solutions, wherever their lists of points begin.
     """
     representative = np.minimum(graph.label, graph.label[graph.reverse])
-    here, there = (sheets[visits_from_base(immersion.arrangement)] for sheets in meeting_sheets(immersion))
+    visits = np.concatenate(crossing_visits_by_loop(immersion.arrangement))
+    here, there = (sheets[visits] for sheets in meeting_sheets(immersion))
     met = pair_of(immersion, graph.first_pair, there, here)
     met_first = np.concatenate([met, np.flatnonzero(graph.lower != graph.upper)])
     classes, place = np.unique(representative[met_first], return_index=True)

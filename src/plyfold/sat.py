@@ -103,18 +103,31 @@ def solve(clauses: Clauses, clock: Clock = NO_LIMIT) -> list[int] | None:
         return list(solver.get_model()) if solver.ask(clock=clock) else None
 
 
-def solutions_by_choice(clauses: Clauses, choices: Sequence[int]) -> Iterator[list[int]]:
+def solutions_by_choice(
+    clauses: Clauses,
+    choices: Sequence[int],
+    clock: Clock = NO_LIMIT,
+    lacking: Callable[[list[int]], Sequence[int] | None] = lambda model: None,
+) -> Iterator[list[int]]:
     """Yield the literals of all solutions, each once, given variables that determine a solution.
 
     The solver is asked for one; then the last choice whose opposite has not been tried, under the choices before it, is
     turned round, and the solver is asked for the rest. Nothing is remembered but the way back.
+
+    Parameters
+    ----------
+    clauses : clauses
+    choices : sequence of int
+    clock : Clock, optional
+        Raises TimeoutError at the time limit.
+    lacking : callable, optional
+        Returns a clause that all solutions wanted meet, and this one does not; None if it is wanted.
     """
-    with solver_of(clauses) as solver:
+    with solver_of(clauses, clock) as solver:
         tried: list[tuple[int, bool]] = []
-        possible = solver.ask()
+        model = _wanted(solver, [], clock, lacking)
         while True:
-            if possible:
-                model = solver.get_model()
+            if model is not None:
                 yield model
                 tried += [(model[variable - 1], False) for variable in choices[len(tried) :]]
             while tried and tried[-1][1]:
@@ -122,7 +135,23 @@ def solutions_by_choice(clauses: Clauses, choices: Sequence[int]) -> Iterator[li
             if not tried:
                 return
             tried[-1] = (-tried[-1][0], True)
-            possible = solver.ask([literal for literal, _ in tried])
+            model = _wanted(solver, [literal for literal, _ in tried], clock, lacking)
+
+
+def _wanted(
+    solver: StoppableSolver,
+    assumptions: Sequence[int],
+    clock: Clock,
+    lacking: Callable[[list[int]], Sequence[int] | None],
+) -> list[int] | None:
+    """Return a solution that lacks nothing, or None."""
+    while solver.ask(assumptions, clock):
+        model: list[int] = solver.get_model()
+        clause = lacking(model)
+        if clause is None:
+            return model
+        solver.add_clause(clause)
+    return None
 
 
 def in_time(time_limit: float | None, solver: StoppableSolver, question: Callable[[], Answer]) -> Answer:

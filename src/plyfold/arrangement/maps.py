@@ -1,0 +1,112 @@
+"""Planar maps of one loop or of several: their code, how they lie to each other, and the walk round their cells."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from plyfold.arrangement.planar_map import (
+    cell_boundaries,
+    joined_cells,
+    left_windings,
+    next_darts,
+    reversed_code,
+    whitney_turning_number,
+)
+from plyfold.arrays import Bools, Floats, Ints
+from plyfold.predicates import cross_sign
+
+__all__ = [
+    "Code",
+    "Map",
+    "cell_of_each_dart",
+    "in_bounded_cells",
+    "numbered_crossings",
+    "oriented",
+    "outer_dart",
+    "walked_round",
+]
+
+
+class Code(NamedTuple):
+    """The visits of some loops, numbered loop after loop, and the winding number left of each border."""
+
+    partner: Ints
+    ccw: Bools
+    first_visit: Ints
+    left: Ints
+    edge: Ints
+    cusp_index: Ints
+
+
+class Map(NamedTuple):
+    """A code, and how its loops lie to each other.
+
+    ``outside`` are darts of the unbounded cell. ``same_cell`` are pairs of darts that have one cell on their left,
+    where the crossings do not tell. ``bridges`` are darts that start at the feet of bridges, ``places`` of marks.
+    """
+
+    code: Code
+    outside: Ints
+    same_cell: Ints
+    bridges: Ints = np.empty((0, 2), dtype=np.int64)
+    places: Floats = np.empty((0, 2))
+
+
+def oriented(partner: Ints, ccw: Bools, outer: int) -> tuple[Map, int, bool]:
+    """Return the map of one curve in the direction in which it is used, its turning number, and if it was turned round.
+
+    That is done if it makes all winding numbers positive; if nothing does, for a positive turning number.
+    """
+    left, turning = left_windings(ccw, outer), whitney_turning_number(partner, ccw, outer)
+    no_negative, no_positive = left.min() > 0, left.max() <= 0
+    turned_round = not (no_negative or (turning >= 0 and not no_positive))
+    if turned_round:
+        partner, ccw, outer = reversed_code(partner, ccw, outer)
+        left, turning = left_windings(ccw, outer), -turning
+    none = np.zeros(len(partner), dtype=np.int64)
+    code = Code(partner, ccw, np.array([0, len(partner)]), left, none[:0], none)
+    return Map(code, np.array([outer]), np.empty((0, 2), dtype=np.int64)), turning, turned_round
+
+
+def walked_round(drawn: Map) -> tuple[Ints, Ints, Ints]:
+    """Return the dart after each, and the boundaries of all cells: where each starts, and their darts."""
+    following = next_darts(drawn.code.partner, drawn.code.ccw, drawn.code.first_visit)
+    boundaries = cell_boundaries(following, int(drawn.outside[0]))
+    if len(drawn.outside) + len(drawn.same_cell) > 1:
+        outside = np.stack([np.full_like(drawn.outside, drawn.outside[0]), drawn.outside], axis=1)
+        boundaries = joined_cells(*boundaries, np.concatenate([drawn.same_cell, outside]))
+    return following, *boundaries
+
+
+def in_bounded_cells(plain: Map) -> list[int]:
+    """Return which of the pairs of darts with the same cell lie in a bounded one."""
+    if not len(plain.same_cell):
+        return []
+    inner: list[int] = np.flatnonzero(cell_of_each_dart(*walked_round(plain)[1:])[plain.same_cell[:, 0]]).tolist()
+    return inner
+
+
+def cell_of_each_dart(cell_start: Ints, cell_darts: Ints) -> Ints:
+    """Return the cell on the left of each dart, given the darts cell by cell."""
+    cell_of_dart = np.empty_like(cell_darts)
+    cell_of_dart[cell_darts] = np.repeat(np.arange(len(cell_start) - 1), np.diff(cell_start))
+    return cell_of_dart
+
+
+def numbered_crossings(partner: Ints) -> Ints:
+    """Return the crossing of each visit, in the order of first visits; −1 at marks."""
+    visit = np.arange(len(partner))
+    number = np.cumsum(visit < partner) - 1
+    return np.where(visit == partner, -1, number[np.minimum(visit, partner)])
+
+
+def outer_dart(points: Floats, visit_edge: Ints) -> int:
+    """Return a dart with the unbounded cell on its left: at the leftmost vertex, on its convex side."""
+    x, y = points.T
+    leftmost = np.flatnonzero(x == x.min())
+    corner = int(leftmost[y[leftmost].argmin()])
+    before, after = points[corner - 1], points[(corner + 1) % len(points)]
+    border = (int(np.searchsorted(visit_edge, corner)) - 1) % max(len(visit_edge), 1)
+    return 2 * border + int(cross_sign(before, points[corner], points[corner], after) > 0)

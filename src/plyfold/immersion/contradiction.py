@@ -1,0 +1,65 @@
+"""Why no gluing of the sheets fits: crossings, cusps and bridges whose conditions contradict each other."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import count
+
+import numpy as np
+
+from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrays import Ints
+from plyfold.clock import NO_LIMIT, Clock
+from plyfold.immersion.corners import feet
+from plyfold.immersion.gluings import open_whole
+from plyfold.immersion.obstructions import obstruction
+from plyfold.immersion.peeling import OutlineSeams, outline_seams, peel, reasons
+from plyfold.immersion.search_map import SearchMap, search_map_of
+from plyfold.obstruction import Obstruction
+from plyfold.sat import minimal_core
+
+__all__ = ["no_gluing"]
+
+# Conflicts after which the solver may give up when it is asked whether one crossing less is a contradiction too.
+_EFFORT = 5000
+
+
+def no_gluing(arranged: Arrangement, clock: Clock = NO_LIMIT) -> Obstruction:
+    """Return the obstruction of an outline whose sheets cannot be glued.
+
+    Its value are visits: at crossings, cusps and feet of bridges around which gluings do not agree, whatever they are.
+    They are as few as leaving out one after the other can reach with little effort, and in time.
+    """
+    search_map = search_map_of(arranged)
+    seams = outline_seams(search_map.map)
+    visits = sorted({*_visits(search_map, _contradicting(seams, clock)).tolist()})
+    where = tuple((x, y) for x, y in arranged.visit_point[visits].tolist()) if arranged.outline else ()
+    sentence = f"No immersion: {_in_words(arranged, visits)} contradict each other."
+    return obstruction(arranged, "no gluing", sentence, where, tuple(visits))
+
+
+def _contradicting(seams: OutlineSeams, clock: Clock) -> Ints:
+    """Return crossings and feet that contradict each other, given the names of the sheets alone."""
+    known = peel(seams)
+    concerned = reasons(seams, known) if known.is_contradiction else np.arange(len(seams.around))
+    named = peel(replace(seams, around=seams.around[:0], bottom=seams.bottom[:0]))
+    whole = open_whole(seams, named)
+    fresh = count(whole.n_variables + 1)
+    given = list(whole.of_seams(fresh))
+    demands = [list(whole.of_meeting(number, fresh)) for number in concerned.tolist()]
+    return np.asarray(concerned[minimal_core(demands, given, clock, _EFFORT)])
+
+
+def _visits(search_map: SearchMap, meetings: Ints) -> Ints:
+    """Return a visit of the outline at each crossing or foot of the search map: at crossings the first one."""
+    visits = search_map.visits_at(np.append(np.flatnonzero(search_map.map.ccw), feet(search_map.map))[meetings])
+    return np.minimum(visits, search_map.arrangement.partner[visits])
+
+
+def _in_words(arranged: Arrangement, visits: list[int]) -> str:
+    marks = [visit for visit in visits if arranged.partner[visit] == visit]
+    cusps = sum(bool(arranged.cusp_index[visit]) for visit in marks)
+    numbers = {"crossing": len(visits) - len(marks), "cusp": cusps, "foot of a bridge": len(marks) - cusps}
+    plural = {"foot of a bridge": "feet of bridges"}
+    named = [f"{n} {what if n == 1 else plural.get(what, what + 's')}" for what, n in numbers.items() if n]
+    return "the gluings around " + " and ".join(named)

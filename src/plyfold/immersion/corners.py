@@ -1,0 +1,53 @@
+"""What meets at the crossings and at the feet of bridges: the four seams around each, whose gluings must agree.
+
+Strand b crosses strand a from right to left. The *top* cell is left of both strands, the *bottom* cell right of both.
+So a comes along the top and leaves along the bottom, and b comes along the bottom and leaves along the top. From the
+bottom cell to the top one lead two ways, and every sheet must come out the same:
+
+    b_top ∘ a_bottom = a_top ∘ b_bottom.
+
+A *bridge* is a strand without sheets of its own. It begins or ends at a loop, so one of its halves is missing there:
+along that, every sheet is glued to itself.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrays import Ints
+
+__all__ = ["NO_SEAM", "corners", "corners_at_feet", "feet"]
+
+# In place of the half of a bridge that is not there.
+NO_SEAM = -1
+
+
+def corners(arrangement: Arrangement) -> Ints:
+    """Return for each crossing its borders: rows (a to top, a to bottom, b to top, b to bottom), shape (k, 4)."""
+    a = np.flatnonzero(arrangement.ccw)
+    b = arrangement.partner[a]
+    before, after = arrangement.border_before, arrangement.border_after
+    return np.stack([before[a], after[a], after[b], before[b]], axis=1)
+
+
+def feet(arrangement: Arrangement) -> Ints:
+    """Return the visits at which the feet of bridges are: all first feet, then all second ones, shape (2 b,)."""
+    dart = arrangement.bridges.T.ravel()
+    border = dart // 2
+    return np.asarray(arrangement.start_visit[np.where(dart % 2 == 0, border, arrangement.next_border[border])])
+
+
+def corners_at_feet(arrangement: Arrangement) -> Ints:
+    """Return the same for the feet of bridges, shape (2 b, 4); bridge j has number n_borders + j.
+
+    A bridge that sets out to the left of a loop, or comes to it from the right, crosses it as strand b; the other way
+    round it is strand a.
+    """
+    visits, bridges = feet(arrangement), len(arrangement.bridges)
+    before, after = arrangement.border_before[visits], arrangement.border_after[visits]
+    bridge, nothing = arrangement.n_borders + np.tile(np.arange(bridges), 2), np.full(2 * bridges, NO_SEAM)
+    sets_out, on_left = np.arange(2 * bridges) < bridges, arrangement.bridges.T.ravel() % 2 == 0
+    upper, lower = np.where(on_left, bridge, nothing), np.where(on_left, nothing, bridge)
+    as_b, as_a = np.stack([before, after, upper, lower], axis=1), np.stack([upper, lower, after, before], axis=1)
+    return np.where((sets_out == on_left)[:, None], as_b, as_a)

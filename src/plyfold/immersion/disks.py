@@ -1,0 +1,119 @@
+"""All disks that a curve bounds, after Blank: the groupings of a word (§2.3 of the paper)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from plyfold.arrangement.arrangement import Arrangement
+from plyfold.clock import UNWATCHED, Watch
+from plyfold.immersion.curls import draw_out_cusps
+from plyfold.immersion.dual_tree import DualTree, grow_dual_tree
+from plyfold.immersion.grouping import (
+    Grouping,
+    Groupings,
+    count_groupings,
+    find_groupings,
+    list_groupings,
+    nth_grouping,
+)
+from plyfold.immersion.immersion import Immersion, require_memory_for_gluing
+from plyfold.immersion.obstructions import obstruction
+from plyfold.immersion.propagation import Conflict
+from plyfold.immersion.search_map import SearchMap, search_map_of
+from plyfold.immersion.sewing import glue_sheets
+from plyfold.immersion.word import write_word
+from plyfold.obstruction import Obstruction
+
+__all__ = ["Disks", "count_disks", "find_disks", "list_disks", "no_grouping", "nth_disk"]
+
+# Above this many ascending links, the conflict that an obstruction names is not made minimal.
+_MINIMISE_UP_TO = 300
+
+
+@dataclass(frozen=True, eq=False)
+class Disks:
+    """All disks with one curve as their boundary; tree and word are those of the search map."""
+
+    search_map: SearchMap
+    tree: DualTree
+    groupings: Groupings
+
+
+def find_disks(arranged: Arrangement, watch: Watch = UNWATCHED) -> Disks | None:
+    """Return all disks that a curve without a visible obstruction bounds; None if its word has no grouping."""
+    search_map = search_map_of(arranged)
+    tree = grow_dual_tree(search_map.map)
+    groupings = find_groupings(write_word(tree), watch)
+    return Disks(search_map, tree, groupings) if isinstance(groupings, Groupings) else None
+
+
+def list_disks(disks: Disks, watch: Watch = UNWATCHED) -> Iterator[Immersion]:
+    """List them, each once, in a stable order."""
+    return (_glued(disks, grouping) for grouping in list_groupings(disks.groupings, watch))
+
+
+def count_disks(disks: Disks) -> int:
+    """Count them, exactly."""
+    return count_groupings(disks.groupings)
+
+
+def nth_disk(disks: Disks, index: int) -> Immersion:
+    """Return the one that is listed at a number."""
+    return _glued(disks, nth_grouping(disks.groupings, index))
+
+
+def _glued(disks: Disks, grouping: Grouping) -> Immersion:
+    require_memory_for_gluing(disks.search_map.arrangement)
+    word, link = disks.groupings.word, disks.tree.link.tolist()
+    partner = {link[word.cells[label]]: word.border[letter] for label, letter in grouping.items()}
+    return disks.search_map.carried_back(glue_sheets(disks.search_map.map, disks.tree, partner))
+
+
+# ---- why there is none (§2.4 of the paper) --------------------------------------------------------------------------
+
+
+def no_grouping(arranged: Arrangement) -> Obstruction:
+    """Return the obstruction of a curve whose word has no grouping: cells whose ways out are in conflict."""
+    drawn_out = draw_out_cusps(arranged)
+    tree = grow_dual_tree(drawn_out.arrangement)
+    cells = _conflict(tree)
+    if len(cells) == 1:
+        sentence = "No grouping: the way out of a cell can be joined to no border that would cut off a disk."
+    else:
+        sentence = f"No grouping: the ways out of {len(cells)} cells cannot be joined to borders without crossing."
+    links = tuple(drawn_out.border_at(tree.link[cells]).tolist())
+    return obstruction(arranged, "no grouping", sentence, _places(arranged, cells, links), links)
+
+
+def _places(arranged: Arrangement, cells: list[int], links: tuple[int, ...]) -> tuple[tuple[float, float], ...]:
+    """Return a point in each cell, and for those inside curls the cusp."""
+    if arranged.outline is None:
+        return ()
+    cusps = arranged.visit_point[arranged.start_visit[list(links)]].tolist()
+    return tuple(
+        arranged.cell_point(cell) if cell < arranged.n_cells else (x, y)
+        for cell, (x, y) in zip(cells, cusps, strict=True)
+    )
+
+
+def _conflict(tree: DualTree) -> list[int]:
+    """Return cells whose ascending links cannot all be joined; as few as leaving out some at a time can reach.
+
+    Begins with those that led to the contradiction. Whole stretches are left out first, each half as long as those
+    before, and single cells at last.
+    """
+    cells = _contradiction(tree, tree.ascending_cells())
+    stretch = len(cells) if len(cells) <= _MINIMISE_UP_TO else 0
+    while stretch > 1:
+        stretch = -(-stretch // 2)
+        for start in range(0, len(cells), stretch)[::-1]:
+            cells = _contradiction(tree, cells[:start] + cells[start + stretch :]) or cells
+    return cells
+
+
+def _contradiction(tree: DualTree, cells: list[int]) -> list[int]:
+    """Return those of some cells that contradict each other; none if their links can be joined."""
+    word = write_word(tree, cells)
+    found = find_groupings(word)
+    return [word.cells[label] for label in found.labels] if isinstance(found, Conflict) else []

@@ -1,0 +1,145 @@
+"""Why there is no immersion, as numbers alone show: an impossible cusp, the turning number, a winding number (§2.4)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrays import Ints
+from plyfold.graphs import components
+from plyfold.immersion.immersion import loop_characteristics
+from plyfold.immersion.shorter_lobes import place_of_turning
+from plyfold.obstruction import Obstruction
+
+__all__ = [
+    "clusters_of_loops",
+    "impossible_cusp",
+    "impossible_turning",
+    "is_visibly_no_disk",
+    "loops_apart",
+    "may_bound_disk",
+    "negative_winding",
+    "obstruction",
+    "visible_obstruction",
+]
+
+
+def may_bound_disk(arranged: Arrangement) -> bool:
+    """Tell whether every surface bounded by an outline is a disk: one boundary, and Euler characteristic 1."""
+    return arranged.n_loops == 1 == arranged.euler_characteristic
+
+
+def is_visibly_no_disk(arranged: Arrangement) -> bool:
+    """Tell whether numbers alone show that an outline bounds no disk, without looking for the place."""
+    return not may_bound_disk(arranged) or bool(arranged.winding.min() < 0) or len(_impossible_cusps(arranged)) > 0
+
+
+def visible_obstruction(arranged: Arrangement, connected: bool = False) -> Obstruction | None:
+    """Return what numbers alone show to be in the way of an immersion, if anything; or of one in a single piece."""
+    found = impossible_cusp(arranged)
+    found = impossible_turning(arranged, connected) if found is None else found
+    found = negative_winding(arranged) if found is None else found
+    return loops_apart(arranged) if found is None and connected else found
+
+
+def obstruction(
+    arranged: Arrangement, reason: str, sentence: str, where: tuple[tuple[float, float], ...], value: object
+) -> Obstruction:
+    """Return the obstruction of an outline, which its picture shows."""
+    return Obstruction(reason, sentence, where, value, arranged)
+
+
+def _impossible_cusps(arranged: Arrangement) -> Ints:
+    """Return the visits at cusps with too few sheets on their left: one more than the index is needed."""
+    if not arranged.cusp_index.any():
+        return np.empty(0, dtype=np.int64)
+    sheets = arranged.winding[arranged.left_cell[arranged.border_after]]
+    return np.flatnonzero((arranged.cusp_index > 0) & (sheets < arranged.cusp_index + 1))
+
+
+def impossible_cusp(arranged: Arrangement) -> Obstruction | None:
+    """Return the obstruction of a cusp that cannot be one, if there is such: the first of them.
+
+    A surface that winds m times more than one sees round a point of its boundary lies there m + 1 times on itself.
+    """
+    wrong = _impossible_cusps(arranged)
+    if not len(wrong):
+        return None
+    visit = int(wrong[0])
+    border = int(arranged.border_after[visit])
+    sheets, needed = int(arranged.winding[arranged.left_cell[border]]), int(arranged.cusp_index[visit]) + 1
+    place = f"point {int(arranged.visit_edge[visit])}" if arranged.outline else f"the start of border {border}"
+    where = tuple((x, y) for x, y in arranged.visit_point[[visit]].tolist()) if arranged.outline else ()
+    sentence = (
+        f"No cusp of index {needed - 1} can be at {place}: it needs {needed} sheets on its left, and there "
+        f"{'is' if sheets == 1 else 'are'} {sheets}."
+    )
+    return obstruction(arranged, "cusp", sentence, where, sheets)
+
+
+def clusters_of_loops(arranged: Arrangement) -> Ints:
+    """Return a number for each loop: the same for loops that cross, or of which some lie inside others.
+
+    What loops of different clusters bound has nothing to do with each other.
+    """
+    if arranged.n_loops == 1:
+        return np.zeros(1, dtype=np.int64)
+    group = arranged.group_of_loop
+    feet = group[arranged.loop_of_border[arranged.bridges // 2]]
+    return components(int(group.max()) + 1, *feet.T)[group]
+
+
+def impossible_turning(arranged: Arrangement, connected: bool = False) -> Obstruction | None:
+    """Return the obstruction of loops that turn too often, or by an odd number too few times, if there are such.
+
+    The outline of a connected surface that lies flat turns 2 times less 2 for each handle and 1 for each of its loops.
+    So c loops bound something only if they turn c times, or less by an even number; one piece, if 2 − c times, or less.
+    """
+    turns, cluster = np.array(loop_characteristics(arranged)), clusters_of_loops(arranged)
+    for number in range(int(cluster.max()) + 1):
+        members = np.flatnonzero(cluster == number)
+        chi, loops = int(turns[members].sum()), len(members)
+        if chi > (2 - loops if connected else loops) or (loops - chi) % 2:
+            return obstruction(
+                arranged,
+                "turning number",
+                _turning_in_words(arranged, members, connected),
+                place_of_turning(arranged),
+                chi,
+            )
+    return None
+
+
+def _turning_in_words(arranged: Arrangement, members: Ints, connected: bool) -> str:
+    loops = len(members)
+    turning = sum(arranged.turning_numbers[loop] for loop in members.tolist())
+    cusps = turning - sum(loop_characteristics(arranged)[loop] for loop in members.tolist())
+    some = f" of {arranged.n_loops}" if loops < arranged.n_loops else ""
+    who = "curve turns" if arranged.n_loops == 1 else f"{loops}{some} curves together turn"
+    at_cusps = f", {cusps} of them at cusps," if cusps else ""
+    what = "a surface in one piece" if connected and loops > 1 else "a surface"
+    most = 2 - loops if connected else loops
+    apart = "apart from cusps, " if cusps else ""
+    often = {1: "once"}.get(most, f"{most} times")
+    return f"The {who} {turning} times{at_cusps}; {apart}what bounds {what} turns {often}, or less by an even number."
+
+
+def loops_apart(arranged: Arrangement) -> Obstruction | None:
+    """Return the obstruction of loops that cannot bound one piece, because no sheet reaches from some to the others."""
+    clusters = int(clusters_of_loops(arranged).max()) + 1
+    if clusters == 1:
+        return None
+    sentence = f"No surface in one piece: the curves lie in {clusters} places apart from each other."
+    return obstruction(arranged, "pieces", sentence, (), clusters)
+
+
+def negative_winding(arranged: Arrangement) -> Obstruction | None:
+    """Return the obstruction of a negative winding number, if there is one: the lowest of them."""
+    lowest = int(np.argmin(arranged.winding))
+    winding = int(arranged.winding[lowest])
+    if winding >= 0:
+        return None
+    who = "curve winds" if arranged.n_loops == 1 else "curves wind"
+    sentence = f"The {who} {winding} times around a cell, and cloth cannot cover it a negative number of times."
+    where = (arranged.cell_point(lowest),) if arranged.outline else ()
+    return obstruction(arranged, "negative winding", sentence, where, winding)

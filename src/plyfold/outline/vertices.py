@@ -1,0 +1,158 @@
+"""The vertices of one closed polyline: cleaned of what says nothing, and refused where they are no curve."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from plyfold.arrays import Floats, Ints
+from plyfold.errors import CurveError, InputError
+from plyfold.outline.points import Repair, as_planar_points
+from plyfold.predicates import orient
+
+__all__ = ["Vertices", "cleaned", "marked", "naming_the_curve", "whole_turns"]
+
+
+class Vertices(NamedTuple):
+    """The vertices that are left of the points of a closed polyline.
+
+    Parameters
+    ----------
+    points : (n, 2) float
+        No two consecutive ones equal.
+    rows : (n,) int
+        The row of each in the array as it was given.
+    given : (m, 2) float
+        All rows.
+    repairs : tuple of Repair
+        What was left out.
+    cusps : (n,) int
+        The index of each vertex as a cusp: 0 unless it is known.
+    """
+
+    points: Floats
+    rows: Ints
+    given: Floats
+    repairs: tuple[Repair, ...]
+    cusps: Ints
+
+
+def cleaned(points: npt.ArrayLike) -> Vertices:
+    """Return the vertices of a closed polyline; raise CurveError if the points make none."""
+    planar, flattened = as_planar_points(points)
+    given = _without_closing_point(planar)
+    rows = _fresh_rows(given)
+    # All of them, mostly; a copy would cost more than the rest.
+    kept = given if len(rows) == len(given) else given[rows]
+    _refuse_degenerate(kept)
+    none = np.zeros(len(kept), dtype=np.int64)
+    for array in (kept, rows, none):
+        array.setflags(write=False)
+    return Vertices(kept, rows, planar, (*flattened, *_dropped_points(given, rows)), none)
+
+
+def marked(vertices: Vertices, index: npt.ArrayLike) -> Ints:
+    """Return the index of the cusp at each vertex, given one for each row; those of points left out are added up.
+
+    Raises
+    ------
+    CurveError
+        If an index is no whole number from 0 up, or if there are not as many as rows.
+    """
+    given = np.asarray(index)
+    n = len(vertices.points)
+    if given.ndim != 1 or len(given) not in (len(vertices.given), n):
+        raise CurveError(
+            f"the cusps of a loop of {n} points have the shape {given.shape}",
+            hint="give one whole number for each point, mostly 0",
+        )
+    for row in np.flatnonzero(given) if given.dtype.kind in "iu" else range(len(given)):
+        whole_turns(given[row], vertices.given[row])
+    total = np.zeros(n, dtype=np.int64)
+    np.add.at(total, _vertex_of_row(vertices, len(given)), given)
+    total.setflags(write=False)
+    return total
+
+
+def whole_turns(index: object, place: npt.ArrayLike | None = None) -> int:
+    """Return the index of a cusp as an int; refuse what is no whole number from 0 up."""
+    if isinstance(index, bool) or not isinstance(index, int | np.integer) or index < 0:
+        raise CurveError(
+            f"the index of a cusp counts full turns and is a whole number from 0 up, not {index}",
+            where=[] if place is None else [np.asarray(place)],
+        )
+    return int(index)
+
+
+@contextmanager
+def naming_the_curve(number: int, count: int) -> Iterator[None]:
+    """Say in an error which of several curves it is about."""
+    try:
+        yield
+    except InputError as error:
+        if count == 1:
+            raise
+        raise type(error)(f"curve {number} of {count}: {error.message}", error.where, error.hint) from error
+
+
+def _vertex_of_row(vertices: Vertices, count: int) -> Ints:
+    """Return the vertex that each row stands for: itself, or the one that it repeats."""
+    if count == len(vertices.points):
+        return np.arange(count)
+    vertex = np.searchsorted(vertices.rows, np.arange(count), side="right") - 1
+    # What comes after the last vertex repeats it, or else the first one.
+    after = np.arange(count) > vertices.rows[-1]
+    vertex[after & (vertices.given == vertices.points[0]).all(axis=1)] = 0
+    return vertex
+
+
+def _without_closing_point(points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    closed = len(points) > 1 and np.array_equal(points[0], points[-1])
+    return points[:-1] if closed else points
+
+
+def _fresh_rows(points: npt.NDArray[np.float64]) -> npt.NDArray[np.int64]:
+    """Return the first row of each run of equal points; a run across the end belongs to the first point."""
+    x, y = points.T
+    if not ((x[1:] == x[:-1]) & (y[1:] == y[:-1])).any() and not np.array_equal(points[:1], points[-1:]):
+        return np.arange(len(points))
+    fresh = (points != np.roll(points, 1, axis=0)).any(axis=1)
+    fresh[:1] = True
+    last = np.flatnonzero(fresh)[-1:]
+    fresh[last] = (last == 0) | (points[last] != points[:1]).any(axis=1)
+    return np.flatnonzero(fresh)
+
+
+def _dropped_points(points: npt.NDArray[np.float64], kept: npt.NDArray[np.int64]) -> list[Repair]:
+    if len(kept) == len(points):
+        return []
+    places = dict.fromkeys((x, y) for x, y in np.delete(points, kept, axis=0).tolist())
+    return [Repair("repeated point dropped", place, 0.0) for place in places]
+
+
+def _refuse_degenerate(points: npt.NDArray[np.float64]) -> None:
+    if _has_a_corner(points):
+        return
+    distinct = np.unique(points, axis=0)
+    if len(distinct) < 3:
+        count = "no points" if len(distinct) == 0 else f"only {len(distinct)} different point(s)"
+        raise CurveError(f"the curve has {count}", where=distinct, hint="a closed curve needs at least three")
+    # In lexicographic order the extreme points differ, and on a line they are its two ends.
+    if not orient(distinct[0], distinct[-1], distinct).any():
+        hint = "a curve that runs back and forth on one line bounds nothing"
+        raise CurveError("all points lie on one line", where=[distinct[0], distinct[-1]], hint=hint)
+
+
+def _has_a_corner(points: npt.NDArray[np.float64]) -> bool:
+    """Tell whether one of the first points, or the one that seems farthest, is off the line through the first two."""
+    if len(points) < 3:
+        return False
+    if orient(points[0], points[1], points[2:6]).any():
+        return True
+    x, y = (points - points[0]).T
+    farthest = int(np.abs(x[1] * y - y[1] * x).argmax())
+    return bool(orient(points[0], points[1], points[farthest]))
