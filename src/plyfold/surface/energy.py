@@ -189,8 +189,6 @@ def _ties(mesh: LiftedMesh, area: Floats, strength: float) -> Any:
 
     Pieces that lie apart from all others are tied by one vertex each, so that their heights are known.
     """
-    from scipy.sparse import coo_array
-
     n = len(area)
     lower, upper = mesh.stacked[mesh.piece[mesh.stacked[:, 0]] != mesh.piece[mesh.stacked[:, 1]]].T
     apart = np.unique(mesh.heap, return_index=True)[1][1:]
@@ -198,7 +196,7 @@ def _ties(mesh: LiftedMesh, area: Floats, strength: float) -> Any:
     weight = np.concatenate([strength * np.minimum(area[lower], area[upper]), np.ones(len(apart))])
     rows, columns = np.concatenate([*ends, *ends]), np.concatenate([*ends, *ends[::-1]])
     signs = np.concatenate([weight, weight, -weight, -weight])
-    return coo_array((signs, (rows, columns)), shape=(n, n)).tocsr()
+    return summed(signs, rows, columns, (n, n))
 
 
 def _alone(mesh: LiftedMesh) -> Bools:
