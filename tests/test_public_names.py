@@ -57,7 +57,7 @@ def test_public_names():
         "layerings",
         "least_intersecting_layering",
         "lift",
-        "loop_turning_numbers",
+        "lobe_turning_numbers",
         "map_disk",
         "nicest_layering",
         "paper",

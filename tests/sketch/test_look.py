@@ -145,13 +145,13 @@ def test_counts_in_words_never_exceed_the_count(count):
 def test_without_its_kink_the_loop_is_a_disk(name):
     answer = asked(CURVES[name].curve.points.tolist())
     kink = answer["verdict"]["kink"]
-    assert len(kink["where"]) == len(kink["loops"]) == (2 if name == "kinked-circle" else 1)
-    for where, loop in zip(kink["where"], kink["loops"], strict=True):
+    assert len(kink["where"]) == len(kink["lobes"]) == (2 if name == "kinked-circle" else 1)
+    for where, lobe in zip(kink["where"], kink["lobes"], strict=True):
         assert where in answer["crossings"]
-        assert loop[0] == where
+        assert lobe[0] == where
         assert where in kink["points"]
     assert asked(kink["points"])["verdict"]["immersible"]
-    kept = {tuple(p) for p in kink["points"]} | {tuple(p) for loop in kink["loops"] for p in loop}
+    kept = {tuple(p) for p in kink["points"]} | {tuple(p) for lobe in kink["lobes"] for p in lobe}
     assert {tuple(p) for p in answer["points"]} <= kept
 
 

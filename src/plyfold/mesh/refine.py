@@ -20,6 +20,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+import pythoncdt as cdt
 
 from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
@@ -83,8 +84,6 @@ class _Covered:
 
     def add_points(self, criterion: str, threshold: float, shortest: float, limit: int) -> int:
         """Split bad triangles, but no edge below the shortest length; return how many points were added."""
-        import pythoncdt as cdt
-
         before = self.library.vertices_count()
         named = getattr(cdt.RefinementCriterion, criterion)
         self.watch.wait_for(
@@ -216,8 +215,6 @@ def _corners(library: Any, triangles: Ints) -> tuple[Ints, Floats]:
 
 def _bad_sides(covered: _Covered) -> Floats:
     """Return the shortest sides of triangles with sharp angles that no sharp corner of the drawing makes."""
-    import pythoncdt as cdt
-
     threshold = float(np.radians(_SMALLEST_ANGLE))
     found = covered.library.find_unrefined_triangles(cdt.RefinementCriterion.SMALLEST_ANGLE, threshold)
     found = [number for number in found if number not in covered.uncovered]
@@ -379,7 +376,8 @@ def chain_of(arrangement: Arrangement) -> tuple[Ints, Ints, Ints]:
 def _visits_before_points(arrangement: Arrangement, outline: Outline) -> Ints:
     """Return how many visits come before each point of an outline, its own as a cusp included, on earlier loops too."""
     edge = arrangement.visit_edge
-    return np.searchsorted(edge, np.arange(len(outline))) + np.concatenate(outline.cusps).astype(bool)
+    before = np.searchsorted(edge, np.arange(len(outline)))
+    return np.asarray(before + np.concatenate(outline.cusps).astype(bool), dtype=np.int64)
 
 
 def _border_after(arrangement: Arrangement, passed: Ints, first_piece: Ints) -> Ints:
@@ -410,8 +408,6 @@ def _unit_square(points: Floats) -> tuple[Floats, Floats, float]:
 
 def constrained(outline: NodedCurve, watch: Watch = UNWATCHED) -> Any:
     """Return the constrained Delaunay triangulation; its first three vertices are those of an enclosing triangle."""
-    import pythoncdt as cdt
-
     edges = np.stack([outline.chain, outline.chain_end], axis=1)
     mesh = cdt.Triangulation(cdt.VertexInsertionOrder.AUTO, cdt.IntersectingConstraintEdges.NOT_ALLOWED, 0.0)
     try:
@@ -427,7 +423,7 @@ def constrained(outline: NodedCurve, watch: Watch = UNWATCHED) -> Any:
 
 
 def _insert(mesh: Any, points: Floats, edges: Any) -> None:
-    mesh.insert_vertices(points)
+    mesh.insert_vertices(np.ascontiguousarray(points))
     mesh.insert_edges(edges)
 
 

@@ -118,7 +118,7 @@ def _no_disk(drawn: Arrangement, obstruction: Obstruction) -> dict[str, Any]:
 def _kink(kink: Kink) -> dict[str, Any]:
     return {
         "where": [list(place) for place in kink.places],
-        "loops": [loop.tolist() for loop in kink.loops],
+        "lobes": [lobe.tolist() for lobe in kink.lobes],
         "points": kink.rest.tolist(),
     }
 

@@ -121,7 +121,7 @@ def _half_edges_at(mesh: CellTriangulation, cusps: Ints) -> Ints:
     other = np.isin(end, cusps) & ((mesh.twin < 0) | ~at_cusp[mesh.twin])
     found = np.flatnonzero((at_cusp & ~(np.isin(end, cusps) & (start > end))) | (other & ~at_cusp))
     length = np.abs(mesh.points[start[found]] - mesh.points[end[found]]).max(axis=1)
-    return found[length > _SHORTEST * np.spacing(np.abs(mesh.points).max())]
+    return np.asarray(found[length > _SHORTEST * np.spacing(np.abs(mesh.points).max())])
 
 
 def _seen_from(mesh: CellTriangulation, cusps: Ints) -> Ints:

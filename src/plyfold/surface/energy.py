@@ -21,7 +21,7 @@ import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.matrices import factorised
+from plyfold.matrices import diagonal_matrix, factorised, summed
 from plyfold.ragged import next_in_rows
 from plyfold.surface.glue import LiftedMesh, numbers_of_copies
 
@@ -64,9 +64,7 @@ class Cloth:
     @cached_property
     def stiffness(self) -> Any:
         """The matrix K; sparse, with about 19 entries in a row."""
-        from scipy.sparse import diags_array
-
-        return self.bending * (self.laplacian @ diags_array(1 / self.area) @ self.laplacian) + self.laplacian
+        return self.bending * (self.laplacian @ diagonal_matrix(1 / self.area) @ self.laplacian) + self.laplacian
 
     def energy(self, z: Floats) -> float:
         """Return ½ zᵀ K z."""
@@ -79,9 +77,7 @@ class Cloth:
 
     def near(self, watch: Watch) -> Any:
         """Return the factors of M + ℓ² L."""
-        from scipy.sparse import diags_array
-
-        return factorised(diags_array(self.area) + self.bending * self.laplacian, watch)
+        return factorised(diagonal_matrix(self.area) + self.bending * self.laplacian, watch)
 
 
 def cloth_of(points: Floats, mesh: LiftedMesh, stiffness: float, flat: float, watch: Watch = UNWATCHED) -> Cloth:
@@ -143,8 +139,6 @@ def held_response(cloth: Cloth, held: Bools, watch: Watch = UNWATCHED) -> Respon
 
 def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[Any, Floats]:
     """Return the matrix of ½ ∫ w |∇z|² and the area that belongs to each vertex."""
-    from scipy.sparse import coo_array
-
     triangle = corners[faces]
     n = len(corners)
     edges = np.roll(triangle, -1, axis=1) - np.roll(triangle, 1, axis=1)
@@ -155,7 +149,7 @@ def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[
     local += _TIE * (3 * np.eye(3) - 1)
     local *= weight[:, None, None]
     rows, columns = np.repeat(faces, 3, axis=1).ravel(), np.tile(faces, (1, 3)).ravel()
-    laplacian = coo_array((local.ravel(), (rows, columns)), shape=(n, n)).tocsr()
+    laplacian = summed(local.ravel(), rows, columns, (n, n))
     area = np.bincount(faces.ravel(), np.repeat(weight * double_area / 6, 3), minlength=n)
     return laplacian, np.maximum(area, _SMALLEST * area.mean())
 

@@ -93,8 +93,8 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
     Returns
     -------
     (v,) float
-        Heights of the mesh's vertices, the lowest 0 unless there are pins, also of pieces that lie over no other; all 0 if no two sheets overlap and nothing
-        is pinned. For each row (lower, upper) of ``mesh.stacked``, ``z[lower] + gap <= z[upper]`` holds exactly, or
+        Heights of the mesh's vertices, the lowest 0 unless there are pins, also of pieces that lie over no other; all 0
+        if no two sheets overlap and nothing is pinned. For each row (lower, upper) of ``mesh.stacked``, ``z[lower] + gap <= z[upper]`` holds exactly, or
         with a share of the gap near intersections.
 
     Raises

@@ -124,7 +124,7 @@ function paintDirection({ context, theme, at }, points, closed) {
 function paintAnswer(scene) {
   const { answer, lie, theme } = scene;
   const { where } = answer.verdict;
-  scene.kink?.loops.forEach((loop) => line(scene, loop, { closed: true, colour: theme.wrong, width: 4 }));
+  scene.kink?.lobes.forEach((lobe) => line(scene, lobe, { closed: true, colour: theme.wrong, width: 4 }));
   answer.crossings.forEach((place) => paintDot(scene, place, 3, theme.accent));
   answer.cells.forEach((cell) => paintNumber(scene, cell));
   [...where, ...(lie?.obstruction?.where ?? [])].forEach((place) => paintCross(scene, place));

@@ -71,8 +71,8 @@ export const errorShown = (state) => (isAnswered(state) ? (state.answer.error ??
 export function smallKink(state) {
   const kink = answerShown(state)?.verdict.kink;
   if (!kink) return null;
-  const loops = kink.loops.reduce((sum, loop) => sum + lengthOf(loop), 0);
-  return loops <= (loops + lengthOf(kink.points)) / 4 ? kink : null;
+  const lobes = kink.lobes.reduce((sum, lobe) => sum + lengthOf(lobe), 0);
+  return lobes <= (lobes + lengthOf(kink.points)) / 4 ? kink : null;
 }
 
 /** How the cloth lies, if that is about what is seen. */
