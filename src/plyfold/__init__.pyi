@@ -9,7 +9,7 @@ from . import paper as paper
 from .arrangement.arrangement import Arrangement as Arrangement
 from .arrangement.arrangement import arrange as arrange
 from .arrangement.gauss import GaussCode as GaussCode
-from .arrangement.loops import loop_turning_numbers as loop_turning_numbers
+from .arrangement.lobes import lobe_turning_numbers as lobe_turning_numbers
 from .disk.unwrap import UnwoundDisk as UnwoundDisk
 from .disk.unwrap import map_disk as map_disk
 from .disk.unwrap import unwrap as unwrap

@@ -8,7 +8,7 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.graphs import components
 from plyfold.immersion.immersion import loop_characteristics
-from plyfold.immersion.shorter_loops import place_of_turning
+from plyfold.immersion.shorter_lobes import place_of_turning
 from plyfold.obstruction import Obstruction
 
 __all__ = [
@@ -45,8 +45,8 @@ def visible_obstruction(arranged: Arrangement, connected: bool = False) -> Obstr
 def obstruction(
     arranged: Arrangement, reason: str, sentence: str, where: tuple[tuple[float, float], ...], value: object
 ) -> Obstruction:
-    """Return the obstruction of an outline; its picture shows one curve, several have none yet."""
-    return Obstruction(reason, sentence, where, value, arranged if arranged.n_loops == 1 else None)
+    """Return the obstruction of an outline, which its picture shows."""
+    return Obstruction(reason, sentence, where, value, arranged)
 
 
 def _impossible_cusps(arranged: Arrangement) -> Ints:
