@@ -14,7 +14,7 @@ from urllib.parse import unquote
 from plyfold.errors import FileFormatError, InputError, StrokeError
 from plyfold.gallery import CURVES
 from plyfold.io.reading import read
-from plyfold.outline.curve import Curve
+from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.given import as_curve
 from plyfold.sketch.pictures import PNG_START, png_document, svg_document
 from plyfold.sketch.schema import (
@@ -117,7 +117,7 @@ def _started_with(file: str) -> Document:
     if file.startswith("gallery:"):
         from plyfold.gallery import named_curve
 
-        return _document_of(named_curve(file.removeprefix("gallery:")).curve)
+        return _document_of(named_curve(file.removeprefix("gallery:")).outline)
     if file == "-":
         return open_file("standard input", sys.stdin.buffer.read(MOST_BYTES + 1))
     try:
@@ -179,7 +179,8 @@ def _read(name: str, content: bytes) -> Curve:
         return as_curve(read(path))
 
 
-def _document_of(curve: Curve) -> Document:
+def _document_of(outline: Outline) -> Document:
+    curve = as_curve(outline)
     if len(curve) > MOST_POINTS:
         raise InputError(f"the drawing has {len(curve):,} points, more than {MOST_POINTS:,}", hint="thin them out")
     return Document((Stroke(tuple((x, y) for x, y in curve.points.tolist()), closed=True),))
