@@ -23,6 +23,7 @@ import numpy.typing as npt
 from plyfold.errors import InputError
 from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.given import as_curve, as_outline
+from plyfold.wording import counted
 
 __all__ = ["CURVES", "OUTLINES", "NamedCurve", "NamedOutline", "band", "chain", "named_curve", "ribbon", "rounded"]
 
@@ -68,8 +69,8 @@ class NamedOutline:
     embeddable: int
 
     def __repr__(self) -> str:
-        ways = f"{self.immersions} immersion" + "s" * (self.immersions != 1)
-        return f"<{type(self).__name__} {self.name}: {self.crossings} crossings, {ways}>"
+        crossings, immersions = counted(self.crossings, "crossing"), counted(self.immersions, "immersion")
+        return f"<{type(self).__name__} {self.name}: {crossings}, {immersions}>"
 
     def _repr_svg_(self) -> str:
         from plyfold.arrangement.arrangement import arrange

@@ -1,5 +1,7 @@
 """What the heights look like: symmetric, smooth, monotone; and what pins, stiffness and flat parts do to them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 

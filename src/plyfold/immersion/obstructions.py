@@ -8,7 +8,7 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.graphs import components
 from plyfold.immersion.immersion import loop_characteristics
-from plyfold.immersion.shorter_loops import place_of_turning
+from plyfold.immersion.shorter_lobes import place_of_turning
 from plyfold.obstruction import Obstruction
 
 __all__ = [
@@ -16,6 +16,7 @@ __all__ = [
     "impossible_cusp",
     "impossible_turning",
     "is_visibly_no_disk",
+    "loops_apart",
     "may_bound_disk",
     "negative_winding",
     "obstruction",
@@ -38,7 +39,7 @@ def visible_obstruction(arranged: Arrangement, connected: bool = False) -> Obstr
     found = impossible_cusp(arranged)
     found = impossible_turning(arranged, connected) if found is None else found
     found = negative_winding(arranged) if found is None else found
-    return _loops_apart(arranged) if found is None and connected else found
+    return loops_apart(arranged) if found is None and connected else found
 
 
 def obstruction(
@@ -123,7 +124,7 @@ def _turning_in_words(arranged: Arrangement, members: Ints, connected: bool) -> 
     return f"The {who} {turning} times{at_cusps}; {apart}what bounds {what} turns {often}, or less by an even number."
 
 
-def _loops_apart(arranged: Arrangement) -> Obstruction | None:
+def loops_apart(arranged: Arrangement) -> Obstruction | None:
     """Return the obstruction of loops that cannot bound one piece, because no sheet reaches from some to the others."""
     clusters = int(clusters_of_loops(arranged).max()) + 1
     if clusters == 1:

@@ -16,6 +16,7 @@ from plyfold.halfedges import ends_of, following
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering
+from plyfold.matrices import summed
 from plyfold.mesh.cells import CellTriangulation
 from plyfold.mesh.sheets import SheetMesh, glue_copies
 from plyfold.ragged import count_each, pairs_in_each
@@ -213,7 +214,6 @@ def shares_of_gap(points: Floats, mesh: LiftedMesh, gap: float) -> Floats:
     """
     if not len(mesh.passing):
         return np.ones(len(mesh.stacked))
-    from scipy.sparse import coo_array
     from scipy.sparse.csgraph import dijkstra
 
     here, there = _sides_of_pairs(mesh)
@@ -223,7 +223,7 @@ def shares_of_gap(points: Floats, mesh: LiftedMesh, gap: float) -> Floats:
     start, end, stacked, sources = np.split(node, np.cumsum(list(map(len, keys)))[:-1])
     length = np.hypot(*(points[mesh.planar_vertex[here[:, 0]]] - points[mesh.planar_vertex[there[:, 0]]]).T)
     one_each = np.unique(start * len(known) + end, return_index=True)[1]
-    ways = coo_array((length[one_each], (start[one_each], end[one_each])), shape=(len(known), len(known))).tocsr()
+    ways = summed(length[one_each], start[one_each], end[one_each], (len(known), len(known)))
     reach = _WAY_PER_HEIGHT * gap
     way = dijkstra(ways, directed=False, indices=np.unique(sources), min_only=True, limit=reach)
     return np.asarray(np.clip(way[stacked] / reach, _LEAST_SHARE, 1.0))
