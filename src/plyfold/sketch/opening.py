@@ -143,7 +143,7 @@ def _started_with(file: str) -> Document:
     if file.startswith("gallery:"):
         from plyfold.gallery import named_curve
 
-        return _document_of(named_curve(file.removeprefix("gallery:")).curve)
+        return _document_of(named_curve(file.removeprefix("gallery:")).outline)
     if file == "-":
         return open_file("standard input", sys.stdin.buffer.read(MOST_BYTES + 1))
     try:
