@@ -325,6 +325,8 @@ def test_what_the_page_begins_with(tmp_path):
     (tmp_path / "saved.json").write_bytes(written(DOCUMENTS["nasty"], "json"))
     saved = start(str(tmp_path / "saved.json"))
     assert (saved["name"], saved["document"]) == ("saved", document_data(DOCUMENTS["nasty"]))
+    (tmp_path / "two.svg").write_text('<svg><rect id="a" width="9" height="9"/><path id="b" d="M0 30h9v9z"/></svg>')
+    assert [shape["name"] for shape in start(str(tmp_path / "two.svg"))["shapes"]] == ["a", "b"]
 
 
 @pytest.mark.parametrize("file", ["gallery:nothing", "no/such/file.svg", "."])
