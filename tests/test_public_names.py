@@ -63,8 +63,8 @@ def test_public_names():
         "paper",
         "read",
         "sample_immersion",
-        "suggest_cusps",
         "save",
+        "suggest_cusps",
         "triangulate",
         "unwrap",
     ]

@@ -17,6 +17,7 @@ from plyfold.io.cusp_notation import CuspMark, cusp_marks, written_cusp
 from plyfold.layering.embedding import find_embedding
 from plyfold.layering.orders.search import first_layering
 from plyfold.obstruction import Obstruction, Unknown
+from plyfold.offers.cusps import SuggestedCusps, suggest_cusps
 from plyfold.outline.curve import Outline
 
 __all__ = ["A_DISK", "Words", "describe", "in_words", "repair_lines", "surface_in_words", "verdict", "words"]
@@ -24,6 +25,7 @@ __all__ = ["A_DISK", "Words", "describe", "in_words", "repair_lines", "surface_i
 A_DISK = "a disk of cloth"
 """What one curve without cusps bounds, if it bounds a surface without handles."""
 
+_SECONDS_FOR_AN_OFFER = 2.0
 _SHOWN_REPAIRS = _SHOWN_CUSPS = 5
 _LONGEST_NUMBER = 12
 _UNDECIDED = "Whether it can be lifted was not decided in time."
@@ -140,8 +142,8 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
         ``points``, ``loops``, ``cusps`` (of each: ``loop``, ``point``, ``index``, ``where``), ``crossings``, ``cells``
         (number of cells by winding number), ``turning_number``, ``reversed``, ``repairs``, ``immersible``,
         ``immersions``; for a surface also ``surface`` (in words), ``pieces``, ``euler_characteristic``, ``sheets``,
-        ``layerable``, and, for a disk without cusps, ``examined`` (immersions), otherwise ``reason``, ``sentence`` and
-        ``where``.
+        ``layerable``, and, for a disk, ``examined`` (immersions), otherwise ``reason``, ``sentence`` and ``where``; if
+        it turns too often, perhaps an ``offer``: ``cusps``, and the ``surface`` that it would bound with them.
 
     Examples
     --------
@@ -168,11 +170,24 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
     if isinstance(found, Unknown):
         return figures | {"immersible": None, "immersions": None}
     if isinstance(found, Obstruction):
-        return figures | {"immersible": False, "immersions": 0} | _obstructed(found)
+        return figures | {"immersible": False, "immersions": 0} | _obstructed(found) | _offer(arrangement, found)
     count = count_immersions(arrangement, time_limit=limit)
     figures |= {"immersible": True, "immersions": None if isinstance(count, Unknown) else count}
     figures |= _surface(found)
     return figures | (_layerable if may_bound_disk(arrangement) else _embeddable)(arrangement, time_limit)
+
+
+def _offer(arrangement: Arrangement, why_not: Obstruction) -> dict[str, Any]:
+    """Return cusps with which the outline would bound a surface in one piece, if it only turns too often."""
+    if why_not.reason != "turning number" or arrangement.outline is None:
+        return {}
+    found = suggest_cusps(arrangement, time_limit=_SECONDS_FOR_AN_OFFER)
+    if not isinstance(found, SuggestedCusps):
+        return {}
+    loops = tuple(range(arrangement.n_loops))
+    marks = [CuspMark(loop, point, turns) for (loop, point), turns in found.cusps.items()]
+    surface = surface_in_words([Piece(loops, 2 - len(loops))])
+    return {"offer": {"cusps": _described_cusps(found.outline, marks), "surface": surface}}
 
 
 def _surface(immersion: Immersion) -> dict[str, Any]:
@@ -189,11 +204,13 @@ def _surface(immersion: Immersion) -> dict[str, Any]:
 
 
 def _cusps(outline: Outline | None) -> list[dict[str, Any]]:
-    if outline is None:
-        return []
+    return [] if outline is None else _described_cusps(outline, cusp_marks(outline.cusps))
+
+
+def _described_cusps(outline: Outline, marks: Sequence[CuspMark]) -> list[dict[str, Any]]:
     return [
         {"loop": loop, "point": point, "index": turns, "where": outline.loops[loop][point].tolist()}
-        for loop, point, turns in cusp_marks(outline.cusps)
+        for loop, point, turns in marks
     ]
 
 
@@ -274,7 +291,17 @@ def _headline(figures: dict[str, Any]) -> str:
     plain = figures["loops"] == 1 and not figures["cusps"]
     said = words(0, figures["sentence"], surface=A_DISK if plain else "a surface")
     places = "".join(f"\n  at ({x:.6g}, {y:.6g})" for x, y in figures["where"])
-    return f"{said.headline}. {said.sentence}{places}"
+    return f"{said.headline}. {said.sentence}{places}{_offer_line(figures)}"
+
+
+def _offer_line(figures: dict[str, Any]) -> str:
+    if "offer" not in figures:
+        return ""
+    cusps, surface = figures["offer"]["cusps"], figures["offer"]["surface"]
+    turns = sum(cusp["index"] for cusp in cusps)
+    many = "1 turn is" if turns == 1 else f"{turns} turns are"
+    which = "a cusp" if len(cusps) == 1 else "cusps"
+    return f"\n  {many} too many: with {which} {_listed_cusps(cusps)}, it is {surface} (--cusps auto)"
 
 
 def _layering_sentence(figures: dict[str, Any]) -> str:

@@ -148,6 +148,32 @@ def test_cusps_that_are_none(cusp, limacon, capsys):
     assert "is no cusp: write POINT" in capsys.readouterr().err
 
 
+def test_cusps_are_offered_and_taken(limacon, tmp_path, capsys):
+    assert main(["check", limacon]) == 1
+    said = capsys.readouterr().out
+    assert "\n  1 turn is too many: with a cusp 0:7 at (1, -1), it is a disk of cloth (--cusps auto)\n" in said
+    main(["check", limacon, "--json"])
+    [found] = lines(capsys)
+    assert found["offer"]["cusps"] == [{"loop": 0, "point": 7, "index": 1, "where": [1, -1]}]
+    assert main(["check", limacon, "--cusps", "auto"]) == 0
+    assert "note: cusp proposed at (1, -1)\n" in capsys.readouterr().out
+    assert main(["convert", limacon, "--cusps", "auto", "-o", str(tmp_path / "out.json")]) == 0
+    assert pf.read(tmp_path / "out.json").cusps[0].tolist() == [0, 0, 0, 0, 0, 0, 0, 1]
+
+
+def test_cusps_of_an_outline_that_needs_none(ring, capsys):
+    assert main(["check", ring, "--cusps", "auto"]) == 0
+    assert "cusp proposed" not in capsys.readouterr().out
+
+
+def test_cusps_that_are_not_found(file, limacon, capsys):
+    eights = file("eights.csv", "3,0\n1,3\n-2,0\n1,-3\n3,0.5\n1,1\n0.5,0\n1,-1\n0,9\n-9,9\n-9,8\n0,10\n")
+    assert main(["check", eights, "--cusps", "auto"]) == 1
+    assert capsys.readouterr().err.startswith("plyfold: ")
+    assert main(["check", limacon, "--cusps", "auto", "--time-limit", "0"]) == 3
+    assert "name them with --cusp" in capsys.readouterr().err
+
+
 # ---- which shapes ----------------------------------------------------------------------------------------------------
 
 

@@ -12,7 +12,7 @@ from plyfold import compiled
 from plyfold.certify import check_immersed_disk
 from plyfold.errors import GeneralPositionError
 from plyfold.flat.sweep import sweep_triangles
-from plyfold.flat.sweep_line import empty_skip_list, link_above, sweep_order, unlink
+from plyfold.flat.sweep_line import empty_skip_list, link_above, sweep_order, sweep_plan, unlink
 from plyfold.predicates import as_coordinates, turn
 from reference import random_curves
 
@@ -106,7 +106,7 @@ def test_order_is_exact():
             share = cross(c, d, a) / (cross(c, d, a) - cross(c, d, b))
             x, y = (start + share * (end - start) for start, end in zip(a, b, strict=True))
             reach[n + visit] = (x + Fraction(0.3) * y, y)
-        assert sweep_order(drawn).tolist() == sorted(reach, key=reach.__getitem__)
+        assert sweep_order(sweep_plan(drawn, np.empty(0, dtype=int))).tolist() == sorted(reach, key=reach.__getitem__)
 
 
 @pytest.mark.parametrize("kind", ["grid", "line", "doubles", "tiny", "huge"])

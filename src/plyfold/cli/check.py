@@ -28,6 +28,8 @@ the object that --json prints, with --each one on a line for each shape:
   layerable                 whether an immersion can be lifted; null: unknown, the time limit (if immersible)
   examined, levels          immersions of a disk tried until one could be lifted, and the layers of that one
   reason, sentence, where   why not, in a word, in a sentence and at which places (if not immersible or layerable)
+  offer                     object: cusps (list as above), and the surface that it would bound with them; where some
+                            turns are too many, and cusps for them are found in two seconds
   seconds                   object: stage -> seconds
 or, with exit code 2, {error, where, hint}
 """

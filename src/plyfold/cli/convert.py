@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from plyfold.cli.drawing import drawn_outline
+from plyfold.cli.drawing import read_outline
 from plyfold.cli.inputs import DISK, add_command, add_outputs, refuse_outputs
 from plyfold.cli.progress import Stopwatch
 
@@ -24,7 +24,7 @@ def _convert(options: argparse.Namespace) -> int:
 
     refuse_outputs(options, tuple(OUTLINE_WRITERS))
     watch = Stopwatch()
-    outline = drawn_outline(options, watch)
+    outline = read_outline(options, watch)
     watch.stop()
     loops = f"{outline.n_loops} loop" + "s" * (outline.n_loops > 1)
     print("\n".join([f"{loops}, {len(outline):,} points", *repair_lines(outline)]))

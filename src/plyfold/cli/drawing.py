@@ -6,13 +6,14 @@ import argparse
 from typing import TYPE_CHECKING
 
 from plyfold.cli.progress import Stopwatch
-from plyfold.errors import FileFormatError, InputError
+from plyfold.errors import FileFormatError, InputError, NotEmbeddableError, TimeLimitError
+from plyfold.obstruction import Obstruction, Unknown
 
 if TYPE_CHECKING:
     from plyfold.io.cusp_notation import CuspMark
     from plyfold.outline.curve import Outline
 
-__all__ = ["add_drawing_options", "drawn_outline"]
+__all__ = ["add_drawing_options", "read_outline"]
 
 
 def add_drawing_options(command: argparse.ArgumentParser) -> None:
@@ -49,11 +50,11 @@ def _cusp(text: str) -> CuspMark:
         raise argparse.ArgumentTypeError(f"{error.message}: {error.hint}") from None
 
 
-def drawn_outline(options: argparse.Namespace, watch: Stopwatch) -> Outline:
+def read_outline(options: argparse.Namespace, watch: Stopwatch) -> Outline:
     """Read the outline that is meant, and mark its cusps."""
     watch("reading")
     outline = _with_cusps(_read(options), options.cusp)
-    return outline
+    return _with_proposed_cusps(outline, getattr(options, "time_limit", None), watch) if options.cusps else outline
 
 
 def _read(options: argparse.Namespace) -> Outline:
@@ -83,3 +84,22 @@ def _with_cusps(outline: Outline, marks: list[CuspMark]) -> Outline:
             raise InputError(f"there is no point {loop}:{point} to be a cusp", hint=f"both count from 0: {there}")
         cusps[loop][point] = turns
     return outline_with(outline, cusps)
+
+
+def _with_proposed_cusps(outline: Outline, time_limit: float | None, watch: Stopwatch) -> Outline:
+    """Return the outline with cusps for the turns that are too many, if there are some; its repairs say which."""
+    from plyfold.offers.cusps import suggest_cusps
+    from plyfold.outline.given import outline_with
+    from plyfold.outline.points import Repair
+
+    watch("looking for cusps")
+    found = suggest_cusps(outline, time_limit=time_limit)
+    if isinstance(found, Unknown):
+        raise TimeLimitError(f"{found}", hint="name them with --cusp, or give it more time")
+    if isinstance(found, Obstruction):
+        if found.reason == "turning number" and found.value <= 0:
+            return outline
+        raise NotEmbeddableError(found, hint="name the cusps with --cusp")
+    places = [outline.loops[loop][point].tolist() for loop, point in found.cusps]
+    proposed = [Repair("cusp proposed", (x, y), 0.0) for x, y in places]
+    return outline_with(found.outline, repairs=(*found.outline.repairs, *proposed))

@@ -11,7 +11,7 @@ from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plyfold.cli.drawing import add_drawing_options, drawn_outline
+from plyfold.cli.drawing import add_drawing_options, read_outline
 from plyfold.cli.progress import Stopwatch
 from plyfold.clock import Clock, Watch
 from plyfold.errors import InputError
@@ -78,7 +78,7 @@ def read_arrangement(options: argparse.Namespace, watch: Stopwatch, clock: Clock
     """Return the arrangement of the drawing that is named."""
     from plyfold.arrangement.arrangement import watched_arrangement
 
-    outline = drawn_outline(options, watch)
+    outline = read_outline(options, watch)
     load_libraries(FOR_CROSSINGS, watch)
     return watched_arrangement(outline, options.general_position, Watch(clock or Clock(None), watch))
 

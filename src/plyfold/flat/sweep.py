@@ -1,12 +1,16 @@
-"""Triangles on the points of an immersed disk, found by a line that sweeps over the disk and not over the plane.
+"""Triangles on the points of an immersed surface, found by a line that sweeps over the surface and not over the plane.
 
-On the disk, the points below a sweeping line are intervals that end on two edges of the boundary: an edge that runs to
-the right below, one that runs to the left above. They are known by their edges, so a vertex on the line is found at
+On the surface, the points below a sweeping line are intervals that end on two edges of the boundary: an edge that runs
+to the right below, one that runs to the left above. They are known by their edges, so a vertex on the line is found at
 once, however many sheets lie over it. Only a vertex from which both edges lead ahead begins something new. If it is a
 convex corner that is an interval of its own; if it is reflex, it splits an interval, and which one is seen by walking
 up from the vertex through the gluing: from its own sheet over every border to the sheet beyond, until one ends there.
+Bridges by which the gluing changes sheets lie on the line as well.
 
-The part of the disk that was swept is cut into monotone polygons, whose triangles are found on the way [GJPT78]_.
+At a cusp, the line meets the surface several times: the vertex is inside of intervals, on sheets all around it. There,
+what is above it of one goes on with what is below it of the one next to it, round the cusp.
+
+The part of the surface that was swept is cut into monotone polygons, whose triangles are found on the way [GJPT78]_.
 
 References
 ----------
@@ -20,12 +24,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Ints
 from plyfold.compiled import called_from_loops, run_loop
 from plyfold.errors import PlyfoldError
-from plyfold.flat.sweep_line import SkipList, empty_skip_list, link_above, sweep_order, unlink
+from plyfold.flat.sweep_line import SkipList, SweepPlan, empty_skip_list, link_above, sweep_order, sweep_plan, unlink
 from plyfold.immersion.immersion import Immersion
-from plyfold.mesh.sheets import seams_of
+from plyfold.mesh.refine import borders_at_points, drawn_outline
+from plyfold.mesh.sheets import seams_of, twisted_bridges
 from plyfold.predicates import Coordinates, as_coordinates, turn
 
 __all__ = ["sweep_triangles"]
@@ -34,15 +39,30 @@ __all__ = ["sweep_triangles"]
 class _Drawing(NamedTuple):
     """What is swept: the order of events, and the gluing.
 
-    ``order`` is that of :func:`sweep_order`, and ``rank`` the place of each vertex in it. ``border`` is the one that
-    each vertex is on. The sheet beyond a dart, seen from a sheet on its left, is ``beyond[row[dart] + sheet]``, or −1.
+    ``order`` is that of :func:`sweep_order`, and ``rank`` the place of each vertex in it; ``following`` and
+    ``preceding`` are its neighbours on its loop. Bridges have edges and ends of their own, numbered after all vertices.
+    ``arriving`` and ``leaving`` are the borders that end and begin at each vertex, or the one that it is on;
+    ``before`` and ``after`` those at each visit. ``cusp`` is the index of each vertex, ``bridge_of_foot`` the bridge
+    whose second foot is at each visit, ``bridge_at`` the one whose first foot is at each vertex, or −1, and ``above``
+    tells which bridges begin above the edge that their second foot is on. The sheet beyond a dart, seen from a sheet on
+    its left, is ``beyond[row[dart] + sheet]``, or −1.
     """
 
     order: Ints
     rank: Ints
+    following: Ints
+    preceding: Ints
     partner: Ints
     visit_edge: Ints
-    border: Ints
+    arriving: Ints
+    leaving: Ints
+    before: Ints
+    after: Ints
+    cusp: Ints
+    bridge_of_foot: Ints
+    bridge_at: Ints
+    above: Ints
+    bridge_border: Ints
     own_sheet: Ints
     row: Ints
     beyond: Ints
@@ -105,7 +125,7 @@ _NODES, _INTERVALS, _POLYGONS, _ENTRIES, _TRIANGLES = range(5)
 
 
 def sweep_triangles(immersion: Immersion) -> Ints:
-    """Return triangles on the points of an immersion's curve, by number, that make the immersed disk.
+    """Return triangles on the points of an immersion's outline, by number, that make the immersed surface.
 
     Parameters
     ----------
@@ -114,12 +134,12 @@ def sweep_triangles(immersion: Immersion) -> Ints:
 
     Returns
     -------
-    (n − 2, 3) int
-        Counter-clockwise, exactly.
+    (n − 2χ, 3) int
+        Counter-clockwise, exactly; χ is the Euler characteristic.
 
     Notes
     -----
-    O((n + k) log n), and for each vertex that splits an interval the number of strands above it in the disk.
+    O((n + k) log n), and for each vertex that splits an interval the number of strands above it in the surface.
 
     Examples
     --------
@@ -127,50 +147,66 @@ def sweep_triangles(immersion: Immersion) -> Ints:
     >>> sweep_triangles(find_immersion([(0, 0), (4, 0), (1, 1), (0, 4)])).tolist()
     [[0, 2, 3], [0, 1, 2]]
     """
-    assert immersion.arrangement.curve is not None
-    points = immersion.arrangement.curve.points
-    drawing = _drawing(immersion, points)
-    n = len(points)
-    ahead = np.diff(drawing.rank, append=drawing.rank[:1]) > 0
-    starts = int((ahead[1:] > ahead[:-1]).sum()) + int(ahead[0] > ahead[-1])
-    given = (as_coordinates(points), drawing, *_room(n, starts))
-    output = _Output(np.empty((n - 2, 3), dtype=np.int64), np.zeros(5, dtype=np.int64))
+    plan = sweep_plan(immersion.arrangement, twisted_bridges(immersion))
+    drawing = _drawing(immersion, plan)
+    n = len(drawing.cusp)
+    ahead = drawing.rank[:n] < drawing.rank[drawing.following[:n]]
+    starts = int((ahead > ahead[drawing.preceding]).sum())
+    turns = int((drawing.cusp + 1)[drawing.cusp > 0].sum())
+    given = (as_coordinates(plan.points), drawing, *_room(n, starts, turns, len(plan.bridges)))
+    triangles = n - 2 * immersion.euler_characteristic
+    # Room for one more: if there were more, that would be seen.
+    output = _Output(np.empty((triangles + 1, 3), dtype=np.int64), np.zeros(5, dtype=np.int64))
     output = run_loop(_swept, len(drawing.order), given, output)
-    if output.counts[_TRIANGLES] != n - 2:
-        raise PlyfoldError("internal check failed: the triangles make the disk", where=points[:1])
-    return output.faces
+    if output.counts[_TRIANGLES] != triangles:
+        raise PlyfoldError("internal check failed: the triangles make the surface", where=plan.points[:1])
+    return output.faces[:triangles]
 
 
-def _drawing(immersion: Immersion, points: Floats) -> _Drawing:
-    arrangement, n = immersion.arrangement, len(points)
-    order = sweep_order(arrangement)
+def _drawing(immersion: Immersion, plan: SweepPlan) -> _Drawing:
+    arrangement, n, bridges = immersion.arrangement, plan.n_vertices, len(plan.bridges)
+    order = sweep_order(plan)
     rank = np.empty(n + len(arrangement.partner), dtype=np.int64)
     rank[order] = np.arange(len(order))
     seams = seams_of(immersion)
+    arriving, leaving = borders_at_points(arrangement)
+    bridge_of_foot, bridge_at = np.full(len(arrangement.partner), -1), np.full(n, -1)
+    bridge_of_foot[plan.second_foot], bridge_at[plan.first_foot] = np.arange(bridges), np.arange(bridges)
+    preceding = np.empty(n, dtype=np.int64)
+    preceding[plan.following[:n]] = np.arange(n)
     return _Drawing(
         order=order,
-        rank=rank[:n],
+        rank=np.concatenate([rank[:n], rank[plan.first_foot], rank[n + plan.second_foot]]),
+        following=plan.following,
+        preceding=preceding,
         partner=arrangement.partner,
         visit_edge=arrangement.visit_edge,
-        # Visits on an edge come after its first point.
-        border=(np.searchsorted(arrangement.visit_edge, np.arange(n)) - 1) % arrangement.n_borders,
+        arriving=arriving,
+        leaving=leaving,
+        before=arrangement.border_before,
+        after=arrangement.border_after,
+        cusp=np.concatenate(drawn_outline(arrangement).cusps),
+        bridge_of_foot=bridge_of_foot,
+        bridge_at=bridge_at,
+        above=plan.above,
+        bridge_border=arrangement.n_borders + plan.bridges,
         own_sheet=immersion.own_sheet,
         row=seams.row,
         beyond=seams.table,
     )
 
 
-def _room(n: int, starts: int) -> tuple[SkipList, _Strands, _Intervals, _Polygons]:
-    """Return empty tables for a curve of n vertices, at some of which the line first meets it."""
+def _room(n: int, starts: int, turns: int, bridges: int) -> tuple[SkipList, _Strands, _Intervals, _Polygons]:
+    """Return empty tables for an outline of n vertices, at some of which the line first meets it, and of some cusps."""
 
     def rows(count: int, size: int) -> Ints:
         return np.empty((count, size), dtype=np.int64)
 
     return (
-        empty_skip_list(2 * starts),
-        _Strands(*rows(2, n), *rows(1, 2 * starts + 1)),
-        _Intervals(*rows(1, n), *rows(3, starts)),
-        _Polygons(*rows(2, starts), *rows(2, 3 * n)),
+        empty_skip_list(2 * starts + bridges),
+        _Strands(*rows(2, n + bridges), *rows(1, 2 * starts + bridges + 1)),
+        _Intervals(*rows(1, n + bridges), *rows(3, starts)),
+        _Polygons(*rows(2, starts + turns), *rows(2, 3 * (n + turns))),
     )
 
 
@@ -178,14 +214,21 @@ def _swept(given: tuple[Coordinates, _Drawing, SkipList, _Strands, _Intervals, _
     """Sweep; return how many triangles there are."""
     places, drawing, nodes, strands, intervals, polygons = given
     sweep = _Sweep(places, drawing, nodes, strands, intervals, polygons, output)
-    rank, n = drawing.rank, len(drawing.rank)
+    rank, n = drawing.rank, len(drawing.cusp)
     for event in drawing.order:
         if event >= n:
-            _cross(sweep, event - n)
+            if drawing.partner[event - n] == event - n:
+                _begin_bridge(sweep, event - n)
+            else:
+                _cross(sweep, event - n)
             continue
-        before, after = (event if event > 0 else n) - 1, event + 1 if event < n - 1 else 0
+        if drawing.bridge_at[event] >= 0:
+            unlink(nodes, strands.node[n + drawing.bridge_at[event]])
+        before, after = drawing.preceding[event], drawing.following[event]
         comes, goes = rank[before] < rank[event], rank[event] < rank[after]
-        if comes and goes:
+        if drawing.cusp[event] > 0:
+            _wind(sweep, event, comes, goes)
+        elif comes and goes:
             _replace(sweep, before, event, event)
             _meet(sweep, intervals.of_edge[event], event, -1)
         elif not comes and not goes:
@@ -198,6 +241,19 @@ def _swept(given: tuple[Coordinates, _Drawing, SkipList, _Strands, _Intervals, _
             _end(sweep, event, turn(places, before, event, after) > 0)
     triangles: int = output.counts[_TRIANGLES]
     return triangles
+
+
+@called_from_loops
+def _begin_bridge(sweep: _Sweep, foot: int) -> None:
+    """Put a bridge on the line, beside the edge on which its second foot stands, that comes to its next border."""
+    drawing, strands = sweep.drawing, sweep.strands
+    edge, bridge = drawing.visit_edge[foot], drawing.bridge_of_foot[foot]
+    strands.border[edge] = _border_behind(drawing, foot, edge)
+    place = strands.node[edge]
+    if drawing.above[bridge] == 0:
+        place = sweep.nodes.below[place]
+    own = len(drawing.cusp) + bridge
+    _link(sweep, own, drawing.bridge_border[bridge], place)
 
 
 @called_from_loops
@@ -216,33 +272,45 @@ def _cross(sweep: _Sweep, visit: int) -> None:
 @called_from_loops
 def _runs_ahead(drawing: _Drawing, edge: int) -> bool:
     """Tell whether an edge runs in the direction in which the line moves."""
-    return bool(drawing.rank[edge] < drawing.rank[edge + 1 if edge < len(drawing.rank) - 1 else 0])
+    return bool(drawing.rank[edge] < drawing.rank[drawing.following[edge]])
 
 
 @called_from_loops
 def _border_behind(drawing: _Drawing, visit: int, edge: int) -> int:
     """Return the border that the line comes to behind a visit."""
-    if _runs_ahead(drawing, edge):
-        return visit
-    return (visit if visit > 0 else len(drawing.partner)) - 1
+    border: int = drawing.after[visit] if _runs_ahead(drawing, edge) else drawing.before[visit]
+    return border
 
 
 @called_from_loops
 def _replace(sweep: _Sweep, old: int, new: int, vertex: int) -> None:
+    """Replace an edge on the line by the one beyond the vertex at which it ends, also as a bound of its interval."""
+    _take_over(sweep, old, new, vertex)
+    sweep.intervals.of_edge[new] = sweep.intervals.of_edge[old]
+
+
+@called_from_loops
+def _take_over(sweep: _Sweep, old: int, new: int, vertex: int) -> None:
     """Replace an edge on the line by the one beyond the vertex at which it ends."""
-    strands, intervals = sweep.strands, sweep.intervals
+    strands = sweep.strands
     node = strands.node[old]
     strands.node[new] = node
     strands.edge[node] = new
-    strands.border[new] = sweep.drawing.border[vertex]
-    intervals.of_edge[new] = intervals.of_edge[old]
+    strands.border[new] = _border_at(sweep.drawing, new, vertex)
+
+
+@called_from_loops
+def _border_at(drawing: _Drawing, edge: int, vertex: int) -> int:
+    """Return the border that an edge is on at a vertex where it starts or ends."""
+    border: int = drawing.leaving[vertex] if edge == vertex else drawing.arriving[vertex]
+    return border
 
 
 @called_from_loops
 def _begin(sweep: _Sweep, vertex: int, convex: bool) -> None:
     """Put both edges of a vertex on the line: they bound a new interval, or split one that the vertex is in."""
     intervals = sweep.intervals
-    arriving, leaving = (vertex if vertex > 0 else len(sweep.drawing.rank)) - 1, vertex
+    arriving, leaving = sweep.drawing.preceding[vertex], vertex
     place = _place_below(sweep, vertex)
     fresh = _count_up(sweep, _INTERVALS)
     if convex:
@@ -251,7 +319,7 @@ def _begin(sweep: _Sweep, vertex: int, convex: bool) -> None:
         intervals.of_edge[leaving] = intervals.of_edge[arriving] = fresh
         _insert(sweep, arriving, vertex, _insert(sweep, leaving, vertex, place))
     else:
-        split = _interval_around(sweep, vertex, place)
+        split = _interval_around(sweep, sweep.drawing.own_sheet[sweep.drawing.leaving[vertex]], place)
         upper = intervals.upper_edge[split]
         _split(sweep, split, fresh, vertex)
         intervals.upper_edge[split], intervals.upper_edge[fresh] = arriving, upper
@@ -276,16 +344,15 @@ def _place_below(sweep: _Sweep, vertex: int) -> int:
 def _is_above(sweep: _Sweep, vertex: int, edge: int) -> bool:
     """Tell whether a vertex is above an edge on the line."""
     drawing = sweep.drawing
-    end = edge + 1 if edge < len(drawing.rank) - 1 else 0
+    end = drawing.following[edge]
     side = turn(sweep.places, edge, end, vertex)
     return side > 0 if drawing.rank[edge] < drawing.rank[end] else side < 0
 
 
 @called_from_loops
-def _interval_around(sweep: _Sweep, vertex: int, place: int) -> int:
-    """Walk up from a vertex above a given place, from sheet to sheet, to the edge at which the disk ends."""
+def _interval_around(sweep: _Sweep, sheet: int, place: int) -> int:
+    """Walk up in a sheet from above a given place, from sheet to sheet, to the edge at which the surface ends."""
     drawing, strands, above = sweep.drawing, sweep.strands, sweep.nodes.above
-    sheet = drawing.own_sheet[drawing.border[vertex]]
     edge = 0
     while sheet >= 0:
         place = above[place]
@@ -300,10 +367,16 @@ def _interval_around(sweep: _Sweep, vertex: int, place: int) -> int:
 @called_from_loops
 def _insert(sweep: _Sweep, edge: int, vertex: int, place: int) -> int:
     """Put an edge that begins at a vertex on the line, above a given node; return its own node."""
+    return _link(sweep, edge, _border_at(sweep.drawing, edge, vertex), place)
+
+
+@called_from_loops
+def _link(sweep: _Sweep, edge: int, border: int, place: int) -> int:
+    """Put an edge that is on some border on the line, above a given node; return its own node."""
     node = _count_up(sweep, _NODES) + 1
     sweep.strands.node[edge] = node
     sweep.strands.edge[node] = edge
-    sweep.strands.border[edge] = sweep.drawing.border[vertex]
+    sweep.strands.border[edge] = border
     link_above(sweep.nodes, node, place)
     return node
 
@@ -320,7 +393,7 @@ def _count_up(sweep: _Sweep, what: int) -> int:
 def _end(sweep: _Sweep, vertex: int, convex: bool) -> None:
     """Take both edges of a vertex off the line: they bounded an interval, or two that become one."""
     intervals = sweep.intervals
-    arriving, leaving = (vertex if vertex > 0 else len(sweep.drawing.rank)) - 1, vertex
+    arriving, leaving = sweep.drawing.preceding[vertex], vertex
     lower, upper = intervals.of_edge[leaving], intervals.of_edge[arriving]
     if convex:
         _cut_off(sweep, intervals.bottom[lower], vertex)
@@ -337,6 +410,111 @@ def _end(sweep: _Sweep, vertex: int, convex: bool) -> None:
 
 
 @called_from_loops
+def _wind(sweep: _Sweep, vertex: int, comes: bool, goes: bool) -> None:
+    """Pass a cusp, round which the surface goes from the leaving edge to the arriving one.
+
+    In this sense of rotation, what lies ahead of the line goes from below the cusp to above it, again and again: the
+    first time from the leaving edge if that runs ahead, the last time to the arriving edge if that lies ahead. In
+    between, it goes from what was below the cusp in one interval to what was above it in the next.
+    """
+    drawing, intervals = sweep.drawing, sweep.intervals
+    arriving, convex = drawing.preceding[vertex], _is_convex(sweep, vertex)
+    place = _place_at_cusp(sweep, vertex, comes, goes)
+    last_polygon, last_edge = -1, arriving
+    if comes:
+        last = intervals.of_edge[arriving]
+        _meet(sweep, last, vertex, -1)
+        last_polygon, last_edge = intervals.bottom[last], intervals.upper_edge[last]
+    current = _first_at_cusp(sweep, vertex, comes, goes)
+    # Whether the outline has on its left what is right above the cusp.
+    on_left = comes if comes == goes else not convex
+    around = drawing.cusp[vertex]
+    if comes != goes:
+        around += (0 if convex else 1) - (1 if comes else 0)
+    sheet = drawing.own_sheet[drawing.leaving[vertex]]
+    for turn_number in range(around):
+        if turn_number > 0 or not on_left:
+            sheet = _next_sheet(drawing, vertex, sheet, turn_number > 0, on_left)
+        interval = _interval_around(sweep, sheet, place)
+        _cut(sweep, interval, vertex)
+        _join(sweep, current, intervals.top[interval], intervals.upper_edge[interval])
+        current = interval
+    _join(sweep, current, last_polygon if comes else intervals.bottom[current], last_edge)
+    _move_edges(sweep, vertex, place, comes, goes)
+
+
+@called_from_loops
+def _is_convex(sweep: _Sweep, vertex: int) -> bool:
+    drawing = sweep.drawing
+    return bool(turn(sweep.places, drawing.preceding[vertex], vertex, drawing.following[vertex]) > 0)
+
+
+@called_from_loops
+def _place_at_cusp(sweep: _Sweep, vertex: int, comes: bool, goes: bool) -> int:
+    """Return the node on the line above which everything is above a cusp."""
+    node, arriving = sweep.strands.node, sweep.drawing.preceding[vertex]
+    if not comes and goes:
+        return _place_below(sweep, vertex)
+    place: int = node[arriving] if comes and (goes or not _is_convex(sweep, vertex)) else node[vertex]
+    return place
+
+
+@called_from_loops
+def _first_at_cusp(sweep: _Sweep, vertex: int, comes: bool, goes: bool) -> int:
+    """Return the interval that the leaving edge of a cusp bounds; if that runs ahead, still without polygons."""
+    intervals = sweep.intervals
+    if not goes:
+        below: int = intervals.of_edge[vertex]
+        _meet(sweep, below, vertex, 1)
+        return below
+    fresh: int = intervals.of_edge[sweep.drawing.preceding[vertex]] if comes else _count_up(sweep, _INTERVALS)
+    intervals.of_edge[vertex] = fresh
+    intervals.bottom[fresh] = -1
+    return fresh
+
+
+@called_from_loops
+def _next_sheet(drawing: _Drawing, vertex: int, sheet: int, whole: bool, on_left: bool) -> int:
+    """Return the sheet that lies a whole turn round a cusp further on, on the same side of the outline, or half a turn.
+
+    A turn leads over the arriving edge to the right side, and over the leaving edge to the left side.
+    """
+    to_right, to_left = 2 * drawing.arriving[vertex], 2 * drawing.leaving[vertex] + 1
+    if whole and not on_left:
+        sheet = drawing.beyond[drawing.row[to_left] + sheet]
+    sheet = drawing.beyond[drawing.row[to_right] + sheet]
+    if whole and on_left:
+        sheet = drawing.beyond[drawing.row[to_left] + sheet]
+    return sheet
+
+
+@called_from_loops
+def _join(sweep: _Sweep, interval: int, polygon: int, upper_edge: int) -> None:
+    """Let an interval go on, above a cusp, with a polygon and up to an edge."""
+    intervals = sweep.intervals
+    if intervals.bottom[interval] < 0:
+        intervals.bottom[interval] = polygon
+    intervals.top[interval], intervals.upper_edge[interval] = polygon, upper_edge
+    intervals.of_edge[upper_edge] = interval
+
+
+@called_from_loops
+def _move_edges(sweep: _Sweep, vertex: int, place: int, comes: bool, goes: bool) -> None:
+    """Take the edges of a cusp that end there off the line, and put those that begin there on it."""
+    arriving, convex = sweep.drawing.preceding[vertex], _is_convex(sweep, vertex)
+    if comes and goes:
+        _take_over(sweep, arriving, vertex, vertex)
+    elif comes:
+        unlink(sweep.nodes, sweep.strands.node[arriving])
+        unlink(sweep.nodes, sweep.strands.node[vertex])
+    elif goes:
+        lower, upper = (vertex, arriving) if convex else (arriving, vertex)
+        _insert(sweep, upper, vertex, _insert(sweep, lower, vertex, place))
+    else:
+        _take_over(sweep, vertex, arriving, vertex)
+
+
+@called_from_loops
 def _meet(sweep: _Sweep, interval: int, vertex: int, side: int) -> None:
     """Add a vertex on the upper (1) or lower (−1) edge of an interval to its polygon; of two it finishes one."""
     intervals = sweep.intervals
@@ -350,7 +528,19 @@ def _meet(sweep: _Sweep, interval: int, vertex: int, side: int) -> None:
 
 @called_from_loops
 def _split(sweep: _Sweep, interval: int, fresh: int, vertex: int) -> None:
-    """Split an interval at a vertex inside, which sees the last one that the interval has met."""
+    """Split an interval at a vertex inside."""
+    intervals = sweep.intervals
+    _cut(sweep, interval, vertex)
+    intervals.bottom[fresh] = intervals.top[fresh] = intervals.top[interval]
+    intervals.top[interval] = intervals.bottom[interval]
+
+
+@called_from_loops
+def _cut(sweep: _Sweep, interval: int, vertex: int) -> None:
+    """Cut the polygon of an interval at a vertex inside, which sees the last one that the interval has met.
+
+    Afterwards the interval has one polygon below the vertex and one above it.
+    """
     intervals, polygons = sweep.intervals, sweep.polygons
     bottom, top = intervals.bottom[interval], intervals.top[interval]
     if bottom == top:
@@ -361,8 +551,7 @@ def _split(sweep: _Sweep, interval: int, fresh: int, vertex: int) -> None:
             top = seen
     _add(sweep, bottom, vertex, 1)
     _add(sweep, top, vertex, -1)
-    intervals.bottom[interval] = intervals.top[interval] = bottom
-    intervals.bottom[fresh] = intervals.top[fresh] = top
+    intervals.bottom[interval], intervals.top[interval] = bottom, top
 
 
 @called_from_loops

@@ -10,9 +10,12 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Floats, Ints
 from plyfold.compiled import called_from_loops
-from plyfold.predicates import exact_parameter, parameter_along_edge
+from plyfold.immersion.corners import feet
+from plyfold.mesh.refine import drawn_outline
+from plyfold.outline.curve import Outline
+from plyfold.predicates import cross_sign, exact_parameter, parameter_along_edge
 
-__all__ = ["SkipList", "empty_skip_list", "link_above", "sweep_order", "unlink"]
+__all__ = ["SkipList", "SweepPlan", "empty_skip_list", "link_above", "sweep_order", "sweep_plan", "unlink"]
 
 
 _Place: TypeAlias = tuple[Fraction, Fraction]
@@ -23,37 +26,87 @@ _TILT = 0.3
 _ERROR = 1e-15
 
 
-def sweep_order(arrangement: Arrangement) -> Ints:
+class SweepPlan(NamedTuple):
+    """The points and edges of a drawing, and the places that the line comes to.
+
+    Edge i runs from point i to ``following[i]``. After the ``n_vertices`` of the outline come the first feet of some
+    bridges, then their second feet. ``first_foot`` are vertices, ``second_foot`` visits; ``above`` tells which bridges
+    begin above the edge with their second foot, as seen along the line. ``visit`` are the visits that the line comes
+    to: the first ones to crossings, and second feet. There ``edge`` and ``other`` cross, of which one may be a bridge.
+    """
+
+    points: Floats
+    following: Ints
+    n_vertices: int
+    bridges: Ints
+    first_foot: Ints
+    second_foot: Ints
+    above: Ints
+    visit: Ints
+    edge: Ints
+    other: Ints
+
+
+def sweep_plan(arrangement: Arrangement, bridges: Ints) -> SweepPlan:
+    """Return what a line sweeps over: a drawing, and some of its bridges."""
+    outline = drawn_outline(arrangement)
+    n, count = len(outline), len(bridges)
+    first, second = feet(arrangement).reshape(2, -1)[:, bridges]
+    start, place = arrangement.visit_edge[first], arrangement.visit_point[second]
+    points = outline.points
+    if count:
+        points = np.concatenate([points, points[start], np.column_stack([place[:, 0], points[start, 1]])])
+    following = np.concatenate([outline.next_point, n + count + np.arange(count), n + np.arange(count)])
+    visit = np.flatnonzero(np.arange(len(arrangement.partner)) < arrangement.partner)
+    edge, other = arrangement.visit_edge[visit], arrangement.visit_edge[arrangement.partner[visit]]
+    return SweepPlan(
+        points=points,
+        following=following,
+        n_vertices=n,
+        bridges=bridges,
+        first_foot=start,
+        second_foot=second,
+        above=_leave_above(outline, arrangement.visit_edge[second]),
+        visit=np.concatenate([visit, second]),
+        edge=np.concatenate([edge, arrangement.visit_edge[second]]),
+        other=np.concatenate([other, n + np.arange(count)]),
+    )
+
+
+def _leave_above(outline: Outline, edge: Ints) -> Ints:
+    """Tell whether what leaves edges to the right is above them on the line: they fall as the line comes along them."""
+    start, end = outline.points[edge], outline.points[outline.next_point[edge]]
+    along = cross_sign(start, end, np.zeros(2), np.array([-_TILT, 1.0]))
+    return (np.sign(end[:, 1] - start[:, 1]) * along < 0).astype(np.int64)
+
+
+def sweep_order(plan: SweepPlan) -> Ints:
     """Return the vertices and crossings of a drawing by x + 0.3 y, then by y, exactly.
 
     Parameters
     ----------
-    arrangement : Arrangement
-        With a drawing of n points.
+    plan : SweepPlan
+        With n vertices.
 
     Returns
     -------
-    (n + k,) int
-        Vertices by number; crossings by their first visits, n more than that.
+    (n + k + bridges,) int
+        Vertices by number; crossings by their first visits, and feet by theirs, n more than that.
 
     Notes
     -----
     O((n + k) log n), and some microseconds for each place that rounding leaves unsure.
     """
-    assert arrangement.curve is not None
-    points = arrangement.curve.points
-    n = len(points)
-    first = np.flatnonzero(np.arange(len(arrangement.partner)) < arrangement.partner)
+    n = plan.n_vertices
     with np.errstate(over="ignore", invalid="ignore"):
-        reach, error = _reach(points)
-        if len(first):
-            edges = arrangement.visit_edge[first], arrangement.visit_edge[arrangement.partner[first]]
-            more = _reach_of_crossings(points, reach, error, *edges)
-            reach, error = np.concatenate([reach, more[0]]), np.concatenate([error, more[1]])
+        reach, error = _reach(plan.points)
+        if len(plan.visit):
+            more = _reach_of_crossings(plan, reach, error)
+            reach, error = np.concatenate([reach[:n], more[0]]), np.concatenate([error[:n], more[1]])
     order = np.argsort(reach)
-    events = np.concatenate([np.arange(n), n + first])[order]
-    _sort_unsure(arrangement, events, reach[order], error[order])
-    return events
+    events = np.arange(len(reach))[order]
+    _sort_unsure(plan, events, reach[order], error[order])
+    return np.concatenate([np.arange(n), n + plan.visit])[events]
 
 
 def _reach(points: Floats) -> tuple[Floats, Floats]:
@@ -63,17 +116,17 @@ def _reach(points: Floats) -> tuple[Floats, Floats]:
     return x + tilted, _ERROR * (np.abs(x) + np.abs(tilted))
 
 
-def _reach_of_crossings(points: Floats, reach: Floats, error: Floats, edge: Ints, other: Ints) -> tuple[Floats, Floats]:
+def _reach_of_crossings(plan: SweepPlan, reach: Floats, error: Floats) -> tuple[Floats, Floats]:
     """Return the same for the crossings of some edges with others."""
-    start, end = edge, (edge + 1) % len(points)
+    points, start, end = plan.points, plan.edge, plan.following[plan.edge]
     parameter, unsure = parameter_along_edge(
-        points[start], points[end], points[other], points[(other + 1) % len(points)]
+        points[start], points[end], points[plan.other], points[plan.following[plan.other]]
     )
     along = reach[end] - reach[start]
     return reach[start] + parameter * along, unsure * np.abs(along) + 3 * (error[start] + error[end])
 
 
-def _sort_unsure(arrangement: Arrangement, events: Ints, reach: Floats, error: Floats) -> None:
+def _sort_unsure(plan: SweepPlan, events: Ints, reach: Floats, error: Floats) -> None:
     """Sort runs of events again, in place, whose order rounding leaves open."""
     sure = reach[1:] - reach[:-1] > error[1:] + error[:-1]
     if sure.all():
@@ -85,23 +138,32 @@ def _sort_unsure(arrangement: Arrangement, events: Ints, reach: Floats, error: F
     bounds = np.flatnonzero(joined[1:] != joined[:-1])
     for low, high in bounds.reshape(-1, 2).tolist():
         run = events[low : high + 1]
-        run[:] = sorted(run.tolist(), key=lambda event: _exact_reach(arrangement, event))
+        run[:] = sorted(run.tolist(), key=lambda event: _exact_reach(plan, event))
 
 
-def _exact_reach(arrangement: Arrangement, event: int) -> _Place:
-    x, y = _exact_place(arrangement, event)
-    return x + Fraction(_TILT) * y, y
+def _exact_reach(plan: SweepPlan, event: int) -> tuple[Fraction, Fraction, int]:
+    x, y = _exact_place(plan, event)
+    return x + Fraction(_TILT) * y, y, _behind(plan, event)
 
 
-def _exact_place(arrangement: Arrangement, event: int) -> _Place:
-    assert arrangement.curve is not None
-    points = arrangement.curve.points
-    if event < len(points):
+def _behind(plan: SweepPlan, event: int) -> int:
+    """Return −1, 1 or 0 for events before, behind or at the place where they are: feet are a little higher."""
+    foot = event - plan.n_vertices - len(plan.visit) + len(plan.bridges)
+    if foot < 0:
+        return 0
+    start = plan.edge[event - plan.n_vertices]
+    (x, y), (end_x, end_y) = (map(Fraction, plan.points[point].tolist()) for point in (start, plan.following[start]))
+    reaches = end_x - x + Fraction(_TILT) * (end_y - y) > 0
+    return 1 if reaches == (end_y > y) else -1
+
+
+def _exact_place(plan: SweepPlan, event: int) -> _Place:
+    points = plan.points
+    if event < plan.n_vertices:
         x, y = points[event].tolist()
         return Fraction(x), Fraction(y)
-    visit = event - len(points)
-    edge, other = int(arrangement.visit_edge[visit]), int(arrangement.visit_edge[arrangement.partner[visit]])
-    ends = points[[edge, (edge + 1) % len(points), other, (other + 1) % len(points)]]
+    edge, other = int(plan.edge[event - plan.n_vertices]), int(plan.other[event - plan.n_vertices])
+    ends = points[[edge, plan.following[edge], other, plan.following[other]]]
     share = exact_parameter(*ends)
     (ax, ay), (bx, by) = ((Fraction(x), Fraction(y)) for x, y in ends[:2].tolist())
     return ax + share * (bx - ax), ay + share * (by - ay)

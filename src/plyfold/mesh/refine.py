@@ -26,6 +26,7 @@ from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import PlyfoldError, PrecisionError
 from plyfold.halfedges import ends_of
+from plyfold.immersion.corners import feet
 from plyfold.outline.curve import Outline
 from plyfold.ragged import next_in_rows
 
@@ -37,6 +38,7 @@ __all__ = [
     "NodedCurve",
     "PlanarMesh",
     "Size",
+    "borders_at_points",
     "chain_of",
     "constrained",
     "drawn_outline",
@@ -367,25 +369,36 @@ def chain_of(arrangement: Arrangement) -> tuple[Ints, Ints, Ints]:
     chain, passed = np.empty((2, n + len(visit)), dtype=np.int64)
     chain[on_curve] = np.arange(n)
     chain[at] = n + crossing[visit]
-    passed[on_curve] = _visits_before_points(arrangement, outline)
+    passed[on_curve] = _visits_before_points(arrangement)[1]
     passed[at] = visit + 1
     first_piece = outline.first_point + np.searchsorted(visit, arrangement.first_visit)
-    return chain, _border_after(arrangement, passed, first_piece), first_piece
-
-
-def _visits_before_points(arrangement: Arrangement, outline: Outline) -> Ints:
-    """Return how many visits come before each point of an outline, its own as a cusp included, on earlier loops too."""
-    edge = arrangement.visit_edge
-    before = np.searchsorted(edge, np.arange(len(outline)))
-    return np.asarray(before + np.concatenate(outline.cusps).astype(bool), dtype=np.int64)
-
-
-def _border_after(arrangement: Arrangement, passed: Ints, first_piece: Ints) -> Ints:
-    """Return the borders of pieces before which so many visits come, on earlier loops too."""
     loop = np.repeat(np.arange(arrangement.n_loops), np.diff(first_piece))
+    return chain, _border_after(arrangement, passed, loop), first_piece
+
+
+def borders_at_points(arrangement: Arrangement) -> tuple[Ints, Ints]:
+    """Return the border that arrives at each point of an outline, and the one that leaves it: mostly the same."""
+    arriving, leaving = _visits_before_points(arrangement)
+    loop = np.repeat(np.arange(arrangement.n_loops), np.diff(drawn_outline(arrangement).first_point))
+    return _border_after(arrangement, arriving, loop), _border_after(arrangement, leaving, loop)
+
+
+def _visits_before_points(arrangement: Arrangement) -> tuple[Ints, Ints]:
+    """Return how many visits come before each point of an outline, on earlier loops too; and with marks on the point.
+
+    These are its own as a cusp, and as the first foot of a bridge.
+    """
+    edge, points = arrangement.visit_edge, np.arange(len(drawn_outline(arrangement)))
+    before = np.searchsorted(edge, points)
+    on_point = edge[np.append(np.flatnonzero(arrangement.cusp_index), feet(arrangement)[: len(arrangement.bridges)])]
+    return before, before + np.bincount(on_point, minlength=len(points))
+
+
+def _border_after(arrangement: Arrangement, passed: Ints, loop: Ints) -> Ints:
+    """Return the borders of places on loops before which so many visits come, on earlier loops too."""
     first, last = arrangement.first_visit[loop], arrangement.first_visit[loop + 1]
     # Before its first visit a loop is on the border that its last visit begins; without visits it has one border.
-    border = np.searchsorted(arrangement.loop_of_border, loop)
+    border: Ints = np.searchsorted(arrangement.loop_of_border, loop)
     visited = last > first
     border[visited] = arrangement.border_after[np.where(passed > first, passed, last)[visited] - 1]
     return border

@@ -7,14 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from plyfold.arrays import Bools, Ints
+from plyfold.errors import InputError
 from plyfold.graphs import components
 from plyfold.halfedges import following
+from plyfold.immersion.corners import feet
 from plyfold.immersion.immersion import Immersion, require_memory_for_gluing
 from plyfold.memory import require_memory
 from plyfold.mesh.cells import CellTriangulation
 from plyfold.ragged import count_each, starts_of
 
-__all__ = ["Seams", "SheetMesh", "glue_copies", "seams_of"]
+__all__ = ["Seams", "SheetMesh", "glue_copies", "seams_of", "twisted_bridges"]
 
 # With what is needed to make them.
 _BYTES_PER_SEAM = 40
@@ -69,16 +71,23 @@ class Seams:
 
 
 def seams_of(immersion: Immersion) -> Seams:
-    """Return the gluing along borders as a table."""
+    """Return the gluing as a table; bridges have darts after those of all borders, from their first feet to second."""
     arrangement = immersion.arrangement
     require_memory_for_gluing(arrangement, _BYTES_PER_SEAM)
-    count = arrangement.winding[arrangement.cell_of_dart]
-    row = starts_of(count) - immersion.first_sheet[arrangement.cell_of_dart]
+    cell = np.append(arrangement.cell_of_dart, np.repeat(arrangement.cell_of_dart[arrangement.bridges[:, 0]], 2))
+    count = arrangement.winding[cell]
+    row = starts_of(count) - immersion.first_sheet[cell]
     table = np.full(int(count.sum()), -1)
-    border, right, left = immersion.gluing[immersion.gluing[:, 0] < arrangement.n_borders].T
+    border, right, left = immersion.gluing.T
     table[row[2 * border] + left] = right
     table[row[2 * border + 1] + right] = left
     return Seams(row, table)
+
+
+def twisted_bridges(immersion: Immersion) -> Ints:
+    """Return the bridges over which sheets are glued to others: on the way round a ring, sheets change places."""
+    bridge, right, left = immersion.gluing[immersion.gluing[:, 0] >= immersion.arrangement.n_borders].T
+    return np.unique(bridge[right != left]) - immersion.arrangement.n_borders
 
 
 def glue_copies(immersion: Immersion, mesh: CellTriangulation) -> SheetMesh:
@@ -87,7 +96,7 @@ def glue_copies(immersion: Immersion, mesh: CellTriangulation) -> SheetMesh:
     Parameters
     ----------
     immersion : Immersion
-        Along bridges each sheet must be glued to itself: so it is in layerings, where gluings keep the order of sheets.
+        Over bridges each sheet must be glued to itself: so it is in layerings, where gluings keep the order of sheets.
     mesh : CellTriangulation
         Of the same arrangement.
 
@@ -107,6 +116,12 @@ def glue_copies(immersion: Immersion, mesh: CellTriangulation) -> SheetMesh:
     >>> glued.faces.shape, glued.boundary.tolist()
     ((1, 3), [0, 1, 2])
     """
+    if len(twisted := twisted_bridges(immersion)):
+        raise InputError(
+            "on the way round a ring, sheets change places: there is a flat mesh with the points of the outline alone",
+            where=immersion.arrangement.visit_point[feet(immersion.arrangement)[twisted]],
+            hint="triangulate(outline, immersion) makes it",
+        )
     copies = immersion.arrangement.winding[mesh.cell]
     require_memory(
         _BYTES_PER_COPY * int(copies.sum()),

@@ -56,17 +56,23 @@ def bounds_nothing(points: Floats) -> bool:
 def _without_straight_points(points: list[list[float]]) -> list[list[float]]:
     """Leave out points on one line with their neighbours, at which the polyline goes straight on or turns back."""
     kept: list[list[float]] = []
-    waiting = points[::-1]
-    while waiting:
-        kept.append(waiting.pop())
-        while len(kept) > 2 and not orient(*kept[-3:]):
+    for point in points:
+        kept.append(point)
+        while len(kept) > 1 and _is_straight(kept, -3, -2, -1):
             del kept[-2]
-        if len(kept) > 1 and kept[-1] == kept[-2]:
-            kept.pop()
-    while len(kept) > 2 and not (orient(*kept[-2:], kept[0]) and orient(kept[-1], *kept[:2])):
-        straight = -1 if not orient(*kept[-2:], kept[0]) else 0
+    while len(kept) > 2:
+        straight = next((at for at in (-1, 0) if _is_straight(kept, at - 1, at, at + 1)), None)
+        if straight is None:
+            break
         del kept[straight]
     return kept
+
+
+def _is_straight(points: list[list[float]], before: int, at: int, after: int) -> bool:
+    """Tell whether a point says nothing: it repeats the next one, or lies on one line with both neighbours."""
+    if points[at] == points[after]:
+        return True
+    return len(points) > 2 and not orient(points[before], points[at], points[after])
 
 
 def even_odd_directions(loops: Sequence[Floats]) -> list[int]:

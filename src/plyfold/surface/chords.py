@@ -1,10 +1,7 @@
-"""Points in the middle of edges: of those between borders, and of those at cusps.
+"""Points in the middle of edges between borders.
 
 Where two sheets pass through each other along a border, their order is open at the border's points and strict at all
 others. So every edge but those of the border needs a point where it is strict.
-
-Round a cusp the surface climbs like a spiral stair: the steeper, the nearer to the cusp. So the triangles there are
-made smaller and smaller, and narrower first.
 """
 
 from __future__ import annotations
@@ -20,12 +17,7 @@ from plyfold.mesh.cells import CellTriangulation
 from plyfold.predicates import orient
 from plyfold.ragged import next_in_rows
 
-__all__ = ["split_at_cusps", "split_chords"]
-
-# How often the edges that a cusp sees are halved, then those that end there; each time these edges are half as long.
-_NARROWER, _SHORTER = 2, 6
-# Edges at cusps are not halved where they are so many roundings short.
-_SHORTEST = 2.0**24
+__all__ = ["halved", "split_chords", "triangulation"]
 
 
 def split_chords(mesh: CellTriangulation, borders: Ints) -> CellTriangulation:
@@ -56,8 +48,8 @@ def split_chords(mesh: CellTriangulation, borders: Ints) -> CellTriangulation:
     >>> split.points[4:].tolist(), len(split.triangles)
     ([[1.0, 1.0]], 4)
     """
-    whole = _halved(mesh, _first_pieces_of_short_borders(mesh))
-    return _halved(whole, _chords(whole, borders))
+    whole = halved(mesh, _first_pieces_of_short_borders(mesh))
+    return halved(whole, _chords(whole, borders))
 
 
 def _first_pieces_of_short_borders(mesh: CellTriangulation) -> Ints:
@@ -79,59 +71,7 @@ def _chords(mesh: CellTriangulation, borders: Ints) -> Ints:
     return np.flatnonzero(inside & open_point[start] & open_point[end] & (start < end))
 
 
-def split_at_cusps(mesh: CellTriangulation, cusps: Ints) -> CellTriangulation:
-    """Make triangles at cusps smaller: in rings round them, each half as wide as the next one.
-
-    Parameters
-    ----------
-    mesh : CellTriangulation
-    cusps : (c,) int
-        Points of the outline.
-
-    Returns
-    -------
-    CellTriangulation
-        No other triangles change, but those beside the ones at cusps.
-
-    Raises
-    ------
-    PrecisionError
-        If double precision has no point in the middle of an edge.
-
-    Examples
-    --------
-    >>> from plyfold import arrange
-    >>> from plyfold.mesh.cells import triangulate_cells
-    >>> square = triangulate_cells(arrange([(0, 0), (2, 0), (2, 2), (0, 2)]), triangles=0)
-    >>> float(np.hypot(*split_at_cusps(square, np.array([0])).points.T)[1:].min())
-    0.015625
-    """
-    for round_ in range(_SHORTER if len(cusps) else 0):
-        if round_ < _NARROWER:
-            mesh = _halved(mesh, _seen_from(mesh, cusps))
-        mesh = _halved(mesh, _half_edges_at(mesh, cusps))
-    return mesh
-
-
-def _half_edges_at(mesh: CellTriangulation, cusps: Ints) -> Ints:
-    """Return the half-edges at cusps, one for each edge, that are long enough to be halved."""
-    start, end = ends_of(mesh.triangles)
-    at_cusp = np.isin(start, cusps)
-    # What only runs to a cusp, on the rim of the mesh, or from one to another one.
-    other = np.isin(end, cusps) & ((mesh.twin < 0) | ~at_cusp[mesh.twin])
-    found = np.flatnonzero((at_cusp & ~(np.isin(end, cusps) & (start > end))) | (other & ~at_cusp))
-    length = np.abs(mesh.points[start[found]] - mesh.points[end[found]]).max(axis=1)
-    return np.asarray(found[length > _SHORTEST * np.spacing(np.abs(mesh.points).max())])
-
-
-def _seen_from(mesh: CellTriangulation, cusps: Ints) -> Ints:
-    """Return the half-edges opposite to a cusp in their triangle, one for each edge."""
-    opposite = np.flatnonzero(np.isin(mesh.triangles[:, [2, 0, 1]].ravel(), cusps))
-    twin = mesh.twin[opposite]
-    return opposite[~(np.isin(twin, opposite) & (twin < opposite))]
-
-
-def _halved(mesh: CellTriangulation, half_edges: Ints) -> CellTriangulation:
+def halved(mesh: CellTriangulation, half_edges: Ints) -> CellTriangulation:
     """Put a point in the middle of edges, each given by one half-edge, and join it to what is on both sides."""
     if not len(half_edges):
         return mesh
@@ -150,7 +90,7 @@ def _halved(mesh: CellTriangulation, half_edges: Ints) -> CellTriangulation:
     chain = np.insert(mesh.chain, cut + 1, middle[mesh.left[cut]])
     chain_border = np.insert(mesh.chain_border, cut + 1, mesh.chain_border[cut])
     first_piece = mesh.first_piece + np.searchsorted(cut, mesh.first_piece)
-    return _triangulation(points, triangles, cell, (chain, chain_border, first_piece))
+    return triangulation(points, triangles, cell, (chain, chain_border, first_piece))
 
 
 def _fan(corners: list[int], middles: list[int]) -> list[tuple[int, int, int]]:
@@ -161,7 +101,7 @@ def _fan(corners: list[int], middles: list[int]) -> list[tuple[int, int, int]]:
     return [(centre, a, b) for a, b in pairwise(ring[at + 1 :] + ring[:at])]
 
 
-def _triangulation(points: Floats, triangles: Ints, cell: Ints, chain: tuple[Ints, Ints, Ints]) -> CellTriangulation:
+def triangulation(points: Floats, triangles: Ints, cell: Ints, chain: tuple[Ints, Ints, Ints]) -> CellTriangulation:
     """Return a triangulation with its half-edges; all triangles must be counter-clockwise."""
     a, b, c = points[triangles].swapaxes(0, 1)
     if len(flat := np.flatnonzero(orient(a, b, c) <= 0)):

@@ -13,7 +13,7 @@ Cloth that is w times as stiff in a region has the weight w in both integrals th
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, TypeAlias
 
@@ -21,6 +21,7 @@ import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
+from plyfold.halfedges import ends_of
 from plyfold.matrices import diagonal_matrix, factorised, summed
 from plyfold.ragged import next_in_rows
 from plyfold.surface.glue import LiftedMesh, numbers_of_copies
@@ -37,6 +38,8 @@ _TIE = 1e-3
 _THINNEST = 1e-2
 # Triangles at cusps have next to no energy: there is a hole in the cloth, round which it may climb.
 _AT_CUSPS = 1e-6
+# Nearer to a cusp than the bending length, that is this share of the way to the cusp.
+_BENDING_AT_CUSPS = 0.25
 # How much pieces that lie over each other are drawn together, with the energy of the slope as the unit of energy, and
 # the mean width of the cloth as that of length.
 _ATTRACTION = 1e-3
@@ -104,11 +107,13 @@ def cloth_of(points: Floats, mesh: LiftedMesh, stiffness: float, flat: float, wa
         laplacian = laplacian + _ties(mesh, area, _ATTRACTION * (perimeter / area.sum()) ** 2)
     mean_width = 2 * area.sum() / perimeter
     plain = Cloth(laplacian, area, (stiffness * mean_width) ** 2)
+    if len(mesh.cusps):
+        plain = replace(plain, area=area * _softness(corners, mesh, stiffness * mean_width))
     if flat == 1:
         return plain
     share = plain.smoothed(_alone(mesh).astype(np.float64), watch).clip(0, 1)
     weighted, _ = _cotangent_laplacian(corners, mesh.faces, weight * flat ** share[mesh.faces].mean(axis=1))
-    return Cloth(weighted, area * flat**share, plain.bending)
+    return Cloth(weighted, plain.area * flat**share, plain.bending)
 
 
 def response(cloth: Cloth, watch: Watch = UNWATCHED) -> Response:
@@ -154,13 +159,36 @@ def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[
     return laplacian, np.maximum(area, _SMALLEST * area.mean())
 
 
+def _softness(corners: Floats, mesh: LiftedMesh, length: float) -> Floats:
+    """Return by which factor the cloth bends more easily at each vertex than elsewhere, where the outline has cusps.
+
+    A spiral stair bends more and more towards its middle, and all of the cloth would yield to that. So near a cusp the
+    bending length is only a share of the way to it. And outlines with cusps have folds far narrower than the cloth is
+    on average: they would rather stand upright than bend in their width. So where triangles are narrower than usual,
+    the bending length is as much shorter.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import dijkstra
+
+    start, end = ends_of(mesh.faces)
+    side = np.hypot(*(corners[start] - corners[end]).T)
+    ways = coo_array((side, (start, end)), shape=2 * (len(corners),)).tocsr()
+    reach = length / _BENDING_AT_CUSPS
+    way = dijkstra(ways, directed=False, indices=mesh.cusps, min_only=True, limit=reach)
+    way[mesh.cusps] = side.min()
+    (ux, uy), (vx, vy) = (corners[mesh.faces[:, i]].T - corners[mesh.faces[:, 0]].T for i in (1, 2))
+    area = ux * vy - uy * vx
+    width = area / side.reshape(-1, 3).max(axis=1)
+    usual = area @ width / area.sum()
+    around = np.bincount(mesh.faces.ravel(), np.repeat(width, 3)) / np.bincount(mesh.faces.ravel())
+    return np.asarray(np.maximum(1.0, np.maximum(reach / way, usual / around)) ** 2)
+
+
 def _ties(mesh: LiftedMesh, area: Floats, strength: float) -> Any:
     """Return the matrix of the energy that draws pieces together which lie over each other, in a linear system alone.
 
     Pieces that lie apart from all others are tied by one vertex each, so that their heights are known.
     """
-    from scipy.sparse import coo_array
-
     n = len(area)
     lower, upper = mesh.stacked[mesh.piece[mesh.stacked[:, 0]] != mesh.piece[mesh.stacked[:, 1]]].T
     apart = np.unique(mesh.heap, return_index=True)[1][1:]
@@ -168,7 +196,7 @@ def _ties(mesh: LiftedMesh, area: Floats, strength: float) -> Any:
     weight = np.concatenate([strength * np.minimum(area[lower], area[upper]), np.ones(len(apart))])
     rows, columns = np.concatenate([*ends, *ends]), np.concatenate([*ends, *ends[::-1]])
     signs = np.concatenate([weight, weight, -weight, -weight])
-    return coo_array((signs, (rows, columns)), shape=(n, n)).tocsr()
+    return summed(signs, rows, columns, (n, n))
 
 
 def _alone(mesh: LiftedMesh) -> Bools:

@@ -38,6 +38,7 @@ __all__ = [
     "Pins",
     "Room",
     "flat_weight",
+    "highest_below",
     "pins_of",
     "refuse_stiffness",
     "room_between",
@@ -94,7 +95,8 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
     -------
     (v,) float
         Heights of the mesh's vertices, the lowest 0 unless there are pins, also of pieces that lie over no other; all 0
-        if no two sheets overlap and nothing is pinned. For each row (lower, upper) of ``mesh.stacked``, ``z[lower] + gap <= z[upper]`` holds exactly, or
+        if no two sheets overlap and nothing is pinned. For each row
+        (lower, upper) of ``mesh.stacked``, ``z[lower] + gap <= z[upper]`` holds exactly, or
         with a share of the gap near intersections.
 
     Raises
@@ -213,17 +215,17 @@ def _kept_apart(z: Floats, mesh: LiftedMesh, distance: Floats, held: Bools) -> F
     if held.any():
         for rows in reversed(list(rows_upward(mesh))):
             lower, upper = mesh.stacked[rows].T
-            below = _highest_below(apart[upper], distance[rows])
+            below = highest_below(apart[upper], distance[rows])
             np.minimum.at(apart, lower, np.where(held[lower], np.inf, below))
     return apart
 
 
-def _highest_below(upper: Floats, distance: Floats) -> Floats:
+def highest_below(upper: Floats, distance: Floats) -> Floats:
     """Return the largest numbers that, with the distance added in floating point, are not above others.
 
     Examples
     --------
-    >>> lower = _highest_below(np.array([0.3]), np.array([0.1]))
+    >>> lower = highest_below(np.array([0.3]), np.array([0.1]))
     >>> bool(lower[0] + 0.1 <= 0.3), bool(np.nextafter(lower[0], 1) + 0.1 <= 0.3)
     (True, False)
     """

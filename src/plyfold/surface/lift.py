@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import chain
 from pathlib import Path
 from typing import cast
@@ -32,10 +32,11 @@ from plyfold.obstruction import IMMERSION_REASONS, Obstruction, Unknown
 from plyfold.options import refuse_unless_flag, refuse_unless_number
 from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.given import OutlineLike
-from plyfold.surface.chords import split_at_cusps, split_chords
+from plyfold.surface.chords import split_chords
 from plyfold.surface.files import Colouring, model_of_surface
 from plyfold.surface.glue import cusps_of, intersection_curves, stack_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, flat_weight, refuse_stiffness, smooth_heights
+from plyfold.surface.stairs import heights_of_stairs, with_steps
 from plyfold.surface.thicken import Solid, thicken
 from plyfold.wording import counted
 
@@ -343,14 +344,16 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     refuse_stiffness(stiffness)
     weight = flat_weight(flat)
     cells = triangulate_cells(drawn, max_area, triangles, watch)
-    if len(cusps := cusps_of(drawn)):
-        cells = split_at_cusps(cells, cusps)
+    steps = with_steps(cells, cusps_of(drawn))
+    if steps.cells is not cells:
+        cells = steps.cells
         refuse_broken(drawn, cells)
     if isinstance(layering, IntersectingLayering):
         cells = split_chords(cells, layering.intersections[:, 0])
         refuse_broken(drawn, cells)
     mesh = stack_sheets(layering, cells, watch)
-    heights = smooth_heights(cells.points, mesh, distance, stiffness=stiffness, pins=pins, flat=weight, watch=watch)
+    smooth = partial(smooth_heights, stiffness=stiffness, pins=pins, flat=weight, watch=watch)
+    heights = heights_of_stairs(cells.points, mesh, steps.outer, distance, smooth)
     vertices = np.column_stack([cells.points[mesh.planar_vertex], heights])
     curves = intersection_curves(vertices, mesh)
     return Surface(

@@ -376,8 +376,9 @@ def no_levels(arranged: Arrangement, clauses: LevelClauses, clock: Clock, becaus
     among_crossings, among_cusps = contradiction(clauses, clock)
     crossings = sorted(crossing_from_base[i] for i in among_crossings)
     cusps = sorted(cusp_from_base[i] for i in among_cusps)
-    at = f"{len(crossings)} crossings" + f" and {len(cusps)} cusps" * bool(cusps)
+    at = f"{len(crossings)} crossings" + (f" and {len(cusps)} cusp" + "s" * (len(cusps) > 1)) * bool(cusps)
     sentence = f"No embedding: {because}no levels of the strands fit together at {at}."
-    places = np.concatenate([arranged.crossings[crossings], arranged.visit_point[cusps]]) if arranged.outline else ()
+    drawn = arranged.outline is not None
+    places = np.concatenate([arranged.crossings[crossings], arranged.visit_point[cusps]]).tolist() if drawn else []
     where, value = tuple((x, y) for x, y in places), (*crossings, *(("cusp", visit) for visit in cusps))
     return obstruction(arranged, "no embedding", sentence, where, value)
