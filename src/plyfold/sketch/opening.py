@@ -15,7 +15,7 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import FileFormatError, InputError, StrokeError
-from plyfold.gallery import CURVES
+from plyfold.gallery import CURVES, OUTLINES
 from plyfold.io.reading import Contents, read_contents
 from plyfold.outline.curve import Outline, Repair
 from plyfold.sketch.pictures import PNG_START, png_document, svg_document
@@ -104,7 +104,7 @@ def _shapes(name: str, content: bytes) -> list[_Shape]:
 
 
 def gallery() -> dict[str, Any]:
-    """Return the named curves, ready for JSON."""
+    """Return the named curves and outlines, ready for JSON."""
     curves = [
         {
             "name": curve.name,
@@ -113,9 +113,9 @@ def gallery() -> dict[str, Any]:
             "turning_number": curve.turning_number,
             "immersions": str(curve.immersions),
             "embeddable": str(curve.embeddable),
-            "points": curve.curve.points.tolist(),
+            "document": document_data(_document_of(curve.outline)),
         }
-        for curve in CURVES.values()
+        for curve in (*CURVES.values(), *OUTLINES.values())
     ]
     return {"version": VERSION, "curves": curves}
 
@@ -144,7 +144,7 @@ def _started_with(file: str) -> list[_Shape]:
     if file.startswith("gallery:"):
         from plyfold.gallery import named_curve
 
-        return [_shape_of("", named_curve(file.removeprefix("gallery:")).curve)]
+        return [_shape_of("", named_curve(file.removeprefix("gallery:")).outline)]
     if file == "-":
         return _shapes("standard input", sys.stdin.buffer.read(MOST_BYTES + 1))
     try:
