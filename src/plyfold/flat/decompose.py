@@ -104,8 +104,6 @@ def _outlined(points: Floats, faces: Ints, piece: Ints) -> npt.NDArray[np.object
 
 def _pieces_of_surface(points: Floats, faces: Ints, is_cusp: Bools) -> list[Polygon]:
     """Return the pieces of a surface with holes or cusps: all triangles that overlap are found at once."""
-    import shapely
-
     conflicts: list[set[int]] = [set() for _ in faces]
     for triangle, others in _overlaps(points, faces, [np.arange(len(faces))], is_cusp).items():
         conflicts[triangle] |= others
