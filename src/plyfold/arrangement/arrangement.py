@@ -568,8 +568,8 @@ def require_one_loop(arranged: Arrangement, what: str = "this") -> None:
     """Refuse an arrangement of several closed curves for what is there for one curve alone."""
     if arranged.n_loops > 1:
         raise InputError(
-            f"{what} is there for one curve alone so far, and here are {arranged.n_loops} together",
-            hint="find_embedding, embeddings, count_embeddings and embed_cased take them",
+            f"{what} is there for one closed curve alone, and the outline has {arranged.n_loops} loops",
+            hint="give one of its loops",
         )
 
 

@@ -258,7 +258,7 @@ def require_disk(immersion: Immersion) -> Immersion:
     """Return a disk as it is; refuse another surface by an InputError."""
     if not immersion.is_disk:
         raise InputError(
-            f"this is there for disks so far, and the surface has {immersion.arrangement.n_loops} boundary curves and "
-            f"Euler characteristic {immersion.euler_characteristic}"
+            f"this is there for disks alone, and the surface has {counted(immersion.arrangement.n_loops, 'boundary curve')} "
+            f"and Euler characteristic {immersion.euler_characteristic}"
         )
     return immersion
