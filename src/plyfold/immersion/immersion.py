@@ -257,8 +257,9 @@ def require_memory_for_gluing(arrangement: Arrangement, bytes_per_pair: int = _B
 def require_disk(immersion: Immersion) -> Immersion:
     """Return a disk as it is; refuse another surface by an InputError."""
     if not immersion.is_disk:
+        curves = counted(immersion.arrangement.n_loops, "boundary curve")
+        characteristic = immersion.euler_characteristic
         raise InputError(
-            f"this is there for disks alone, and the surface has {counted(immersion.arrangement.n_loops, 'boundary curve')} "
-            f"and Euler characteristic {immersion.euler_characteristic}"
+            f"this is there for disks alone, and the surface has {curves} and Euler characteristic {characteristic}"
         )
     return immersion
