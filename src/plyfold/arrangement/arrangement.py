@@ -16,6 +16,7 @@ from plyfold.arrangement.leftmost import leftmost_crossing
 from plyfold.arrangement.maps import (
     Code,
     Map,
+    Walk,
     cell_of_each_dart,
     in_bounded_cells,
     numbered_crossings,
@@ -81,14 +82,14 @@ class Arrangement:
         their left in which it runs. The first foot is at the leftmost vertex of a group of loops, the second one
         straight to the left of it. Borders and bridges together connect the boundary of every bounded cell.
     outline : Outline
-        The loops as they were used, oriented and in general position; None if only the code is known.
+        The loops as used, oriented and in general position; None if only the code is known.
     crossings : (k, 2) float
         Positions, rounded to double precision; (0, 2) if only the code is known.
     visit_edge : (visits,) int
         Edge of the outline on which each visit lies, counted over all loops; a cusp lies on the edge that starts there.
         Empty if only the code is known.
     marks : (m, 2) float
-        Positions of the marks in the order of their visits, rounded; (0, 2) if only the code is known.
+        Positions of the marks in order, rounded; (0, 2) if only the code is known.
     reversed : bool
         True if the input was turned round: all winding numbers were 0 or negative, or a single curve with winding
         numbers of both signs had a negative turning number.
@@ -166,7 +167,8 @@ class Arrangement:
         """
         used, turning, turned_round = oriented(*checked_code(partner, ccw, outer))
         marks = cusps_on_borders(used.code, cusps or {}, turned_round)
-        arranged = cls._of_map(with_marks(used, marks), (turning,), None, reversed=turned_round)
+        marked = with_marks(used, marks)
+        arranged = cls._of_map(marked, walked_round(marked), (turning,), None, reversed=turned_round)
         cells = 2 + arranged.n_crossings
         if arranged.n_cells != cells:
             raise GaussCodeError(
@@ -176,10 +178,11 @@ class Arrangement:
         return arranged
 
     @classmethod
-    def _of_map(cls, drawn: Map, turning: tuple[int, ...], outline: Outline | None, **more: Any) -> Arrangement:
-        """Return the arrangement of loops whose cells are still to be walked round."""
-        code = drawn.code
-        following, *boundaries = walked_round(drawn)
+    def _of_map(
+        cls, drawn: Map, walked: Walk, turning: tuple[int, ...], outline: Outline | None, **more: Any
+    ) -> Arrangement:
+        """Return the arrangement of loops whose cells have been walked round."""
+        code, (following, *boundaries) = drawn.code, walked
         cell_of_dart = cell_of_each_dart(*boundaries)
         winding = np.empty(len(boundaries[0]) - 1, dtype=np.int64)
         winding[cell_of_dart[0::2]] = code.left
@@ -205,7 +208,10 @@ class Arrangement:
         )
 
     def gauss_code(self) -> tuple[list[int], list[bool], int]:
-        """Return ``(partner, ccw, outer)`` of one curve as plain lists, ready for :meth:`from_gauss`."""
+        """Return ``(partner, ccw, outer)`` of one curve as plain lists, ready for :meth:`from_gauss`.
+
+        Raises :class:`~plyfold.errors.InputError` for several curves and for cusps, which codes have not.
+        """
         require_one_loop(self, "a Gauss code")
         if self.cusp_index.any():
             raise InputError("a Gauss code has no cusps", self.marks, hint="take the code of the outline without them")
@@ -377,8 +383,8 @@ class Arrangement:
     def cell_outline(self, cell: int) -> Floats:
         """Return the boundary polygon of a cell, shape (m, 2), counter-clockwise for bounded cells.
 
-        A cell that touches itself at a crossing passes through that point twice. Raises
-        :class:`~plyfold.errors.PlyfoldError` if other loops lie in the cell: see :meth:`cell_outlines`.
+        It passes twice through a crossing where the cell touches itself. Raises PlyfoldError if other loops lie in the
+        cell: see :meth:`cell_outlines`.
         """
         outlines = self.cell_outlines(cell)
         if len(outlines) > 1:
@@ -551,10 +557,9 @@ def watched_arrangement(curve: OutlineLike, general_position: Literal["perturb",
     if are_several(curve) and len(several := cast("Sequence[CurveLike]", curve)) == 1:
         return watched_arrangement(several[0], general_position, watch)
     outline = as_outline(curve)
-    if isinstance(outline, Curve):
-        return _of_curve(outline, general_position, watch)
     if outline.n_loops == 1:
-        return _of_curve(outline.curves[0], general_position, watch)
+        curve = outline if isinstance(outline, Curve) else outline.curves[0]
+        return _of_curve(curve, general_position, watch)
     arranged = _of_loops(outline, False, watch)
     return arranged if arranged.winding.max() > 0 else _of_loops(outline.reversed(), True, watch)
 
@@ -579,7 +584,8 @@ def _of_curve(curve: Curve, general_position: Literal["perturb", "raise"], watch
     marks = cusps_of_outline(separated, edge)
     crossings = point[np.arange(len(point)) < used.code.partner]
     settled = {"exact_signs": visits.exact_signs, "reversed": turned_round}
-    return Arrangement._of_map(with_marks(drawn, marks), (turning,), separated, crossings=crossings, **settled)
+    marked = with_marks(drawn, marks)
+    return Arrangement._of_map(marked, walked_round(marked), (turning,), separated, crossings=crossings, **settled)
 
 
 def _of_loops(outline: Outline, turned_round: bool, watch: Watch) -> Arrangement:
@@ -590,11 +596,13 @@ def _of_loops(outline: Outline, turned_round: bool, watch: Watch) -> Arrangement
     none = np.zeros(len(visits.partner), dtype=np.int64)
     code = Code(visits.partner, visits.ccw, found.first_visit, left, visits.edge, none)
     plain = Map(code, found.outside, found.bridges)
-    inner = in_bounded_cells(plain)
+    walked = walked_round(plain)
+    inner = in_bounded_cells(plain, walked)
     feet = [mark for number in inner for mark in found.feet[number]]
     is_left = found.bridges[inner] % 2 == 0
     drawn = with_marks(plain, cusps_of_outline(outline, visits.edge), feet, is_left)
     crossings = visits.point[np.arange(len(visits.point)) < visits.partner]
     turning = tuple(map(polygon_turning_number, outline.loops))
     settled = {"exact_signs": visits.exact_signs, "reversed": turned_round}
-    return Arrangement._of_map(drawn, turning, outline, crossings=crossings, **settled)
+    walk = walked if drawn is plain else walked_round(drawn)
+    return Arrangement._of_map(drawn, walk, turning, outline, crossings=crossings, **settled)
