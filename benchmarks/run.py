@@ -12,10 +12,12 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+import against
 from contenders import CONTENDERS
 from families import FAMILIES
 from peers import Peer
@@ -46,10 +48,12 @@ def say(text: str) -> None:
     print(text, file=sys.stderr, flush=True)
 
 
-def lines_of(words: list[str], limit: float) -> Iterator[dict[str, Any]]:
+def lines_of(words: list[str], limit: float, environment: Mapping[str, str] | None = None) -> Iterator[dict[str, Any]]:
     """Run a contender and yield the lines it printed, also if it had to be stopped."""
     command = [sys.executable, *words]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, start_new_session=True) as process:
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, text=True, start_new_session=True, env=environment
+    ) as process:
         try:
             printed, _ = process.communicate(timeout=limit)
         except subprocess.TimeoutExpired:
@@ -71,12 +75,17 @@ def contenders(vertices: int, options: argparse.Namespace, tired: set[str]) -> l
     return [*names, *(peer for peer in options.peer if peer.name not in tired)]
 
 
+def draw(family: str, vertices: int, seed: int, points: Path) -> bool:
+    """Write a curve to a file, and tell whether there is one."""
+    words = [str(HERE / "families.py"), family, str(vertices), str(seed), str(points)]
+    return subprocess.run([sys.executable, *words], check=False, start_new_session=True).returncode == 0
+
+
 def measure(row: Row, options: argparse.Namespace, clock: Clock, tired: set[str]) -> None:
     """Draw the curve of a row and give it to all contenders; the row is filled as they finish."""
     with tempfile.TemporaryDirectory() as folder:
         points = Path(folder, "points.npy")
-        drawing = [str(HERE / "families.py"), row.family, str(row.vertices), str(options.seed), str(points)]
-        if subprocess.run([sys.executable, *drawing], check=False, start_new_session=True).returncode:
+        if not draw(row.family, row.vertices, options.seed, points):
             row.failures["drawing"] = "failed"
             return
         for contender in contenders(row.vertices, options, tired):
@@ -112,6 +121,31 @@ def run(options: argparse.Namespace, rows: list[Row], skipped: list[str]) -> Non
             say(progress(rows[-1]))
 
 
+def compare(options: argparse.Namespace, pairs: list[against.Pair]) -> None:
+    """Measure both source trees on all families, adding pairs as they come."""
+    for family in options.families or FAMILIES:
+        clock = Clock(options.budget)
+        for vertices in options.sizes or FAMILIES[family].sizes:
+            if clock.left() < 1:
+                break
+            pairs.append(against.Pair(family, vertices))
+            compare_on(pairs[-1], options, clock)
+            say(f"{family} {vertices:,}")
+
+
+def compare_on(pair: against.Pair, options: argparse.Namespace, clock: Clock) -> None:
+    """Draw a curve and give it to both source trees, as long as there is time."""
+    with tempfile.TemporaryDirectory() as folder:
+        points = Path(folder, "points.npy")
+
+        def lines(tree: against.Tree, contender: str) -> Iterator[dict[str, Any]]:
+            words = [tree.contenders, contender, str(points), *(["--plain"] if options.plain else [])]
+            return lines_of(words, clock.left(), tree.environment) if clock.left() else iter(())
+
+        if draw(pair.family, pair.vertices, options.seed, points):
+            against.measure(pair, options.against, options.rounds, lines)
+
+
 def write_docs(text: str, rows: list[Row]) -> None:
     """Put the tables between the markers of docs/benchmarks.md, and draw the plot beside it."""
     from plot import plot
@@ -136,13 +170,31 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--reference-up-to", type=int, default=REFERENCE_UP_TO, metavar="N")
     parser.add_argument("--lift-up-to", type=int, default=LIFT_UP_TO, metavar="N")
     parser.add_argument("--plain", action="store_true", help="without numba, as where it is not installed")
+    parser.add_argument(
+        "--against",
+        type=Path,
+        metavar="DIR",
+        help="another source tree of plyfold: both take turns on each curve, and the ratios are printed",
+    )
+    parser.add_argument("--rounds", type=int, default=3, help="turns of each source tree; default 3")
     parser.add_argument("--docs", action="store_true", help="write the tables and the plot into docs/")
     return parser.parse_args()
+
+
+def print_comparison(options: argparse.Namespace) -> int:
+    """Measure two source trees, and print their ratios so far."""
+    pairs: list[against.Pair] = []
+    with suppress(KeyboardInterrupt):
+        compare(options, pairs)
+    print(against.table(pairs))
+    return 0
 
 
 def main() -> int:
     """Measure, and print the tables."""
     options = arguments()
+    if options.against:
+        return print_comparison(options)
     rows: list[Row] = []
     skipped: list[str] = []
     try:

@@ -99,9 +99,9 @@ def server() -> Iterator[str]:
 
 def ask(connection: HTTPConnection, name: str, points: Points) -> tuple[float, dict[str, Any]]:
     """Put a question, and return the milliseconds and the answer."""
-    body = json.dumps({"version": 1, "points": points.tolist()})
+    body = json.dumps({"version": 2, "points": points.tolist()})
     began = time.perf_counter()
-    connection.request("POST", f"/api/v1/{name}", body, {"Content-Type": "application/json"})
+    connection.request("POST", f"/api/v2/{name}", body, {"Content-Type": "application/json"})
     content = connection.getresponse().read()
     return 1000 * (time.perf_counter() - began), json.loads(content)
 

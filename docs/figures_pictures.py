@@ -198,7 +198,7 @@ def figure_8() -> None:
 
 
 def figure_9() -> None:
-    """Mark what keeps curves from bounding a disk: a cell, or the crossing where a loop is one too many."""
+    """Mark what keeps curves from bounding a disk: a cell, or the crossing where a lobe is one too many."""
     with panels(9, 1, 4, (13, 3.7)) as axes:
         for name in ("figure-eight", "kinked-circle", "limacon", "doubled-circle"):
             arrangement = arranged(name)

@@ -75,7 +75,7 @@ def test_patches_that_cut_themselves_are_found():
 def test_levels_obey_the_rules_where_a_patch_does_not_cut_itself():
     """At crossings, cusps and feet; and the surface over the outline is found, with its Euler characteristic."""
     compared = counted = 0
-    for patch in some(6, 250):
+    for patch in some(6, 120):
         if len(patch.faces) > 120 or not any(cusps.any() for cusps in patch.cusps):
             continue
         loops = [loop.tolist() for loop in patch.outline]
@@ -100,5 +100,5 @@ def test_levels_obey_the_rules_where_a_patch_does_not_cut_itself():
             assert tuple(level.tolist()) in level_solutions(found.code)
             assert any(sum(chi for _, chi in pieces(found.code, *one)) == patch.chi for one in surfaces(found.code))
             counted += 1
-    assert compared > 60
-    assert counted > 40
+    assert compared > 30
+    assert counted > 20

@@ -23,6 +23,7 @@ def test_every_module_has_a_room(trees):
 def test_every_exception_has_its_reason():
     assert all(house.EXCEPTIONS.values())
     assert all(house.SAME_THINGS.values())
+    assert all(house.LATE.values())
 
 
 def with_lines(trees, module, *lines):
@@ -54,6 +55,8 @@ def with_lines(trees, module, *lines):
             "class Curve:\n    pass",
             "Curve names several things: in plyfold.draw.svg, plyfold.outline",
         ),
+        ("plyfold.flat.sweep", "def sweep():\n    import scipy.sparse", "imports scipy inside a function"),
+        ("plyfold.flat.sweep", "def sweep():\n    from shapely import box", "imports shapely inside a function"),
     ],
 )
 def test_what_breaks_a_rule_is_seen(trees, module, line, sentence):
@@ -63,7 +66,7 @@ def test_what_breaks_a_rule_is_seen(trees, module, line, sentence):
 
 
 def test_lines_for_types_alone_are_free(trees):
-    line = "if TYPE_CHECKING:\n    from plyfold.draw import svg"
+    line = "if TYPE_CHECKING:\n    import matplotlib\n    from plyfold.draw import svg"
     assert set(house.broken_rules(with_lines(trees, "plyfold.outline.points", line))) == set(house.broken_rules(trees))
 
 
@@ -71,4 +74,5 @@ def test_what_is_not_needed_any_more_is_seen(trees, monkeypatch):
     before = set(house.broken_rules(trees))
     monkeypatch.setitem(house.EXCEPTIONS, ("plyfold.outline.points", "plyfold.draw.svg"), "none")
     monkeypatch.setitem(house.SAME_THINGS, "Curve", "none")
-    assert len(set(house.broken_rules(trees)) - before) == 2
+    monkeypatch.setitem(house.LATE, ("plyfold.outline.points", "scipy"), "none")
+    assert len(set(house.broken_rules(trees)) - before) == 3

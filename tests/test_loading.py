@@ -15,7 +15,7 @@ imported, known, stop = {}, set(sys.modules), progress.Stopwatch.stop
 
 def stopping(watch):
     fresh = set(sys.modules) - known
-    outside = {name for name in fresh if name.split(".")[0] in ("scipy", "pysat", "shapely", "pythoncdt")}
+    outside = {name for name in fresh if name.split(".")[0] in ("scipy", "pysat", "shapely")}
     imported.setdefault(watch._stage, []).extend(sorted(outside))
     known.update(fresh)
     stop(watch)

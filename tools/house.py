@@ -2,7 +2,8 @@
 
 The rules: every file reads rooms before its own alone, but for the lines named in :data:`EXCEPTIONS`; no imports go
 round in circles; the checkers of ``certify`` read nothing but errors; a public name is in one module alone, but for the
-same thing, see :data:`SAME_THINGS`.
+same thing, see :data:`SAME_THINGS`; other projects' libraries are imported at the top of a file, but for those that
+are :data:`LATE` with a reason.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ SOURCE = Path(__file__).resolve().parent.parent / "src" / "plyfold"
 # The rooms from the ground floor up, each a package or a module that stands alone; those on one line do not read each
 # other.
 ORDER = [
-    ["arrays", "errors"],
+    ["arrays", "errors", "wording"],
     ["obstruction"],
     ["options", "clock", "compiled", "colours", "ragged", "graphs", "loading", "memory", "mistaken", "certify"],
     ["predicates", "halfedges", "matrices", "sat"],
@@ -70,6 +71,29 @@ SAME_THINGS = {
     "save": "an outline, and a figure as pf.draw.save",
 }
 
+_SMALL = "small drawings are arranged and decided before it is imported, or without it"
+_STAGE = "its import is the stage that loads libraries, in which no other one's seconds are"
+# Libraries that functions import when they are called: (file, library): the reason.
+LATE = {
+    ("plyfold.arrangement.crossings", "shapely"): _SMALL,
+    ("plyfold.arrangement.nesting", "shapely"): _SMALL,
+    ("plyfold.arrangement.polylines", "shapely"): _SMALL,
+    ("plyfold.disk.places", "scipy"): _STAGE,
+    ("plyfold.disk.places", "shapely"): "the command line knows what files hold a disk before that stage",
+    ("plyfold.draw.render", "scipy"): "the page's server and plain pictures do without it",
+    ("plyfold.graphs", "scipy"): _SMALL,
+    ("plyfold.io.outline_files", "shapely"): _SMALL,
+    ("plyfold.io.pieces", "shapely"): "the command line knows what files hold polygons before that stage",
+    ("plyfold.io.vector", "shapely"): _SMALL,
+    ("plyfold.layering.orders.maxsat", "pysat"): _STAGE,
+    ("plyfold.matrices", "scipy"): _STAGE,
+    ("plyfold.offers.cusps", "pysat"): _STAGE,
+    ("plyfold.outline.direction", "shapely"): _SMALL,
+    ("plyfold.outline.given", "shapely"): _SMALL,
+    ("plyfold.sat", "pysat"): _STAGE,
+    ("plyfold.surface.heights", "scipy"): _STAGE,
+}
+
 LIFT = """
 import collections, sys
 import plyfold as pf
@@ -112,17 +136,22 @@ def imports(trees: dict[str, ast.Module]) -> list[Import]:
 
 
 def _imports_of(name: str, tree: ast.Module, trees: dict[str, ast.Module]) -> Iterator[Import]:
-    typing_only = {
-        id(inner)
-        for node in ast.walk(tree)
-        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
-        for inner in ast.walk(node)
-    }
+    typing_only = _under_type_checking(tree)
     top = {id(node) for node in tree.body}
     for node in ast.walk(tree):
         for target in _targets(node, trees):
             if target != name:
                 yield Import(name, node.lineno, target, id(node) in top, id(node) in typing_only)
+
+
+def _under_type_checking(tree: ast.Module) -> set[int]:
+    """Return the identities of all nodes that only type checkers see."""
+    return {
+        id(inner)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
+        for inner in ast.walk(node)
+    }
 
 
 def _targets(node: ast.AST, trees: dict[str, ast.Module]) -> Iterator[str]:
@@ -133,6 +162,24 @@ def _targets(node: ast.AST, trees: dict[str, ast.Module]) -> Iterator[str]:
         for alias in node.names:
             inner = f"{node.module}.{alias.name}"
             yield inner if inner in trees else node.module
+
+
+def late_imports(trees: dict[str, ast.Module]) -> list[tuple[str, str, int]]:
+    """Return (module, library, line) for every import of another project's library that is not at the top of a file."""
+    found = []
+    for module, tree in trees.items():
+        above = {id(node) for node in tree.body} | _under_type_checking(tree)
+        for node in ast.walk(tree):
+            for library in _libraries(node) if id(node) not in above else ():
+                found.append((module, library, node.lineno))  # type: ignore[attr-defined]
+    return found
+
+
+def _libraries(node: ast.AST) -> set[str]:
+    """Return the libraries of other projects that a node imports."""
+    names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+    names += [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+    return {name.partition(".")[0] for name in names} - sys.stdlib_module_names - {"plyfold", "plyfold_command"}
 
 
 def room(module: str) -> str:
@@ -272,6 +319,7 @@ def table() -> str:
         ("circles of imports", len(circles(found))),
         ("imports against the order, named exceptions", len(against_the_order(found)) - len(unexplained(found))),
         ("imports against the order, others", len(unexplained(found))),
+        ("imports of libraries inside functions, all named", len(late_imports(trees))),
         ("names defined in several modules", len(names_in_several_modules(trees))),
         (
             "functions; median, nine tenths up to, longest",
@@ -295,6 +343,11 @@ def broken_rules(trees: dict[str, ast.Module]) -> Iterator[str]:
     for line in found:
         if room(line.module) == "certify" != room(line.target) and line.target != "plyfold.errors":
             yield f"{line.module}, line {line.line}: a checker reads {line.target}"
+    late = {(module, library): line for module, library, line in late_imports(trees)}
+    for module, library in late.keys() - LATE.keys():
+        yield f"{module}, line {late[module, library]}: imports {library} inside a function"
+    for module, library in LATE.keys() - late.keys():
+        yield f"the reason for {module} to import {library} inside a function is not needed"
     several = {name: homes for name, homes in names_in_several_modules(trees).items() if not name.startswith("_")}
     for name in several.keys() - SAME_THINGS.keys():
         yield f"{name} names several things: in {', '.join(several[name])}"

@@ -9,7 +9,7 @@ from . import paper as paper
 from .arrangement.arrangement import Arrangement as Arrangement
 from .arrangement.arrangement import arrange as arrange
 from .arrangement.gauss import GaussCode as GaussCode
-from .arrangement.loops import loop_turning_numbers as loop_turning_numbers
+from .arrangement.lobes import lobe_turning_numbers as lobe_turning_numbers
 from .disk.unwrap import UnwoundDisk as UnwoundDisk
 from .disk.unwrap import map_disk as map_disk
 from .disk.unwrap import unwrap as unwrap
@@ -44,6 +44,8 @@ from .layering.orders.nicest import nicest_layering as nicest_layering
 from .layering.orders.search import find_layering as find_layering
 from .obstruction import Obstruction as Obstruction
 from .obstruction import Unknown as Unknown
+from .offers.cusps import SuggestedCusps as SuggestedCusps
+from .offers.cusps import suggest_cusps as suggest_cusps
 from .outline.curve import Curve as Curve
 from .outline.curve import Outline as Outline
 from .surface.lift import Surface as Surface

@@ -20,11 +20,10 @@ Complexes: TypeAlias = npt.NDArray[np.complex128]
 
 def read_only(array: npt.NDArray[Scalar]) -> npt.NDArray[Scalar]:
     """Return an array that cannot be written to as it is, and a view of another one, which stays as it was."""
-    if not array.flags.writeable:
-        return array
-    view = array.view()
-    view.flags.writeable = False
-    return view
+    if array.flags.writeable:
+        array = array.view()
+        array.setflags(write=False)
+    return array
 
 
 def freeze(value: object) -> None:
@@ -39,8 +38,9 @@ def freeze(value: object) -> None:
     >>> value.array.flags.writeable, given.flags.writeable
     (False, True)
     """
-    for name, member in vars(value).items():
+    members = vars(value)
+    for name, member in members.items():
         if isinstance(member, np.ndarray):
-            object.__setattr__(value, name, read_only(member))
+            members[name] = read_only(member)
         elif isinstance(member, tuple) and any(isinstance(part, np.ndarray) for part in member):
-            object.__setattr__(value, name, tuple(map(read_only, member)))
+            members[name] = tuple(map(read_only, member))

@@ -83,6 +83,7 @@ _PAGE: Mapping[str, tuple[str, str]] = {
     "on-strong": (PAPER, "#10141b"),
     "accent": (ACCENT, "#f29b6b"),
     "wrong": (OBSTRUCTION, "#ff6b78"),
+    "cusp": (CUSP, "#d9a3e2"),
     "good": ("#10705a", "#6fd3b5"),
     "lit": ("#f2b632", "#d99a1c"),
     "dot": ("#cfd6e0", "#333c4b"),

@@ -19,6 +19,7 @@ import numpy.typing as npt
 from plyfold.errors import InputError
 from plyfold.outline.curve import Curve
 from plyfold.outline.given import as_curve
+from plyfold.wording import counted
 
 __all__ = ["CURVES", "NamedCurve", "chain", "named_curve", "ribbon", "rounded"]
 
@@ -61,7 +62,8 @@ class NamedCurve:
     embeddable: int
 
     def __repr__(self) -> str:
-        return f"<NamedCurve {self.name}: {self.crossings} crossings, {self.immersions} immersions>"
+        crossings, immersions = counted(self.crossings, "crossing"), counted(self.immersions, "immersion")
+        return f"<NamedCurve {self.name}: {crossings}, {immersions}>"
 
     def _repr_svg_(self) -> str | None:
         from plyfold.arrangement.arrangement import arrange

@@ -6,9 +6,9 @@ from collections.abc import MutableSequence
 
 import numpy as np
 
-from plyfold.arrays import Ints
+from plyfold.arrays import Floats, Ints
 
-__all__ = ["components", "representative", "shortest_path", "spanning_tree"]
+__all__ = ["components", "representative", "shortest_path", "spanning_tree", "ways_from"]
 
 
 def components(n: int, start: Ints, end: Ints) -> Ints:
@@ -19,11 +19,10 @@ def components(n: int, start: Ints, end: Ints) -> Ints:
     >>> components(4, np.array([3]), np.array([1])).tolist()
     [0, 1, 2, 1]
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
+    from scipy.sparse import coo_array, csgraph
 
     graph = coo_array((np.ones(len(start), dtype=bool), (start, end)), shape=(n, n))
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
+    return np.asarray(csgraph.connected_components(graph, directed=False)[1], dtype=np.int64)
 
 
 def spanning_tree(n: int, start: Ints, end: Ints) -> tuple[Ints, Ints, Ints]:
@@ -43,11 +42,10 @@ def spanning_tree(n: int, start: Ints, end: Ints) -> tuple[Ints, Ints, Ints]:
     >>> [values.tolist() for values in spanning_tree(3, np.array([0, 2]), np.array([2, 1]))]
     [[-9999, 2, 0], [0, 1, 0], [0, 2, 1]]
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import breadth_first_order
+    from scipy.sparse import coo_array, csgraph
 
     graph = coo_array((np.ones(len(start), dtype=np.int8), (start, end)), shape=(n, n))
-    order, parent = breadth_first_order(graph.tocsr(), 0, directed=False)
+    order, parent = csgraph.breadth_first_order(graph.tocsr(), 0, directed=False)
     edge, edges = np.zeros(n, dtype=np.int64), np.arange(len(start))
     for child, above in ((start, end), (end, start)):
         in_tree = parent[child] == above
@@ -63,15 +61,33 @@ def shortest_path(n: int, edges: Ints, start: int, end: int) -> list[int]:
     >>> shortest_path(4, np.array([(0, 1), (1, 2), (2, 3), (1, 3)]), 0, 3)
     [0, 1, 3]
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import breadth_first_order
+    from scipy.sparse import coo_array, csgraph
 
     graph = coo_array((np.ones(len(edges), dtype=bool), edges.T), shape=(n, n)).tocsr()
-    _, before = breadth_first_order(graph, start, directed=False)
+    _, before = csgraph.breadth_first_order(graph, start, directed=False)
     path = [end]
     while path[-1] != start:
         path.append(int(before[path[-1]]))
     return path[::-1]
+
+
+def ways_from(sources: Ints, n: int, edges: Ints, length: Floats, limit: float) -> Floats:
+    """Return how far each of n nodes is from the nearest source, along edges of given lengths; infinite beyond a limit.
+
+    Examples
+    --------
+    >>> ways_from(np.array([1]), 4, np.array([(0, 1), (1, 2), (2, 3), (1, 2)]), np.array([2.0, 3.0, 4.0, 5.0]), 6.0)
+    array([ 2.,  0.,  3., inf])
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import dijkstra
+
+    start, end = edges.min(axis=1), edges.max(axis=1)
+    # Of several edges between two nodes the shortest counts; a matrix would add them up.
+    order = np.lexsort((length, end, start))
+    first = order[np.append(True, (np.diff(start[order]) != 0) | (np.diff(end[order]) != 0))[: len(order)]]
+    ways = coo_array((length[first], (start[first], end[first])), shape=(n, n)).tocsr()
+    return np.asarray(dijkstra(ways, directed=False, indices=sources, min_only=True, limit=limit))
 
 
 def representative(joined: MutableSequence[int] | Ints, member: int) -> int:

@@ -13,7 +13,7 @@ from importlib import import_module
 __all__ = ["FOR_CROSSINGS", "FOR_LAYERINGS", "FOR_MESHES", "load_libraries"]
 
 FOR_CROSSINGS = ("shapely",)
-FOR_MESHES = ("pythoncdt", "scipy.sparse.csgraph", "scipy.sparse.linalg")
+FOR_MESHES = ("scipy.sparse.csgraph", "scipy.sparse.linalg")
 FOR_LAYERINGS = ("pysat.solvers", *FOR_MESHES)
 
 

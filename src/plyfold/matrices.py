@@ -13,9 +13,10 @@ from importlib import import_module
 from threading import Lock
 from typing import Any
 
+from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 
-__all__ = ["factorised", "one_thread"]
+__all__ = ["diagonal_matrix", "factorised", "laplacian", "one_thread", "summed"]
 
 _lock = Lock()
 # Gives the threads back, once for each who wants one thread: the numbers that the first one found come first.
@@ -54,6 +55,42 @@ def _threads() -> Any:
     with suppress(ImportError):
         return import_module("threadpoolctl").ThreadpoolController()
     return None
+
+
+def summed(values: Floats, rows: Ints, columns: Ints, shape: tuple[int, int]) -> Any:
+    """Return the sparse matrix with some entries; those at the same place are added up.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> summed(np.ones(3), np.array([0, 0, 1]), np.array([1, 1, 0]), (2, 2)).toarray().tolist()
+    [[0.0, 2.0], [1.0, 0.0]]
+    """
+    from scipy.sparse import coo_array
+
+    return coo_array((values, (rows, columns)), shape=shape).tocsr()
+
+
+def diagonal_matrix(values: Floats) -> Any:
+    """Return the sparse matrix with some values on its diagonal."""
+    from scipy.sparse import diags_array
+
+    return diags_array(values)
+
+
+def laplacian(start: Ints, end: Ints, weight: Floats) -> Any:
+    """Return the Laplacian of a graph whose edges have weights; sparse.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> laplacian(np.array([0]), np.array([1]), np.array([2.0])).toarray().tolist()
+    [[2.0, -2.0], [-2.0, 2.0]]
+    """
+    size = int(max(start.max(), end.max())) + 1
+    one_way = summed(weight, start, end, (size, size))
+    whole = one_way + one_way.T
+    return (diagonal_matrix(whole.sum(axis=1)) - whole).tocsr()
 
 
 def factorised(matrix: Any, watch: Watch = UNWATCHED) -> Any:

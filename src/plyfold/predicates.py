@@ -196,14 +196,17 @@ def parameter_along_edge(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Fl
     """
     with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
         ab, cd, ac = b - a, d - c, c - a
-        above = ac[:, 0] * cd[:, 1] - ac[:, 1] * cd[:, 0]
-        below = ab[:, 0] * cd[:, 1] - ab[:, 1] * cd[:, 0]
-        above_size = np.abs(ac[:, 0] * cd[:, 1]) + np.abs(ac[:, 1] * cd[:, 0]) + _UNDERFLOW
-        below_size = np.abs(ab[:, 0] * cd[:, 1]) + np.abs(ab[:, 1] * cd[:, 0]) + _UNDERFLOW
+        (above, above_size), (below, below_size) = _crossed(ac, cd), _crossed(ab, cd)
         error = _PARAMETER_ERROR * (above_size + 2 * below_size) / np.abs(below)
-        parameter = np.clip(above / below, 0.0, 1.0)
-    lost = ~np.isfinite(error) | ~np.isfinite(parameter)
-    return np.where(lost, 0.5, parameter), np.where(lost, np.inf, error)
+        parameter = np.minimum(np.maximum(above / below, 0.0), 1.0)
+    known = np.isfinite(error) & np.isfinite(parameter)
+    return np.where(known, parameter, 0.5), np.where(known, error, np.inf)
+
+
+def _crossed(one: Floats, other: Floats) -> tuple[Floats, Floats]:
+    """Return the cross products of directions, shape (m, 2), and how large the products are that they are made of."""
+    left, right = one[:, 0] * other[:, 1], one[:, 1] * other[:, 0]
+    return left - right, np.abs(left) + np.abs(right) + _UNDERFLOW
 
 
 def exact_parameter(a: Floats, b: Floats, c: Floats, d: Floats) -> Fraction:

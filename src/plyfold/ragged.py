@@ -17,7 +17,7 @@ def starts_of(lengths: Ints) -> Ints:
     >>> starts_of(np.array([2, 0, 3])).tolist()
     [0, 2, 2]
     """
-    return np.asarray(np.cumsum(lengths) - lengths)
+    return np.asarray(lengths.cumsum() - lengths)
 
 
 def count_each(lengths: Ints) -> Ints:
@@ -28,7 +28,7 @@ def count_each(lengths: Ints) -> Ints:
     >>> count_each(np.array([2, 0, 3])).tolist()
     [0, 1, 0, 1, 2]
     """
-    return np.arange(int(lengths.sum())) - np.repeat(starts_of(lengths), lengths)
+    return np.arange(int(lengths.sum())) - starts_of(lengths).repeat(lengths)
 
 
 def next_in_rows(first: Ints) -> Ints:

@@ -1,22 +1,32 @@
-"""The verdict on a curve: in words, which the command line and the page show, and with all figures as plain data."""
+"""The verdict on an outline: in words, which the command line and the page show, and all figures as plain data."""
 
 from __future__ import annotations
 
 import math
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.errors import TimeLimitError
+from plyfold.immersion.immersion import Immersion, Piece
+from plyfold.immersion.obstructions import may_bound_disk
 from plyfold.immersion.solve import count_immersions, find_immersion, immersions
+from plyfold.io.cusp_notation import CuspMark, cusp_marks, written_cusp
+from plyfold.layering.embedding import find_embedding
 from plyfold.layering.orders.search import first_layering
-from plyfold.obstruction import Obstruction
-from plyfold.outline.curve import Curve
+from plyfold.obstruction import Obstruction, Unknown
+from plyfold.offers.cusps import SuggestedCusps, suggest_cusps
+from plyfold.outline.curve import Outline
 
-__all__ = ["Words", "describe", "in_words", "verdict", "words"]
+__all__ = ["A_DISK", "Words", "describe", "in_words", "repair_lines", "surface_in_words", "verdict", "words"]
 
-_SHOWN_REPAIRS = 5
+A_DISK = "a disk of cloth"
+"""What one curve without cusps bounds, if it bounds a surface without handles."""
+
+_SECONDS_FOR_AN_OFFER = 2.0
+_SHOWN_REPAIRS = _SHOWN_CUSPS = 5
 _LONGEST_NUMBER = 12
 _UNDECIDED = "Whether it can be lifted was not decided in time."
 
@@ -29,32 +39,76 @@ class Words:
     sentence: str
 
 
-def words(immersions: int, obstruction: str = "", decided: bool = True) -> Words:
-    """Return the verdict on a curve in words.
+def words(immersions: int | None, obstruction: str = "", decided: bool = True, surface: str = A_DISK) -> Words:
+    """Return the verdict on an outline in words.
 
     Parameters
     ----------
-    immersions : int
-        In how many ways it bounds a disk.
+    immersions : int or None
+        In how many ways it bounds a surface; None if it does, and they were not counted in time.
     obstruction : str
         The sentence that says why it bounds none, or why the one that is looked at cannot be lifted.
     decided : bool
         Whether it is known if that one can be lifted.
+    surface : str
+        What it bounds, or might have bounded, as :func:`surface_in_words` says.
 
     Examples
     --------
     >>> words(2).headline, words(2).sentence
     ('A disk of cloth, in 2 ways', 'This is the outline of a disk of cloth, which can lie in 2 ways.')
+    >>> words(1, surface="a ring of cloth").sentence
+    'This is the outline of a ring of cloth, which can lie in one way.'
     >>> words(0, "The curve turns 2 times, and the outline of a disk turns once.").headline
     'No disk'
     """
     if immersions == 0:
-        return Words("No disk", obstruction)
-    headline = "A disk of cloth" if immersions == 1 else f"A disk of cloth, in {in_words(immersions)} ways"
+        return Words("No disk" if surface == A_DISK else "No surface", obstruction)
+    ways = f", in {in_words(immersions)} ways" if immersions is not None and immersions > 1 else ""
+    headline = f"{surface[0].upper()}{surface[1:]}{ways}"
     if obstruction:
         return Words(f"{headline}; this one cannot be lifted", obstruction)
-    ways = "in one way" if immersions == 1 else f"in {in_words(immersions)} ways"
-    return Words(headline, f"This is the outline of a disk of cloth, which can lie {ways}." if decided else _UNDECIDED)
+    return Words(headline, f"This is the outline of {surface}{_ways(immersions)}." if decided else _UNDECIDED)
+
+
+def _ways(immersions: int | None) -> str:
+    if immersions is None:
+        return "; in how many ways it can lie was not counted in time"
+    return ", which can lie in " + ("one way" if immersions == 1 else f"{in_words(immersions)} ways")
+
+
+def surface_in_words(pieces: Sequence[Piece]) -> str:
+    """Say what kind of surface some pieces are together.
+
+    Examples
+    --------
+    >>> surface_in_words([Piece((0,), 1)]), surface_in_words([Piece((0, 1), 0)])
+    ('a disk of cloth', 'a ring of cloth')
+    >>> surface_in_words([Piece((0, 1, 2), -1)]), surface_in_words([Piece((0,), -1)])
+    ('a disk of cloth with 2 holes', 'a disk of cloth with a handle')
+    >>> surface_in_words([Piece((0,), 1), Piece((1,), 1), Piece((2, 3), -2)])
+    '3 pieces of cloth: 2 disks and a disk with a hole and a handle'
+    """
+    if len(pieces) == 1:
+        kind, more = _kind_of_piece(pieces[0])
+        return f"a {kind} of cloth{more}"
+    kinds = Counter(map(_kind_of_piece, pieces))
+    named = [f"a {kind}{more}" if count == 1 else f"{count} {kind}s{more}" for (kind, more), count in kinds.items()]
+    listed = named[0] if len(named) == 1 else f"{', '.join(named[:-1])} and {named[-1]}"
+    return f"{len(pieces)} pieces of cloth: {listed}"
+
+
+def _kind_of_piece(piece: Piece) -> tuple[str, str]:
+    """Return what a piece is, and what it has besides."""
+    holes, handles = len(piece.loops) - 1, piece.genus
+    if (holes, handles) == (1, 0):
+        return "ring", ""
+    parts = [
+        f"a {what}" if count == 1 else f"{count} {what}s"
+        for what, count in (("hole", holes), ("handle", handles))
+        if count
+    ]
+    return "disk", f" with {' and '.join(parts)}" if parts else ""
 
 
 def in_words(count: int) -> str:
@@ -73,20 +127,23 @@ def in_words(count: int) -> str:
 
 
 def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[str, Any]:
-    """Return everything that is known of a curve as plain data, ready for JSON.
+    """Return everything that is known of an outline as plain data, ready for JSON.
 
     Parameters
     ----------
     arrangement : Arrangement
     time_limit : float, optional
-        Seconds for the search for a layering; when they are over, ``layerable`` is None: unknown.
+        Seconds for the search for a layering, and, where the outline cannot be that of a disk alone, for each of the
+        other questions; when they are over, ``layerable``, ``immersible`` or ``immersions`` is None: unknown.
 
     Returns
     -------
     dict
-        ``points``, ``crossings``, ``cells`` (number of cells by winding number), ``turning_number``, ``reversed``,
-        ``repairs``, ``immersible``, ``immersions``; for a disk also ``layerable``, ``examined`` (immersions) and
-        ``sheets``, otherwise ``reason``, ``sentence`` and ``where``.
+        ``points``, ``loops``, ``cusps`` (of each: ``loop``, ``point``, ``index``, ``where``), ``crossings``, ``cells``
+        (number of cells by winding number), ``turning_number``, ``reversed``, ``repairs``, ``immersible``,
+        ``immersions``; for a surface also ``surface`` (in words), ``pieces``, ``euler_characteristic``, ``sheets``,
+        ``layerable``, and, for a disk, ``examined`` (immersions), otherwise ``reason``, ``sentence`` and ``where``; if
+        it turns too often, perhaps an ``offer``: ``cusps``, and the ``surface`` that it would bound with them.
 
     Examples
     --------
@@ -94,25 +151,71 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
     >>> found = verdict(arrange([(0, 0), (2, 2), (2, 0), (0, 2)]))
     >>> found["immersible"], found["reason"], found["cells"]
     (False, 'turning number', {-1: 1, 0: 1, 1: 1})
+    >>> verdict(arrange([[(0, 0), (9, 0), (0, 9)], [(1, 1), (1, 3), (3, 1)]]))["surface"]
+    'a ring of cloth'
     """
-    curve = arrangement.curve
+    outline = arrangement.outline
     figures: dict[str, Any] = {
-        "points": 0 if curve is None else len(curve),
+        "points": 0 if outline is None else len(outline),
+        "loops": arrangement.n_loops,
+        "cusps": _cusps(outline),
         "crossings": arrangement.n_crossings,
         "cells": dict(sorted(Counter(arrangement.winding.tolist()).items())),
         "turning_number": arrangement.turning_number,
         "reversed": arrangement.reversed,
-        "repairs": _repairs(curve),
+        "repairs": _repairs(outline),
     }
-    found = find_immersion(arrangement)
+    limit = None if may_bound_disk(arrangement) else time_limit
+    found = find_immersion(arrangement, time_limit=limit)
+    if isinstance(found, Unknown):
+        return figures | {"immersible": None, "immersions": None}
     if isinstance(found, Obstruction):
-        return figures | {"immersible": False, "immersions": 0} | _obstructed(found)
-    figures |= {"immersible": True, "immersions": count_immersions(arrangement), "sheets": found.n_sheets}
-    return figures | _layerable(arrangement, time_limit)
+        return figures | {"immersible": False, "immersions": 0} | _obstructed(found) | _offer(arrangement, found)
+    count = count_immersions(arrangement, time_limit=limit)
+    figures |= {"immersible": True, "immersions": None if isinstance(count, Unknown) else count}
+    figures |= _surface(found)
+    return figures | (_layerable if may_bound_disk(arrangement) else _embeddable)(arrangement, time_limit)
 
 
-def _repairs(curve: Curve | None) -> list[dict[str, Any]]:
-    repairs = () if curve is None else curve.repairs
+def _offer(arrangement: Arrangement, why_not: Obstruction) -> dict[str, Any]:
+    """Return cusps with which the outline would bound a surface in one piece, if it only turns too often."""
+    if why_not.reason != "turning number" or arrangement.outline is None:
+        return {}
+    found = suggest_cusps(arrangement, time_limit=_SECONDS_FOR_AN_OFFER)
+    if not isinstance(found, SuggestedCusps):
+        return {}
+    loops = tuple(range(arrangement.n_loops))
+    marks = [CuspMark(loop, point, turns) for (loop, point), turns in found.cusps.items()]
+    surface = surface_in_words([Piece(loops, 2 - len(loops))])
+    return {"offer": {"cusps": _described_cusps(found.outline, marks), "surface": surface}}
+
+
+def _surface(immersion: Immersion) -> dict[str, Any]:
+    pieces = [
+        {"loops": list(piece.loops), "euler_characteristic": piece.euler_characteristic, "genus": piece.genus}
+        for piece in immersion.pieces
+    ]
+    return {
+        "surface": surface_in_words(immersion.pieces),
+        "pieces": pieces,
+        "euler_characteristic": immersion.euler_characteristic,
+        "sheets": immersion.n_sheets,
+    }
+
+
+def _cusps(outline: Outline | None) -> list[dict[str, Any]]:
+    return [] if outline is None else _described_cusps(outline, cusp_marks(outline.cusps))
+
+
+def _described_cusps(outline: Outline, marks: Sequence[CuspMark]) -> list[dict[str, Any]]:
+    return [
+        {"loop": loop, "point": point, "index": turns, "where": outline.loops[loop][point].tolist()}
+        for loop, point, turns in marks
+    ]
+
+
+def _repairs(outline: Outline | None) -> list[dict[str, Any]]:
+    repairs = () if outline is None else outline.repairs
     return [{"kind": repair.kind, "where": list(repair.where), "size": repair.size} for repair in repairs]
 
 
@@ -132,39 +235,89 @@ def _layerable(arrangement: Arrangement, time_limit: float | None) -> dict[str, 
     return {"layerable": True, "examined": examined, "levels": int(found.level.max())}
 
 
+def _embeddable(arrangement: Arrangement, time_limit: float | None) -> dict[str, Any]:
+    """Return whether some immersion can be layered, asked of all of them at once."""
+    found = find_embedding(arrangement, time_limit)
+    if isinstance(found, Unknown):
+        return {"layerable": None}
+    if isinstance(found, Obstruction):
+        return {"layerable": False} | _obstructed(found)
+    return {"layerable": True, "levels": int(found.level.max())}
+
+
 def describe(figures: dict[str, Any]) -> str:
     """Return the verdict as text: a sentence, and the figures one on a line."""
-    cells = ", ".join(f"{count} with {winding}" for winding, count in figures["cells"].items())
-    turned = " (the curve was turned round, so that it can have the surface on its left)" if figures["reversed"] else ""
-    rows = {
-        "points": f"{figures['points']:,}",
-        "crossings": f"{figures['crossings']:,}",
-        "cells by winding number": cells,
-        "turning number": f"{figures['turning_number']}{turned}",
-        "immersions": f"{figures['immersions']:,}",
-    }
-    if figures["immersible"]:
-        rows["layering"] = _layering_sentence(figures)
+    rows = _rows(figures)
     width = max(map(len, rows)) + 2
     lines = [f"  {name:<{width}}{value}" for name, value in rows.items()]
     return "\n".join([_headline(figures), *lines, *_repair_lines(figures["repairs"])])
 
 
+def _rows(figures: dict[str, Any]) -> dict[str, str]:
+    cells = ", ".join(f"{count} with {winding}" for winding, count in figures["cells"].items())
+    which = "curve was" if figures["loops"] == 1 else "loops were"
+    turned = f" (the {which} turned round, to have the surface on the left)" if figures["reversed"] else ""
+    rows = {
+        "points": f"{figures['points']:,}",
+        "loops": f"{figures['loops']:,}" if figures["loops"] > 1 else "",
+        "crossings": f"{figures['crossings']:,}",
+        "cells by winding number": cells,
+        "turning number": f"{figures['turning_number']}{turned}",
+        "cusps": _listed_cusps(figures["cusps"]),
+        "Euler characteristic": str(figures.get("euler_characteristic", "")),
+        "immersions": "unknown" if figures["immersions"] is None else f"{figures['immersions']:,}",
+        "layering": _layering_sentence(figures) if figures["immersible"] else "",
+    }
+    if rows["Euler characteristic"] == "1" and not rows["loops"]:
+        rows["Euler characteristic"] = ""
+    return {name: value for name, value in rows.items() if value}
+
+
+def _listed_cusps(cusps: list[dict[str, Any]]) -> str:
+    more = f" and {len(cusps) - _SHOWN_CUSPS} more" if len(cusps) > _SHOWN_CUSPS else ""
+    return ", ".join(map(_cusp_and_place, cusps[:_SHOWN_CUSPS])) + more
+
+
+def _cusp_and_place(cusp: dict[str, Any]) -> str:
+    mark = written_cusp(CuspMark(cusp["loop"], cusp["point"], cusp["index"]))
+    return "{} at ({:.6g}, {:.6g})".format(mark, *cusp["where"])
+
+
 def _headline(figures: dict[str, Any]) -> str:
     if figures["immersible"]:
-        return f"Yes. {words(figures['immersions']).sentence}"
-    said = words(0, figures["sentence"])
+        return f"Yes. {words(figures['immersions'], surface=figures['surface']).sentence}"
+    if figures["immersible"] is None:
+        return "Unknown. Whether this is the outline of a surface was not decided in time."
+    plain = figures["loops"] == 1 and not figures["cusps"]
+    said = words(0, figures["sentence"], surface=A_DISK if plain else "a surface")
     places = "".join(f"\n  at ({x:.6g}, {y:.6g})" for x, y in figures["where"])
-    return f"{said.headline}. {said.sentence}{places}"
+    return f"{said.headline}. {said.sentence}{places}{_offer_line(figures)}"
+
+
+def _offer_line(figures: dict[str, Any]) -> str:
+    if "offer" not in figures:
+        return ""
+    cusps, surface = figures["offer"]["cusps"], figures["offer"]["surface"]
+    turns = sum(cusp["index"] for cusp in cusps)
+    many = "1 turn is" if turns == 1 else f"{turns} turns are"
+    which = "a cusp" if len(cusps) == 1 else "cusps"
+    return f"\n  {many} too many: with {which} {_listed_cusps(cusps)}, it is {surface} (--cusps auto)"
 
 
 def _layering_sentence(figures: dict[str, Any]) -> str:
     if figures["layerable"] is None:
         return f"unknown. {_UNDECIDED}"
+    if "examined" not in figures:
+        return f"yes, on {figures['levels']} level(s)" if figures["layerable"] else f"no. {figures['sentence']}"
     if figures["layerable"]:
         which = f"immersion {figures['examined']} of {figures['immersions']:,}"
         return f"yes, on {figures['levels']} level(s), found for {which}"
     return f"none of the {figures['examined']} immersion(s) can be lifted. {figures['sentence']}"
+
+
+def repair_lines(outline: Outline) -> list[str]:
+    """Return what was changed in the input, each kind of change on a line."""
+    return _repair_lines(_repairs(outline))
 
 
 def _repair_lines(repairs: list[dict[str, Any]]) -> list[str]:

@@ -17,7 +17,16 @@ from typing import Any, TypeAlias, TypeVar
 
 from plyfold.clock import NO_LIMIT, Clock, make_call
 
-__all__ = ["Clauses", "StoppableSolver", "in_time", "minimal_core", "solutions_by_choice", "solve", "solver_of"]
+__all__ = [
+    "Clauses",
+    "StoppableSolver",
+    "in_time",
+    "minimal_core",
+    "search_in_time",
+    "solutions_by_choice",
+    "solve",
+    "solver_of",
+]
 
 Clauses: TypeAlias = Iterable[Sequence[int]]
 Answer = TypeVar("Answer")
@@ -164,6 +173,12 @@ def in_time(time_limit: float | None, solver: StoppableSolver, question: Callabl
     return outcome[0]()
 
 
+def search_in_time(clauses: Clauses, clock: Clock, search: Callable[[StoppableSolver], Answer]) -> Answer:
+    """Give a solver that knows some clauses to a search; as :func:`in_time`."""
+    with solver_of(clauses, clock) as solver:
+        return in_time(clock.left, solver, partial(search, solver))
+
+
 def minimal_core(
     demands: Sequence[Clauses], given: Clauses = (), clock: Clock = NO_LIMIT, effort: int | None = None
 ) -> list[int]:
@@ -185,12 +200,12 @@ def minimal_core(
     first = 1 + max(abs(x) for clauses in [*demands, given] for clause in clauses for x in clause)
     core = list(range(first, first + len(demands)))
     selected = ([*clause, -selector] for selector, demand in enumerate(demands, first) for clause in demand)
-    with suppress(TimeoutError), solver_of(chain(given, selected), clock) as solver:
-        core = in_time(clock.left, solver, partial(_reduced, solver, core, effort))
+    with suppress(TimeoutError):
+        core = search_in_time(chain(given, selected), clock, partial(_reduced, core, effort))
     return [selector - first for selector in core]
 
 
-def _reduced(solver: StoppableSolver, core: list[int], effort: int | None) -> list[int]:
+def _reduced(core: list[int], effort: int | None, solver: StoppableSolver) -> list[int]:
     """Leave out selectors one after the other, as long as the others contradict each other, until the solver stops."""
     with suppress(TimeoutError):
         if solver.solve(core) is False:

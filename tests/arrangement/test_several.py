@@ -276,7 +276,7 @@ def test_what_is_there_for_one_curve_alone_says_so():
     several = [OUTER, HOLE]
     for ask in (
         pf.find_immersion, pf.bounds_disk, pf.count_immersions, pf.lift, pf.triangulate, pf.coverage, pf.unwrap,
-        pf.blank_word, pf.GaussCode.of, pf.loop_turning_numbers, pf.decompose, pf.irreducible_kernels,
+        pf.blank_word, pf.GaussCode.of, pf.lobe_turning_numbers, pf.decompose, pf.irreducible_kernels,
     ):  # fmt: skip
         with pytest.raises(InputError, match="for one curve alone so far, and here are 2"):
             ask(several)

@@ -1,5 +1,6 @@
 """The round disk: one-to-one by exact signs written here, and what is carried over to it and back."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -387,6 +388,31 @@ def test_checks_notice_a_spoiled_disk():
         object.__setattr__(unwound, "disk", spoil(unwound.disk))
         with pytest.raises(CertificateError):
             unwound.check()
+
+
+def test_the_circle_is_met_to_the_last_place():
+    """By fractions here: no vertex is further off than rounding can bring it, and no further is allowed."""
+    unwound = pf.unwrap(DISKS["milnor"], triangles=300)
+    squares = [sum(Fraction(x) ** 2 for x in point) for point in unwound.disk[unwound.boundary].tolist()]
+    assert max(abs(square - 1) for square in squares) <= 3 * Fraction(2) ** -52
+    for factor in (1 - 2.0**-50, 1 + 2.0**-50, 1e12):
+        spoiled = replace(unwound, disk=unwound.disk * factor)
+        with pytest.raises(CertificateError, match="once along the unit circle"):
+            spoiled.check()
+
+
+def test_once_round_is_in_order_and_once():
+    angle = 2 * np.pi * np.arange(7) / 7
+    points = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    heptagon = round_map.round_map(points, np.empty((0, 3), dtype=int), np.arange(7))
+    assert round_map.runs_once_round(heptagon)
+    for order in ("0213456", "0246135", "1234560", "0654321", "011"):
+        assert not round_map.runs_once_round(heptagon[list(map(int, order))])
+
+
+def test_all_vertices_are_in_the_disk():
+    unwound = pf.unwrap(DISKS["milnor"], triangles=300)
+    assert np.allclose(unwound.to_plane(unwound.disk), unwound.plane)
 
 
 @pytest.mark.parametrize("options", [{"triangles": 0}, {"triangles": np.nan}, {"max_area": -1.0}, {"max_area": np.nan}])

@@ -13,7 +13,12 @@ import plyfold as pf
 from painted import painted
 from plyfold import draw
 from plyfold.colours import CUSP, winding_colour
-from plyfold.draw.placement import arrows, label_circle
+from plyfold.draw.figures import overview
+from plyfold.draw.over_under import over_under
+from plyfold.draw.over_under_files import over_under_svg, over_under_tikz
+from plyfold.draw.placement import Frame, arrows, border_line, label_circle
+from plyfold.draw.viewer import page
+from plyfold.errors import InputError
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -30,9 +35,9 @@ def limacon(index=1):
 
 
 RING = pf.Outline([circle(0, 0, 2), circle(0.3, 0, 1, sense=-1)])
-TWO_RINGS = pf.Outline([*RING.loops, circle(2.6, 0.2, 2), circle(2.6, 0.2, 1.2, sense=-1)])
-OUTLINES = {"ring": RING, "two rings": TWO_RINGS, "limaçon": limacon(), "nested": pf.Outline(RING.loops * 2)}
-OUTLINES["nested"] = pf.Outline([*RING.loops, circle(0.3, 0, 0.7), circle(0.3, 0, 0.4, sense=-1)])
+TWO_RINGS = pf.Outline([circle(x, y, r, s) for x, y in ((0, 0), (2.6, 0.2)) for r, s in ((2, 1), (1.4, -1))])
+NESTED = pf.Outline([*RING.loops, circle(0.3, 0, 0.7), circle(0.3, 0, 0.4, sense=-1)])
+OUTLINES = {"ring": RING, "two rings": TWO_RINGS, "nested": NESTED, "limaçon": limacon()}
 EVERY = pytest.mark.parametrize("outline", OUTLINES.values(), ids=OUTLINES.keys())
 
 
@@ -134,3 +139,133 @@ def test_an_outline_without_crossings_of_its_loops_is_drawn_loop_by_loop():
     svg = ElementTree.fromstring(TWO_RINGS._repr_svg_())
     lines = [path for path in svg.iter(f"{SVG}path") if path.get("fill") == "none"]
     assert len(lines) == 4
+
+
+# ---- layered -------------------------------------------------------------------------------------------------------
+
+
+def parity_of(rings, place):
+    """How many rings go round a place."""
+    return sum(shapely.Polygon(ring).buffer(0).contains(shapely.Point(place)) for ring in rings) % 2
+
+
+@EVERY
+@pytest.mark.parametrize("colours", ["cloth", "sheets"])
+def test_pieces_cover_every_cell_once_on_each_level_and_no_hole(outline, colours):
+    for layering in pf.embeddings(outline):
+        arrangement = layering.immersion.arrangement
+        drawn = over_under(layering, colours=colours)
+        frame = Frame(outline.points)
+        for cell in range(1, arrangement.n_cells):
+            (place,) = frame(arrangement.cell_point(cell))
+            levels = [piece.level for piece in drawn.pieces if parity_of(piece.rings, place)]
+            assert levels == list(range(1, arrangement.winding[cell] + 1))
+
+
+@EVERY
+def test_seen_strands_are_those_with_nothing_above_them(outline):
+    """Of every point along the strands, cloth above it says whether it is hidden; all loops are drawn whole."""
+    for layering in pf.embeddings(outline):
+        drawn = over_under(layering, hidden="dashed")
+        length = sum(shapely.LinearRing(loop).length for loop in map(Frame(outline.points), outline.loops))
+        shown = sum(
+            (shapely.LinearRing if strand.closed else shapely.LineString)(strand.points).length
+            for strand in drawn.strands
+        )
+        assert length - 8 * len(drawn.strands) * drawn.stroke <= shown <= length + 1e-9
+        for strand in drawn.strands:
+            assert strand.hidden == is_covered(layering, drawn, strand)
+
+
+def is_covered(layering, drawn, strand):
+    """Whether there is cloth over the middle of a strand, beside the cloth that ends there."""
+    border = strand.points if not strand.closed else np.concatenate([strand.points, strand.points[:1]])
+    number = len(border) // 2 - 1
+    step = border[number + 1] - border[number]
+    middle = border[number] + step / 2
+    inside = middle + 1e-4 * np.array([-step[1], step[0]]) / np.hypot(*step)
+    outside = middle - 1e-4 * np.array([-step[1], step[0]]) / np.hypot(*step)
+    levels = [{p.level for p in drawn.pieces if parity_of(p.rings, place)} for place in (inside, outside)]
+    borders = layering.immersion.arrangement
+    near = [
+        shapely.LineString(Frame(borders.outline.points)(border_line(borders, b))).distance(shapely.Point(middle))
+        for b in range(borders.n_borders)
+    ]
+    own = int(layering.border_level[int(np.argmin(near))])
+    return own < max(levels[0])
+
+
+def test_rings_can_be_linked():
+    """Two rings lie over one another in two places: where each is above in one, neither can be lifted off."""
+    ends = [
+        {
+            number // 2
+            for number, loop in enumerate(TWO_RINGS.loops)
+            for strand in over_under(layering).strands
+            if not strand.closed and shapely.LinearRing(loop).distance(shapely.Point(mid(layering, strand))) < 1e-9
+        }
+        for layering in pf.embeddings(TWO_RINGS)
+    ]
+    assert sorted(map(len, ends)) == [1, 1, 2, 2]
+
+
+def mid(layering, strand):
+    """The middle of the first edge of a strand, in the drawing."""
+    points = layering.immersion.arrangement.outline.points
+    low, high = points.min(axis=0), points.max(axis=0)
+    return (strand.points[1] + strand.points[2]) / 2 * (high - low).max() + (low + high) / 2
+
+
+@pytest.mark.parametrize("index", [1, 2])
+def test_the_strands_at_a_cusp_are_on_levels_as_far_apart_as_its_index(index):
+    for layering in pf.embeddings(wound_limacon(index)):
+        arrangement = layering.immersion.arrangement
+        (cusp,) = np.flatnonzero(arrangement.cusp_index)
+        ends = layering.border_level[[arrangement.border_before[cusp], arrangement.border_after[cusp]]]
+        marked = [text.get_position()[1] for text in draw.plot_layers(layering).texts if text.get_text() == str(index)]
+        assert len(marked) == 2 == len(set(marked))
+        assert abs(ends[0] - ends[1]) == index
+        svg = ElementTree.fromstring(over_under_svg(layering))
+        (group,) = [group for group in svg.iter(f"{SVG}g") if group.get("id") == "cusps"]
+        assert [sign[0].text for sign in group] == [f"cusp of index {index}"]
+        assert rf"\textbf{{{index}}}" in over_under_tikz(layering)
+
+
+def wound_limacon(index):
+    """A spiral that winds once more than its cusp is large, closed by a crossing."""
+    angle = 2 * np.pi * np.arange(40 * (index + 1)) / 40
+    radius = 0.4 + angle / 10
+    points = np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
+    return pf.Curve(points, cusps={0: index})
+
+
+@EVERY
+def test_a_surface_has_its_loops_and_cusps_in_the_picture_and_on_the_page(outline):
+    surface = pf.lift(outline, triangles=300)
+    ax = draw.plot_surface(surface, view=(-90, 90), pixels=120)
+    hits = [line.get_xydata() for line in ax.lines]
+    frame = Frame(outline.points)
+    for loop in map(frame, outline.loops):
+        near = shapely.MultiLineString([hit for hit in hits if len(hit) > 1]).buffer(0.02)
+        assert near.covers(shapely.MultiPoint(loop))
+    signs = [text.get_text() for text in ax.texts]
+    assert signs == [str(index) for index in np.concatenate(outline.cusps).tolist() if index]
+    html = page(surface)
+    assert all(f"<dt>{name}</dt>" in html for name in ("triangles", "layers"))
+
+
+def test_an_obstruction_is_shown_on_all_loops():
+    inside_out = pf.Outline([circle(0, 0, 2), circle(5, 0, 1, sense=-1)])
+    why = pf.find_embedding(inside_out)
+    assert not why
+    assert why._repr_png_().startswith(b"\x89PNG")
+    ax = draw.plot_obstruction(inside_out, why)
+    assert sum(len(line.get_xydata()) == 61 for line in ax.lines) == 2
+
+
+def test_what_is_no_disk_has_no_disk_layout():
+    ring = pf.find_embedding(RING).immersion
+    with pytest.raises(InputError, match="disk"):
+        draw.plot_layout(ring)
+    titles = [ax.get_title() for ax in overview(ring).axes]
+    assert titles == ["The outline, its winding numbers and borders", "The surface laid flat"]

@@ -31,6 +31,7 @@ def flat_surface(heights=(0.0, 0.0, 0.0, 0.0)):
         faces=faces,
         boundary=np.arange(4),
         first_boundary=np.array([0, 4]),
+        cusps=np.empty(0, dtype=int),
         intersections=(),
         layering=layering,
     )

@@ -134,6 +134,18 @@ def test_a_pale_rim_parts_what_lies_apart():
     assert saturation[1] < 0.3
 
 
+def test_what_is_steep_has_no_rim_on_itself():
+    """A plane that is seen from the side falls by many pixels' depth from one pixel to the next, and hides nothing."""
+    corners = np.array(
+        [(0.0, 0, 0), (1, 0, 0), (1, 20, 20 * np.tan(np.radians(4.0))), (0, 20, 20 * np.tan(np.radians(4.0)))]
+    )
+    plane = Mesh(corners, np.array([(0, 1, 2), (0, 2, 3)]))
+    colours = shade(plane, View.of(-90, -1.5), 300, np.tile((0.2, 0.3, 0.6), (2, 1))).colours
+    opaque = colours[colours[..., 3] == 1][:, :3]
+    assert len(opaque) > 100
+    assert (np.ptp(opaque, axis=1) / opaque.max(axis=1)).min() > 0.3
+
+
 def test_what_lies_close_above_darkens_the_sky():
     mesh = plates(0.2)
     below, beside = (mesh.sky.shadow(np.array([(x, 0.0, 0.0)]), np.array([(0.0, 0, 1)]))[0] for x in (0.0, 0.9))

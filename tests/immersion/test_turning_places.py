@@ -1,4 +1,4 @@
-"""Where a curve turns too often, or not enough: the crossing of a loop that could be left out."""
+"""Where a curve turns too often, or not enough: the crossing of a lobe that could be left out."""
 
 import json
 
@@ -16,8 +16,8 @@ from reference.random_curves import random_polygon, ribbon_outline
 NOT_ONCE = [name for name, known in CURVES.items() if known.turning_number != 1]
 
 
-def loops_at(points, place):
-    """The two loops at a crossing of a polygon, as polygons themselves."""
+def lobes_at(points, place):
+    """The two lobes at a crossing of a polygon, as polygons themselves."""
     (meeting,) = (m for m in crossings.meetings(crossings.exact(points)) if np.allclose(place, [*map(float, m.point)]))
     corner = tuple(map(float, meeting.point))
     first, second = meeting.first + 1, meeting.second + 1
@@ -37,8 +37,8 @@ def test_a_curve_that_does_not_turn_once_has_a_place():
             continue
         seen += 1
         turning = abs(crossings.turning_number(points))
-        left = [abs(crossings.turning_number(loop)) for loop in loops_at(points, why.where[0])]
-        # One of the two loops turns once, or at least nearer to it than the curve.
+        left = [abs(crossings.turning_number(lobe)) for lobe in lobes_at(points, why.where[0])]
+        # One of the two lobes turns once, or at least nearer to it than the curve.
         assert min(abs(turns - 1) for turns in left) < abs(turning - 1) or len(why.where) == 2
     assert seen > 60
 

@@ -25,6 +25,32 @@ def test_strokes_are_joined(tmp_path):
     assert len(read(tmp_path / "drawing.json", {"plyfold": 1, "strokes": strokes})) == len(RAMP)
 
 
+def test_closed_strokes_are_loops_with_their_cusps(tmp_path):
+    hole = {"points": [[5, 4], [7, 4], [6, 2]], "closed": True, "cusps": {"2": 1}}
+    strokes = [{"points": RAMP, "closed": True}, hole]
+    outline = read(tmp_path / "drawing.json", {"plyfold": 2, "strokes": strokes})
+    assert [loop.tolist() for loop in outline.loops] == [RAMP, hole["points"]]
+    assert outline.cusps[1].tolist() == [0, 0, 1]
+
+
+def test_open_strokes_beside_loops_make_one_loop_more(tmp_path):
+    parts = [{"points": RAMP[:6], "closed": False}, {"points": [*RAMP[5:], RAMP[0]], "closed": False}]
+    loop = {"points": [[20, 0], [25, 0], [22, 3]], "closed": True}
+    outline = read(tmp_path / "drawing.json", {"plyfold": 2, "strokes": [parts[0], loop, parts[1]]})
+    assert [len(points) for points in outline.loops] == [3, len(RAMP)]
+
+
+def test_cusps_at_open_strokes_are_not_dropped_without_a_word(tmp_path):
+    stroke = {"points": RAMP, "closed": False, "cusps": {"1": 1}}
+    with pytest.raises(FileFormatError, match="cusps at strokes"):
+        read(tmp_path / "drawing.json", {"plyfold": 2, "strokes": [stroke]})
+
+
+def test_documents_of_a_later_version_are_refused(tmp_path):
+    with pytest.raises(FileFormatError, match="version 3"):
+        read(tmp_path / "drawing.json", {"plyfold": 3, "strokes": []})
+
+
 def test_large_doubles_are_written_without_a_point(tmp_path):
     """As JavaScript does: the number is the shortest that means this double."""
     points = [[1000000414370802200, 0], [2000000414370802200, 0], [0, 1e18]]

@@ -13,12 +13,15 @@ from plyfold.layering.levels.equations import level_equations
 from reference.mesh_outlines import least_turned
 from reference.triangles import meeting_pairs
 
-MOST_TO_LIFT = 60
-"""Points of outlines up to which the lifted surface is tested for triangles that meet."""
+MOST_TO_LIFT = 30
+"""Points of outlines up to which lifted surfaces are tested for triangles that meet, where that is asked for."""
 
 
-def judge_patch(patch: Patch) -> bool:
-    """Everything that must hold for a patch; False where its outline is not in general position."""
+def judge_patch(patch: Patch, lift: bool = False) -> bool:
+    """Everything that must hold for a patch, and if that is asked for, for the surface lifted in its order.
+
+    False where its outline is not in general position.
+    """
     outline = pf.Outline(patch.outline, patch.cusps)
     judge_mesh(patch, outline)
     try:
@@ -28,7 +31,9 @@ def judge_patch(patch: Patch) -> bool:
     assert arranged.euler_characteristic == patch.chi
     judge_immersion(pf.find_immersion(arranged, connected=True), patch)
     if not patch.cuts_itself:
-        judge_depths(patch, arranged)
+        itself = judge_depths(patch, arranged)
+        if lift and len(outline) <= MOST_TO_LIFT:
+            judge_lift(itself)
     return True
 
 
@@ -55,8 +60,8 @@ def judge_immersion(found: pf.Immersion | pf.Obstruction, patch: Patch) -> None:
     assert [piece.loops for piece in found.pieces] == [tuple(range(len(patch.loops)))]
 
 
-def judge_depths(patch: Patch, arranged: pf.Arrangement) -> None:
-    """The depths of the patch are levels, and among the surfaces with its over and under is itself."""
+def judge_depths(patch: Patch, arranged: pf.Arrangement) -> pf.Layering:
+    """The depths of the patch are levels, and among the surfaces with its over and under is itself; return it."""
     level = depth_levels(patch, arranged)
     assert level_equations(arranged).hold(level)
     over = casing(arranged, level)
@@ -68,8 +73,7 @@ def judge_depths(patch: Patch, arranged: pf.Arrangement) -> None:
     assert len(itself.immersion.pieces) == 1
     if len(alike) == 1:
         assert pf.embed_cased(arranged, over).border_level.tolist() == level.tolist()
-    if len(arranged.outline) <= MOST_TO_LIFT:
-        judge_lift(itself)
+    return itself
 
 
 def judge_lift(found: pf.Layering) -> None:

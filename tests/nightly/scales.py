@@ -51,7 +51,7 @@ def answers(document: Document) -> tuple[object, ...]:
         told = look_at(Look(document.strokes))
     except PlyfoldError as error:
         return (type(error), error.message)
-    return told["gauss"], told["turning_number"], told["verdict"]["immersions"]
+    return told["gauss"], told["turning_numbers"], told["verdict"]["immersions"]
 
 
 def through_page(documents: list[Document]) -> list[dict[str, Any]]:

@@ -1,4 +1,4 @@
-"""Loops to be left out, so that a disk remains: against gluing all sheets of what every other loop leaves."""
+"""Lobes to be left out, so that a disk remains: against gluing all sheets of what every other lobe leaves."""
 
 import math
 
@@ -19,28 +19,28 @@ def bounds_disk(points):
     return bool(gluings.immersions(*crossings.crossings(upright)[0]))
 
 
-def loops_without(points):
-    """Each crossing's shorter loop, shortest first: (its length, the crossing, the rest of the loop)."""
+def lobes_without(points):
+    """Each crossing's shorter lobe, shortest first: (its length, the crossing, the rest of the curve)."""
     found = []
     for meeting in crossings.meetings(crossings.exact(points)):
         where = tuple(map(float, meeting.point))
         inner = [where, *points[meeting.first + 1 : meeting.second + 1]]
         outer = [where, *points[meeting.second + 1 :], *points[: meeting.first + 1]]
-        lengths = [sum(map(math.dist, loop, loop[1:] + loop[:1])) for loop in (inner, outer)]
+        lengths = [sum(map(math.dist, lobe, lobe[1:] + lobe[:1])) for lobe in (inner, outer)]
         found.append((min(lengths), where, outer if lengths[0] <= lengths[1] else inner))
     return sorted(found)
 
 
 @pytest.mark.parametrize("seed", range(60))
-def test_the_kink_is_the_shortest_loop_that_leaves_a_disk(seed):
+def test_the_kink_is_the_shortest_lobe_that_leaves_a_disk(seed):
     points = random_polygon(np.random.default_rng(seed), 7)
     arranged = pf.arrange(points)
     if pf.bounds_disk(arranged):
         return
-    expected = next((loop for loop in loops_without(points) if bounds_disk(loop[2])), None)
+    expected = next((lobe for lobe in lobes_without(points) if bounds_disk(lobe[2])), None)
     kink = find_kink(arranged)
     if expected is None:
-        assert kink is None or len(kink.loops) == 2
+        assert kink is None or len(kink.lobes) == 2
     else:
         assert kink.places == (pytest.approx(expected[1]),)
         assert sorted(map(tuple, kink.rest.tolist())) == [pytest.approx(p) for p in sorted(expected[2])]

@@ -6,6 +6,7 @@ import json
 import struct
 import zipfile
 import zlib
+from dataclasses import replace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -40,6 +41,7 @@ DOCUMENTS = {
     "empty": Document(()),
     "unfinished": UNFINISHED,
     "nasty": Document(UNFINISHED.strokes, TRACING, NASTY),
+    "cusps": Document((replace(RAMP, cusps=((0, 1), (3, 2))), Stroke(((1, 1), (1, 2), (2, 1)), closed=True))),
     "no disk": Document((Stroke(((0, 0), (2, 2), (2, 0), (0, 2)), closed=True),)),
     "on a line": Document((Stroke(((0, 0), (1, 1), (2, 2)), closed=True),)),
     "unliftable": Document(
@@ -66,8 +68,13 @@ def test_documents_come_back_as_they_were(document, kind):
     assert open_file(f"drawing.{kind}", written(document, kind)) == document
 
 
+def with_marks(stroke, marks):
+    return replace(stroke, cusps=tuple(sorted((at, turns) for at, turns in marks.items() if at < len(stroke.points))))
+
+
 finite = st.floats(allow_nan=False, allow_infinity=False)
 strokes = st.builds(Stroke, st.lists(st.tuples(finite, finite), max_size=4).map(tuple), st.booleans())
+strokes = st.builds(with_marks, strokes, st.dictionaries(st.integers(0, 3), st.integers(1, 3)))
 documents = st.builds(
     Document,
     st.lists(strokes, max_size=3).map(tuple),
@@ -153,6 +160,11 @@ def test_files_of_a_surface_need_one(kind):
             export(order(document, kind))
 
 
+def test_documents_of_version_1_are_read():
+    old = json.dumps({"plyfold": 1, "strokes": [{"points": [[0, 0], [4, 0], [0, 3]], "closed": True}]}).encode()
+    assert open_file("old.json", old) == Document(TRIANGLE)
+
+
 def test_other_formats_are_refused():
     with pytest.raises(InputError, match="no format 'exe'"):
         export(order(Document((RAMP,)), "exe"))
@@ -184,6 +196,42 @@ TRIANGLE = (Stroke(((0.0, 0.0), (4.0, 0.0), (0.0, 3.0)), closed=True),)
 )
 def test_drawings_become_one_loop(name, content):
     assert open_file(name, content) == Document(TRIANGLE)
+
+
+RING = (
+    Stroke(((0.0, 0.0), (9.0, 0.0), (0.0, 9.0)), closed=True),
+    Stroke(((1.0, 1.0), (1.0, 3.0), (3.0, 1.0)), closed=True),
+)
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("ring.geojson", b'{"type": "Polygon", "coordinates": [[[0,0],[9,0],[0,9],[0,0]], [[1,1],[1,3],[3,1],[1,1]]]}'),
+        ("ring.wkt", b"POLYGON ((0 0, 9 0, 0 9, 0 0), (1 1, 1 3, 3 1, 1 1))"),
+        ("ring.json", b'{"version": 2, "loops": [[[0,0],[9,0],[0,9]], [[1,1],[1,3],[3,1]]]}'),
+        ("ring.svg", b'<svg><path fill-rule="evenodd" d="M0 0H9L0-9ZM1-1V-3L3-1Z"/></svg>'),
+    ],
+)
+def test_drawings_become_loops_with_holes(name, content):
+    assert open_file(name, content) == Document(RING)
+    assert opened(content, {"X-File-Name": name})["shapes"] == []
+
+
+def test_cusps_of_a_file_are_those_of_the_drawing():
+    document = open_file("a.json", b'{"loops": [[[0,0],[9,0],[0,9]]], "cusps": {"0:2": 2}}')
+    assert document.strokes[0].cusps == ((2, 2),)
+
+
+def test_the_shapes_of_a_file_are_told_one_by_one():
+    shapes = b'<rect id="a" width="9" height="9"/><line x2="3"/><path d="M20 0h9v9z"/><path id="c" d="M0 30h9v9z"/>'
+    answer = opened(b"<svg>%b</svg>" % shapes, {"X-File-Name": "three.svg"})
+    assert [shape["name"] for shape in answer["shapes"]] == ["a", "", "c"]
+    parts = [stroke for shape in answer["shapes"] for stroke in shape["document"]["strokes"]]
+    whole = answer["document"]["strokes"]
+    assert [stroke["points"] for stroke in whole] == [stroke["points"] for stroke in parts]
+    assert [repair["kind"] for repair in answer["repairs"]] == ["open line left out"]
+    assert not any(shape["repairs"] for shape in answer["shapes"])
 
 
 @pytest.mark.parametrize(("kind", "name"), [("PNG", "png"), ("JPEG", "jpeg"), ("GIF", "gif"), ("WEBP", "webp")])
@@ -234,7 +282,7 @@ BAD = {
     "spoiled PNG": ("a.png", spoiled("png")),
     "spoiled SVG": ("a.svg", spoiled("svg")),
     "spoiled JSON": ("a.json", spoiled("json")),
-    "document of tomorrow": ("a.json", b'{"plyfold": 2, "strokes": []}'),
+    "document of tomorrow": ("a.json", b'{"plyfold": 3, "strokes": []}'),
     "document with a strange picture": (
         "a.json",
         b'{"plyfold": 1, "strokes": [], "image": {"href": "https://evil.example/a.png"}}',
@@ -248,7 +296,6 @@ BAD = {
         "a.svg",
         b'<!DOCTYPE svg [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;">]><svg><text>&b;</text></svg>',
     ),
-    "two shapes": ("a.svg", b'<svg><circle r="1"/><circle r="2" cx="9"/></svg>'),
     "not text": ("a.csv", b"\xff\xfe\x00\x01"),
     "too large": ("a.csv", b"0,0\n" * (MOST_BYTES // 4 + 1)),
     "too many points": ("a.csv", "\n".join(f"{i},{i * i}" for i in range(60_000)).encode()),

@@ -188,7 +188,7 @@ def test_a_page_with_work_that_is_not_kept_asks_before_it_closes(sketch):
 
 def answers(document):
     told = look_at(Look(document.strokes))
-    return told["gauss"], told["verdict"]["immersions"], told["turning_number"]
+    return told["gauss"], told["verdict"]["immersions"], told["turning_numbers"]
 
 
 def opened_with(page, document, tmp_path):

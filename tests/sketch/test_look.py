@@ -1,5 +1,6 @@
 """What the page is told of a loop, against the definitions."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -24,6 +25,12 @@ def asked(points):
     return look_at(Look(closed(points)))
 
 
+def points_of(answer):
+    """Return the points of an outline of one loop."""
+    (loop,) = answer["loops"]
+    return loop["points"]
+
+
 def area(points):
     x, y = np.array(points, dtype=float).T
     return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
@@ -36,7 +43,7 @@ def named(request):
 
 def test_the_figures_of_the_gallery(named):
     curve, answer = named
-    assert answer["turning_number"] == curve.turning_number
+    assert answer["turning_numbers"] == [curve.turning_number]
     assert len(answer["crossings"]) == curve.crossings
     assert answer["verdict"]["immersions"] == str(curve.immersions)
     assert answer["verdict"]["immersible"] == (curve.immersions > 0)
@@ -46,15 +53,15 @@ def test_the_figures_of_the_gallery(named):
 def test_cells_cover_what_the_loop_goes_round(named):
     _, answer = named
     covered = sum(cell["winding"] * area(cell["outline"]) for cell in answer["cells"])
-    assert covered == pytest.approx(area(answer["points"]))
+    assert covered == pytest.approx(area(points_of(answer)))
     assert all(area(cell["outline"]) > 0 for cell in answer["cells"])
 
 
 def test_labels_lie_in_their_cells(named):
     _, answer = named
     for cell in answer["cells"]:
-        assert crossings.winding_number(answer["points"], cell["label"]) == cell["winding"]
-        room = shapely.Point(cell["label"]).distance(shapely.LineString([*answer["points"], answer["points"][0]]))
+        assert crossings.winding_number(points_of(answer), cell["label"]) == cell["winding"]
+        room = shapely.Point(cell["label"]).distance(shapely.LineString([*points_of(answer), points_of(answer)[0]]))
         assert 0 < cell["radius"] <= 1.01 * room
 
 
@@ -64,8 +71,8 @@ def test_borders_run_once_round_the_loop_from_crossing_to_crossing(named):
     assert len(borders) == max(2 * curve.crossings, 1)
     assert [border[-1] for border in borders] == [border[0] for border in borders[1:] + borders[:1]]
     around = [p for border in borders for p in border[:-1]]
-    assert shapely.LinearRing(around).length == pytest.approx(shapely.LinearRing(answer["points"]).length)
-    assert {tuple(p) for p in answer["points"]} <= {tuple(p) for p in around}
+    assert shapely.LinearRing(around).length == pytest.approx(shapely.LinearRing(points_of(answer)).length)
+    assert {tuple(p) for p in points_of(answer)} <= {tuple(p) for p in around}
 
 
 def test_cells_and_borders_know_each_other(named):
@@ -78,16 +85,29 @@ def test_cells_and_borders_know_each_other(named):
 
 def test_asking_again_about_the_answer_changes_nothing(named):
     _, answer = named
-    again = asked(answer["points"])
+    again = asked(points_of(answer))
     assert not again["reversed"]
-    for key in ("points", "repairs", "turning_number", "crossings", "borders", "cells", "gauss", "word", "verdict"):
+    for key in (
+        "loops",
+        "cusps",
+        "repairs",
+        "turning_numbers",
+        "visits",
+        "code",
+        "crossings",
+        "borders",
+        "cells",
+        "gauss",
+        "word",
+        "verdict",
+    ):
         assert again[key] == answer[key]
 
 
 def test_a_clockwise_loop_is_turned_round():
     forward, backward = asked([(0, 0), (4, 0), (0, 3)]), asked([(0, 0), (0, 3), (4, 0)])
     assert (forward["reversed"], backward["reversed"]) == (False, True)
-    assert forward["points"] == backward["points"]
+    assert points_of(forward) == points_of(backward)
 
 
 def test_strokes_in_any_order_and_direction_make_one_loop():
@@ -96,7 +116,7 @@ def test_strokes_in_any_order_and_direction_make_one_loop():
     strokes = [pieces[2][::-1], pieces[0], pieces[3], pieces[1][::-1]]
     answer = look_at(Look(tuple(Stroke(tuple(stroke)) for stroke in strokes)))
     assert answer["verdict"]["immersions"] == "2"
-    assert {tuple(p) for p in answer["points"]} == set(points)
+    assert {tuple(p) for p in points_of(answer)} == set(points)
 
 
 def test_bridged_gaps_are_told():
@@ -104,15 +124,23 @@ def test_bridged_gaps_are_told():
     assert answer["repairs"] == [{"kind": "gap bridged", "where": [4, 0.125], "size": 0.25}]
 
 
+def test_cusps_stay_on_strokes_that_are_joined():
+    strokes = (Stroke(((0, 0), (9, 0)), cusps=((1, 2),)), Stroke(((0, 0.1), (0, 9), (5, 5), (9, 0)), cusps=((2, 1),)))
+    (loop,) = look_at(Look(strokes))["loops"]
+    assert {tuple(loop["points"][int(point)]): index for point, index in loop["cusps"].items()} == {
+        (9, 0): 2,
+        (5, 5): 1,
+    }
+
+
 @pytest.mark.parametrize(
     ("strokes", "words"),
     [
         ((), "no stroke"),
-        ((Stroke(((0, 0), (1, 0), (1, 1)), True), Stroke(((0, 0), (1, 0)))), "other strokes beside it"),
-        ((Stroke(((0, 0), (1, 0), (1, 1)), True),) * 2, "several closed loops"),
+        ((Stroke(((0, 0), (1, 0), (1, 1)), True), Stroke(((0, 0), (9, 0)))), "too far apart"),
     ],
 )
-def test_what_is_not_one_loop_is_unfinished(strokes, words):
+def test_what_makes_no_loops_is_unfinished(strokes, words):
     with pytest.raises(StrokeError, match=words):
         look_at(Look(strokes))
 
@@ -138,6 +166,92 @@ def test_counts_in_words_never_exceed_the_count(count):
     )
 
 
+# ---- several loops, and cusps ----------------------------------------------------------------------------------------
+
+SQUARE = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
+
+
+def moved(points, x, y):
+    return points + np.array([x, y])
+
+
+def loops(*drawn):
+    return look_at(Look(tuple(stroke for points in drawn for stroke in closed(points))))
+
+
+def test_a_hole_is_taken_out_of_its_cell():
+    answer = loops(9 * SQUARE, 3 * SQUARE[::-1])
+    (ring,) = (cell for cell in answer["cells"] if cell["winding"] == 1)
+    assert area(ring["outline"]) == 18**2
+    assert [area(hole) for hole in ring["holes"]] == [-(6**2)]
+    assert answer["turning_numbers"] == [1, -1]
+    assert answer["verdict"]["immersible"]
+    x, y = ring["label"]
+    assert 3 < max(abs(x), abs(y)) < 9
+
+
+def test_strokes_and_loops_are_told_in_the_same_order():
+    answer = loops(moved(SQUARE, 9, 0), SQUARE, moved(SQUARE, -9, 0))
+    assert [np.mean(loop["points"], axis=0).tolist() for loop in answer["loops"]] == [[9, 0], [0, 0], [-9, 0]]
+
+
+def test_visits_say_which_borders_meet_there():
+    answer = loops(SQUARE, moved(SQUARE, 0.5, 0.25), moved(9 * SQUARE, 30, 0))
+    assert len(answer["visits"]) == 4
+    for before, after in answer["visits"]:
+        assert answer["borders"][before][-1] == answer["borders"][after][0]
+
+
+def test_loops_that_would_be_holes_by_their_depth_are_named():
+    assert loops(9 * SQUARE, 3 * SQUARE, SQUARE)["verdict"]["turn"] == [1]
+    assert loops(9 * SQUARE, 3 * SQUARE[::-1])["verdict"]["turn"] == []
+    assert loops(9 * SQUARE[::-1], 3 * SQUARE)["verdict"]["turn"] == []
+    assert loops(SQUARE, moved(SQUARE[::-1], 5, 0))["verdict"]["turn"] == [1]
+    assert loops(SQUARE, moved(SQUARE, 0.5, 0.25))["verdict"]["turn"] == []
+
+
+def test_the_same_outline_asked_again_has_the_same_code():
+    one, same = loops(9 * SQUARE, 3 * SQUARE[::-1]), loops(8 * SQUARE + 1, 2 * SQUARE[::-1])
+    other = loops(9 * SQUARE, 3 * SQUARE)
+    assert one["code"] == same["code"] != other["code"]
+
+
+LIMACON = CURVES["limacon"].curve.points.tolist()
+
+
+def marked(points, **cusps):
+    (stroke,) = closed(points)
+    return look_at(Look((replace(stroke, cusps=tuple((int(at[1:]), turns) for at, turns in cusps.items())),)))
+
+
+def inner_vertex():
+    """A point of the limaçon's inner loop, where two sheets can lie."""
+    inside = [crossings.winding_number([p for p in LIMACON if p != q], q) for q in LIMACON]
+    return inside.index(1)
+
+
+def test_a_curve_that_turns_twice_is_a_disk_with_a_cusp_where_two_sheets_lie():
+    answer = marked(LIMACON, **{f"p{inner_vertex()}": 1})
+    assert answer["verdict"]["immersions"] == "1"
+    (cusp,) = answer["cusps"]
+    assert (cusp["where"], cusp["index"]) == (LIMACON[inner_vertex()], 1)
+    assert (answer["gauss"], answer["word"]) == (None, None)
+
+
+def test_a_point_that_cannot_be_a_cusp_is_refused_with_the_reason():
+    outer = max(range(len(LIMACON)), key=lambda i: np.hypot(*LIMACON[i]))
+    verdict = marked(LIMACON, **{f"p{outer}": 1})["verdict"]
+    assert (verdict["immersible"], verdict["reason"]) == (False, "cusp")
+    assert verdict["where"] == [LIMACON[outer]]
+    assert "2 sheets" in verdict["sentence"]
+
+
+def test_cusps_may_help_where_the_outline_turns_too_often():
+    assert asked(LIMACON)["verdict"]["cusps_may_help"]
+    assert not asked(CURVES["figure-eight"].curve.points.tolist())["verdict"]["cusps_may_help"]
+    assert not loops(9 * SQUARE, 3 * SQUARE[::-1])["verdict"]["cusps_may_help"]
+
+
 # ---- kinks -----------------------------------------------------------------------------------------------------------
 
 
@@ -145,14 +259,14 @@ def test_counts_in_words_never_exceed_the_count(count):
 def test_without_its_kink_the_loop_is_a_disk(name):
     answer = asked(CURVES[name].curve.points.tolist())
     kink = answer["verdict"]["kink"]
-    assert len(kink["where"]) == len(kink["loops"]) == (2 if name == "kinked-circle" else 1)
-    for where, loop in zip(kink["where"], kink["loops"], strict=True):
+    assert len(kink["where"]) == len(kink["lobes"]) == (2 if name == "kinked-circle" else 1)
+    for where, lobe in zip(kink["where"], kink["lobes"], strict=True):
         assert where in answer["crossings"]
-        assert loop[0] == where
+        assert lobe[0] == where
         assert where in kink["points"]
     assert asked(kink["points"])["verdict"]["immersible"]
-    kept = {tuple(p) for p in kink["points"]} | {tuple(p) for loop in kink["loops"] for p in loop}
-    assert {tuple(p) for p in answer["points"]} <= kept
+    kept = {tuple(p) for p in kink["points"]} | {tuple(p) for lobe in kink["lobes"] for p in lobe}
+    assert {tuple(p) for p in points_of(answer)} <= kept
 
 
 def test_a_wrong_turning_number_has_a_place(named):
@@ -166,4 +280,4 @@ def test_negative_cells_are_the_place():
     answer = asked(CURVES["kinked-circle"].curve.points.tolist())
     assert answer["verdict"]["reason"] == "negative winding"
     (place,) = answer["verdict"]["where"]
-    assert crossings.winding_number(answer["points"], place) < 0
+    assert crossings.winding_number(points_of(answer), place) < 0

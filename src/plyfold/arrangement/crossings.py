@@ -193,7 +193,10 @@ def _sorting_key(edge: Ints, parameter: Floats, n: int) -> Ints:
 def _unsure_runs(edge: Ints, parameter: Floats, error: Floats) -> list[slice]:
     """Return the runs of visits, sorted by edge and parameter, whose order is left open by rounding errors."""
     apart = parameter[1:] - parameter[:-1] > error[1:] + error[:-1]
-    unsure = np.unique(edge[1:][~(apart | (edge[1:] != edge[:-1]))])
+    near = ~(apart | (edge[1:] != edge[:-1]))
+    if not near.any():
+        return []
+    unsure = np.unique(edge[1:][near])
     bounds = np.searchsorted(edge, [unsure, unsure + 1]).T.tolist()
     return [run for low, high in bounds for run in _runs(low, parameter[low:high], error[low:high])]
 

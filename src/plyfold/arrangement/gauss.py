@@ -21,7 +21,6 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
-from plyfold.arrangement.drawing.smooth import draw_code
 from plyfold.arrangement.planar_map import next_darts, reversed_code, whole_number
 from plyfold.errors import GaussCodeError
 from plyfold.mistaken import mistaken_code
@@ -282,6 +281,9 @@ class GaussCode:
         >>> arrange(GaussCode.parse("1+ 1- / outer 1").to_curve()).turning_number
         2
         """
+        # Codes are read and decided without scipy, which only drawing needs.
+        from plyfold.arrangement.drawing.smooth import draw_code
+
         wanted = Arrangement.from_gauss(self.partner, self.ccw, self.outer)
         drawn = draw_code(wanted)
         return drawn.reversed() if wanted.reversed else drawn

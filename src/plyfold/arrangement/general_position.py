@@ -98,7 +98,7 @@ def _separate(curve: Curve, contacts: Contacts, visits: Visits, watch: Watch) ->
         found = _pair_numbers(new_contacts.edges, n)
         nothing_else = bool(np.isin(required, found).all() and np.isin(found, allowed).all())
         if nothing_else and _is_general(new_contacts, new_visits):
-            return Curve(moved, repairs=curve.repairs + _moves(curve.points, moved)), new_visits
+            return Curve(moved, curve.repairs + _moves(curve.points, moved), curve.cusps[0]), new_visits
     raise GeneralPositionError(
         "strands touch or overlap, and are too crowded to be moved apart",
         where=touching_places(curve.points, contacts, visits),

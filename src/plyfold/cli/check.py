@@ -6,23 +6,30 @@ import argparse
 import json
 from typing import Any
 
-from plyfold.cli.inputs import DISK, NO_DISK, add_command, add_time_limit, read_arrangement
+from plyfold.cli.inputs import DISK, NO_DISK, UNKNOWN, add_command, add_time_limit, read_arrangement
 from plyfold.cli.progress import Stopwatch, timing
 from plyfold.loading import FOR_LAYERINGS, load_libraries
 
 __all__ = ["add_check_command"]
 
 _JSON_GUIDE = """\
-the object that --json prints:
-  points, crossings         how many
+the object that --json prints, with --each one on a line for each shape:
+  index, id                 which shape it is (with --each)
+  points, loops, crossings  how many
+  cusps                     list of {loop, point, index, where: [x, y]}
   cells                     object: winding number -> how many cells have it
-  turning_number, reversed  of the curve after it was turned round, if it was
+  turning_number, reversed  of all loops together, after they were turned round, if they were
   repairs                   list of {kind, where: [x, y], size}: what was changed in the input
-  immersible, immersions    whether the curve bounds a disk, and in how many ways
+  immersible, immersions    whether the outline bounds a surface, and in how many ways; null: unknown, the time limit
+  surface                   what it bounds, in words (if immersible)
+  pieces                    of the surface: list of {loops, euler_characteristic, genus} (if immersible)
+  euler_characteristic      of all of it (if immersible)
   sheets                    of each immersion (if immersible)
   layerable                 whether an immersion can be lifted; null: unknown, the time limit (if immersible)
-  examined, levels          immersions tried until one could be lifted, and the layers of that one
+  examined, levels          immersions of a disk tried until one could be lifted, and the layers of that one
   reason, sentence, where   why not, in a word, in a sentence and at which places (if not immersible or layerable)
+  offer                     object: cusps (list as above), and the surface that it would bound with them; where some
+                            turns are too many, and cusps for them are found in two seconds
   seconds                   object: stage -> seconds
 or, with exit code 2, {error, where, hint}
 """
@@ -30,7 +37,7 @@ or, with exit code 2, {error, where, hint}
 
 def add_check_command(commands: Any) -> None:
     """Add the subcommand to a parser."""
-    check = add_command(commands, "check", _check, "say whether a curve bounds a disk, with all figures")
+    check = add_command(commands, "check", _check, "say what surface an outline bounds, with all figures")
     add_time_limit(check)
     check.add_argument("--json", action="store_true", help="print one JSON object and nothing else (see below)")
     check.epilog, check.formatter_class = _JSON_GUIDE, argparse.RawDescriptionHelpFormatter
@@ -46,8 +53,8 @@ def _check(options: argparse.Namespace) -> int:
     figures = verdict(arranged, options.time_limit)
     watch.stop()
     if options.json:
-        print(json.dumps(figures | {"seconds": watch.seconds}))
+        print(json.dumps(options.shape | figures | {"seconds": watch.seconds}), flush=True)
     else:
         print(describe(figures))
         print(timing(watch))
-    return DISK if figures["immersible"] else NO_DISK
+    return {True: DISK, False: NO_DISK, None: UNKNOWN}[figures["immersible"]]

@@ -7,10 +7,12 @@ import json
 
 from plyfold import __version__
 from plyfold.cli.check import add_check_command
+from plyfold.cli.convert import add_convert_command
 from plyfold.cli.draw import add_draw_command
+from plyfold.cli.each import each_shape
 from plyfold.cli.flat import add_flat_commands
 from plyfold.cli.gallery import add_gallery_command
-from plyfold.cli.inputs import NO_DISK
+from plyfold.cli.inputs import BAD_INPUT, NO_DISK, UNKNOWN
 from plyfold.cli.lift import add_lift_command
 from plyfold.cli.progress import clear_progress
 from plyfold.cli.sketch import add_sketch_command
@@ -20,13 +22,12 @@ from plyfold_command import INTERRUPTED, INTERRUPTED_SENTENCE
 
 __all__ = ["main"]
 
-BAD_INPUT, UNKNOWN = 2, 3
-
 _COMMANDS = (
     add_check_command,
     add_lift_command,
     add_draw_command,
     add_flat_commands,
+    add_convert_command,
     add_gallery_command,
     add_sketch_command,
 )
@@ -35,20 +36,24 @@ _GUIDE = """\
 examples:
   plyfold check loop.svg                     is it the outline of a disk of cloth? in how many ways?
   plyfold check loop.svg --json              the same for a program
+  plyfold check map.geojson --each           of every shape in it
+  plyfold check contour.json --cusp 0:12x2   with a point where the surface turns further than one sees
   plyfold lift loop.svg -o loop.html         the layered surface, as a 3D page for any browser
   plyfold lift loop.csv -o a.glb -o a.obj    as meshes; the ending chooses the format
   plyfold draw loop.svg -o loop.png          cells, disk layout, layers and surface in one picture
   plyfold split loop.svg -o pieces.geojson   simple polygons that cover the disk once
   plyfold unwrap loop.svg -o loop.obj        texture coordinates: the disk one-to-one onto the round one
+  plyfold convert letter.svg -o letter.json  the outline in another format, with its holes and cusps
   plyfold word loop.svg                      Blank's word and its groupings
   plyfold gallery                            named curves to begin with
   plyfold sketch                             draw in the browser, and see at once how it lies
   plyfold lift gallery:exit-ramp -o ramp.glb
 
-FILE is an SVG, CSV, TXT, NPY, JSON, WKT or GeoJSON file, "-" for standard input, or gallery:NAME.
+FILE is an SVG, CSV, TXT, NPY, JSON, WKT or GeoJSON file, a flat mesh as OBJ or PLY, "-" for standard input, or
+gallery:NAME. All that it holds is one outline, unless --id, --index or --each say otherwise.
 
-exit codes: 0 a disk (or written), 1 no disk or not to be lifted, 2 bad input,
-3 unknown whether it can be lifted (lift, draw: time limit), 130 interrupted
+exit codes: 0 a disk or another surface (or written), 1 none or not to be lifted, 2 bad input,
+3 unknown whether it can be lifted (time limit), 130 interrupted; of --each: 2, 3 or 1 if one of them ends so
 """
 
 
@@ -72,6 +77,11 @@ def main(arguments: list[str] | None = None) -> int:
     2
     """
     options = _parser().parse_args(arguments)
+    return each_shape(options, _answer) if getattr(options, "each", False) else _answer(options)
+
+
+def _answer(options: argparse.Namespace) -> int:
+    """Run a command, and return its exit code; errors are sentences."""
     try:
         return int(options.run(options))
     except (NotImmersibleError, NotEmbeddableError) as error:
@@ -96,7 +106,11 @@ def _complain(options: argparse.Namespace, error: Exception, code: int) -> int:
     if getattr(options, "json", False):
         where = [list(place) for place in getattr(error, "where", ())]
         short = getattr(error, "message", message)
-        print(json.dumps({"error": short, "where": where, "hint": getattr(error, "hint", "")}))
+        print(
+            json.dumps(
+                getattr(options, "shape", {}) | {"error": short, "where": where, "hint": getattr(error, "hint", "")}
+            )
+        )
     else:
         complain(f"plyfold: {message}")
     return code
@@ -105,7 +119,7 @@ def _complain(options: argparse.Namespace, error: Exception, code: int) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="plyfold",
-        description="Closed curves that cross themselves: are they outlines of disks of cloth, and how do these lie?",
+        description="Outlines that cross themselves: what pieces of cloth do they bound, and how do these lie?",
         epilog=_GUIDE,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

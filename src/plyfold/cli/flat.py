@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from plyfold.cli.inputs import DISK, NO_DISK, add_command, add_outputs, prepare, read_arrangement, write_texts
 from plyfold.cli.progress import Stopwatch
 from plyfold.loading import FOR_MESHES, load_libraries
+from plyfold.wording import counted
 
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
@@ -42,8 +43,6 @@ def add_flat_commands(commands: Any) -> None:
 
 
 def _split(options: argparse.Namespace) -> int:
-    from plyfold.flat.coverage import coverage
-    from plyfold.flat.decompose import decompose
     from plyfold.io.pieces import POLYGON_WRITERS
 
     watch = Stopwatch()
@@ -51,10 +50,14 @@ def _split(options: argparse.Namespace) -> int:
     load_libraries(() if options.cells else FOR_MESHES, watch)
     watch("cutting")
     if options.cells:
+        from plyfold.flat.coverage import coverage
+
         cells = coverage(arranged)
         polygons = [cell.polygon for cell in cells]
         told = [{"winding": cell.winding, "reversed": arranged.reversed} for cell in cells]
     else:
+        from plyfold.flat.decompose import decompose
+
         polygons = decompose(arranged)
         told = [{"piece": number} for number in range(len(polygons))]
     watch.stop()
@@ -73,14 +76,14 @@ def _direction(arranged: Arrangement) -> str:
 def _triangulate(options: argparse.Namespace) -> int:
     from plyfold.flat.triangulate import triangulate
     from plyfold.io.pieces import TRIANGLE_WRITERS
-    from plyfold.outline.given import as_curve
+    from plyfold.outline.given import as_outline
 
     watch = Stopwatch()
     arranged = prepare(options, tuple(TRIANGLE_WRITERS), watch)
     watch("triangulating")
     faces = triangulate(arranged)
     watch.stop()
-    drawn = as_curve(arranged)
+    drawn = as_outline(arranged)
     points = (drawn.reversed() if arranged.reversed else drawn).points
     print(f"{len(faces):,} triangles")
     write_texts(options, {ending: partial(write, points, faces) for ending, write in TRIANGLE_WRITERS.items()})
@@ -105,7 +108,8 @@ def _unwrap(options: argparse.Namespace) -> int:
     for path in options.output:
         unwound.export(path, options.force)
     watch.stop()
-    print(f"{len(unwound.faces):,} triangles in {unwound.immersion.n_sheets} sheets, none of them flipped in the disk")
+    sheets = counted(unwound.immersion.n_sheets, "sheet")
+    print(f"{len(unwound.faces):,} triangles in {sheets}, none of them flipped in the disk")
     for path in options.output:
         print(f"  wrote {path}")
     return DISK

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 from typing import Any
 
 from plyfold.errors import InputError
-from plyfold.io.saving import refuse_existing, refuse_output, save_bytes
+from plyfold.io.saving import refuse_existing, refuse_output
 
 __all__ = ["add_gallery_command"]
 
@@ -22,7 +21,7 @@ def add_gallery_command(commands: Any) -> None:
         "-o",
         "--output",
         metavar="OUT",
-        help="a .csv or .json file, which is read back exactly, or an .svg file, whose view box moves the curve",
+        help="a .csv, .json, .geojson, .wkt or .svg file, all of which are read back exactly",
     )
     gallery.add_argument("--all", metavar="DIR", help="save all curves there, as CSV files")
     gallery.add_argument("--force", action="store_true", help="replace existing files")
@@ -35,8 +34,9 @@ def _gallery(options: argparse.Namespace) -> int:
         _list_gallery(options)
     elif options.output is None:
         from plyfold.gallery import named_curve
+        from plyfold.io.outline_files import OUTLINE_WRITERS
 
-        print(_as_csv(named_curve(options.name).curve.points.tolist()), end="")
+        print(OUTLINE_WRITERS[".csv"](named_curve(options.name).curve), end="")
     else:
         _save_curve(options)
     return 0
@@ -55,17 +55,16 @@ def _list_gallery(options: argparse.Namespace) -> None:
 
 def _save_curve(options: argparse.Namespace) -> None:
     from plyfold.gallery import named_curve
+    from plyfold.io.outline_files import OUTLINE_WRITERS, save
 
-    points = named_curve(options.name).curve.points.tolist()
-    writers = {".csv": _as_csv, ".json": _as_json, ".svg": _as_svg}
-    refuse_output(options.output, tuple(writers), options.force)
-    content = writers[Path(options.output).suffix.lower()](points)
-    save_bytes(options.output, content.encode(), options.force)
+    refuse_output(options.output, tuple(OUTLINE_WRITERS), options.force)
+    save(named_curve(options.name).curve, options.output, force=options.force)
     print(f"wrote {options.output}")
 
 
 def _save_gallery(options: argparse.Namespace) -> None:
     from plyfold.gallery import CURVES
+    from plyfold.io.outline_files import save
 
     if options.name is not None or options.output is not None:
         raise InputError("--all saves every curve", hint="leave out the NAME and -o")
@@ -74,21 +73,5 @@ def _save_gallery(options: argparse.Namespace) -> None:
     for path in paths.values():
         refuse_existing(path, options.force)
     for name, path in paths.items():
-        save_bytes(path, _as_csv(CURVES[name].curve.points.tolist()).encode(), options.force)
+        save(CURVES[name].curve, path, force=options.force)
         print(f"wrote {path}")
-
-
-def _as_csv(points: list[list[float]]) -> str:
-    return "x,y\n" + "".join(f"{x!r},{y!r}\n" for x, y in points)
-
-
-def _as_json(points: list[list[float]]) -> str:
-    return json.dumps({"points": points}) + "\n"
-
-
-def _as_svg(points: list[list[float]]) -> str:
-    import numpy as np
-
-    from plyfold.io.svg_writing import polylines_svg
-
-    return polylines_svg([np.array([*points, points[0]])])

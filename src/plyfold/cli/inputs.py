@@ -11,6 +11,7 @@ from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from plyfold.cli.drawing import add_drawing_options, read_outline
 from plyfold.cli.progress import Stopwatch
 from plyfold.clock import Clock, Watch
 from plyfold.errors import InputError
@@ -21,19 +22,22 @@ if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
 
 __all__ = [
+    "BAD_INPUT",
     "DISK",
     "NO_DISK",
+    "UNKNOWN",
     "add_command",
     "add_outputs",
     "add_time_limit",
     "prepare",
     "read_arrangement",
+    "refuse_outputs",
     "title",
     "write_texts",
 ]
 
 # Exit codes.
-DISK, NO_DISK = 0, 1
+DISK, NO_DISK, BAD_INPUT, UNKNOWN = range(4)
 
 
 def add_command(commands: Any, name: str, run: Callable[..., int], summary: str) -> argparse.ArgumentParser:
@@ -42,9 +46,7 @@ def add_command(commands: Any, name: str, run: Callable[..., int], summary: str)
         name, help=summary, description=summary[0].upper() + summary[1:] + "."
     )
     command.set_defaults(run=run)
-    command.add_argument("file", metavar="FILE", help='a drawing, "-" for standard input, or gallery:NAME')
-    command.add_argument("--id", help="the element of an SVG to read")
-    command.add_argument("--tolerance", type=float, help="how far a Bézier or arc may be from its polyline")
+    add_drawing_options(command)
     command.add_argument(
         "--general-position",
         choices=["perturb", "raise"],
@@ -75,28 +77,26 @@ def add_outputs(command: argparse.ArgumentParser, endings: str) -> None:
 def read_arrangement(options: argparse.Namespace, watch: Stopwatch, clock: Clock | None = None) -> Arrangement:
     """Return the arrangement of the drawing that is named."""
     from plyfold.arrangement.arrangement import watched_arrangement
-    from plyfold.io.reading import read
 
-    watch("reading")
-    if options.file.startswith("gallery:"):
-        from plyfold.gallery import named_curve
-
-        curve = named_curve(options.file.removeprefix("gallery:")).curve
-    else:
-        curve = read(options.file, id=options.id, tolerance=options.tolerance)
+    outline = read_outline(options, watch)
     load_libraries(FOR_CROSSINGS, watch)
-    return watched_arrangement(curve, options.general_position, Watch(clock or Clock(None), watch))
+    return watched_arrangement(outline, options.general_position, Watch(clock or Clock(None), watch))
 
 
 def prepare(
     options: argparse.Namespace, endings: tuple[str, ...], watch: Stopwatch, clock: Clock | None = None
 ) -> Arrangement:
     """Refuse outputs that cannot be written, then read the input."""
+    refuse_outputs(options, endings)
+    return read_arrangement(options, watch, clock)
+
+
+def refuse_outputs(options: argparse.Namespace, endings: tuple[str, ...]) -> None:
+    """Refuse before any work is done what could not be written after it."""
     options.output = list(dict.fromkeys(options.output))
     _refuse_shared_files(options.file, options.output)
     for path in options.output:
         refuse_output(path, endings, options.force)
-    return read_arrangement(options, watch, clock)
 
 
 def _refuse_shared_files(file: str, outputs: list[str]) -> None:

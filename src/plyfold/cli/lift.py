@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from plyfold.cli.inputs import DISK, add_command, add_outputs, add_time_limit, prepare, title
 from plyfold.cli.progress import Stopwatch, timing
 from plyfold.clock import Clock
+from plyfold.wording import counted
 
 if TYPE_CHECKING:
     from plyfold.surface.heights import PinKey
@@ -70,10 +71,8 @@ def _lift(options: argparse.Namespace) -> int:
     watch("writing")
     _export(surface, options, watch)
     watch.stop()
-    levels = int(surface.layering.level.max())
-    print(
-        f"Lifted: {len(surface.faces):,} triangles in {surface.layering.immersion.n_sheets} sheets, {levels} level(s)"
-    )
+    sheets = counted(surface.layering.immersion.n_sheets, "sheet")
+    print(f"Lifted: {len(surface.faces):,} triangles in {sheets}, {surface.layering.level.max()} level(s)")
     if surface.intersections:
         print(f"  it passes through itself along {len(surface.intersections)} curve(s)")
     print(timing(watch))

@@ -22,7 +22,7 @@ import numpy as np
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.graphs import spanning_tree
 from plyfold.halfedges import ends_of, twins_of
-from plyfold.matrices import factorised
+from plyfold.matrices import factorised, laplacian
 
 __all__ = ["Layout", "angles_of", "flattened", "thin"]
 
@@ -114,20 +114,10 @@ def _newton_steps(sides: Floats, faces: Ints, inner: Ints) -> Callable[[Floats],
     cotangent = np.where(flat[:, None], 0.0, 1 / np.tan(np.where(flat[:, None], 1.0, angle)))
     start, end = ends_of(np.roll(faces, -1, axis=1))
     try:
-        factors = factorised(_laplacian(start, end, cotangent.ravel() / 2)[inner][:, inner])
+        factors = factorised(laplacian(start, end, cotangent.ravel() / 2)[inner][:, inner])
     except RuntimeError:  # singular: only triangles without angles around some vertex
         return np.zeros_like
     return lambda gap: np.asarray(factors.solve(gap))
-
-
-def _laplacian(start: Ints, end: Ints, weight: Floats) -> Any:
-    """Return the Laplacian of a graph whose edges have weights; sparse."""
-    from scipy.sparse import csr_array, diags_array
-
-    size = int(max(start.max(), end.max())) + 1
-    one_way = csr_array((weight, (start, end)), shape=(size, size))
-    whole = one_way + one_way.T
-    return diags_array(whole.sum(axis=1)) - whole
 
 
 # ---- triangles of which only the lengths of the sides are given ------------------------------------------------------
@@ -199,4 +189,4 @@ class Layout:
     def _factors(self) -> Any:
         """The factors of the Laplacian of the graph, without its first row and column."""
         start, end = ends_of(self.faces)
-        return factorised(_laplacian(start, end, np.ones(len(start)))[1:, 1:].astype(np.complex128))
+        return factorised(laplacian(start, end, np.ones(len(start)))[1:, 1:].astype(np.complex128))

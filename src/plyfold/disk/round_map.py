@@ -20,10 +20,10 @@ import numpy as np
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import PrecisionError
 from plyfold.halfedges import ends_of
-from plyfold.matrices import factorised
+from plyfold.matrices import diagonal_matrix, factorised, summed
 from plyfold.predicates import orient
 
-__all__ = ["boundary_angles", "cotangents", "cross", "round_map"]
+__all__ = ["boundary_angles", "cotangents", "cross", "round_map", "runs_once_round"]
 
 # Pieces of the boundary count as at least this share of it: with shorter ones, doubles would hold no circle.
 _SHORTEST_SHARE = 1e-7
@@ -98,6 +98,34 @@ def _on_grid(points: Floats) -> Floats:
     return np.asarray(np.round(points / _GRID) * _GRID)
 
 
+def runs_once_round(points: Floats) -> bool:
+    """Tell whether points go once round the unit circle, counter-clockwise from (1, 0); exactly.
+
+    Examples
+    --------
+    >>> runs_once_round(np.array([(1.0, 0), (0, 1), (-1, 0)])), runs_once_round(np.array([(1.0, 0), (-1, 0), (0, 1)]))
+    (True, False)
+    """
+    x, y = points.T
+    second_half = (y < 0) | ((y == 0) & (x < 0))
+    turns_left = orient((0, 0), points[:-1], points[1:]) > 0
+    further = np.where(second_half[:-1] == second_half[1:], turns_left, second_half[1:])
+    return bool(_on_circle(points).all() and points[0].tolist() == [1, 0] and further.all())
+
+
+def _on_circle(points: Floats) -> Bools:
+    """Tell which points are as near to the unit circle as places on the grid are put.
+
+    With steps h of the grid, a cosine is off by h / 2, a unit in its last place, and is then moved by h / 2 at most. So
+    with both coordinates x² + y² is off by 2 √2 h + 2 h², less than 3 h. In whole steps that is decided exactly.
+    """
+    on_grid = _on_grid(np.clip(points, -1, 1))
+    x, y = (on_grid / _GRID).T.astype(np.int64).astype(object)
+    radius = int(1 / _GRID)
+    near = np.asarray(np.abs(x * x + y * y - radius * radius) <= 3 * radius, dtype=bool)
+    return np.asarray(near & (points == on_grid).all(axis=1))
+
+
 def _counter_clockwise(corners: Floats) -> Bools:
     """Tell which triangles are counter-clockwise, exactly; none is that has a corner nowhere."""
     known = np.asarray(np.isfinite(corners).all(axis=(1, 2)))
@@ -116,13 +144,11 @@ def _weighted_means(weights: Floats, faces: Ints, disk: Floats, inner: Ints, bou
     ``weights[t, i]`` has what triangle t adds to the weight of the side opposite its corner i: from the corner that
     follows to the last one, and back.
     """
-    from scipy.sparse import csr_array, diags_array
-
     start, end = ends_of(faces[:, [1, 2, 0]])
     there, back = weights[..., 0].ravel(), weights[..., 1].ravel()
     row, column = np.concatenate([start, end]), np.concatenate([end, start])
-    whole = csr_array((np.concatenate([there, back]), (row, column)), shape=(len(disk), len(disk)))[inner]
-    total = diags_array(whole.sum(axis=1))
+    whole = summed(np.concatenate([there, back]), row, column, (len(disk), len(disk)))[inner]
+    total = diagonal_matrix(whole.sum(axis=1))
     return _solved(total - whole[:, inner], whole[:, boundary] @ disk[boundary])
 
 

@@ -27,7 +27,7 @@ from plyfold.colours import sheet_colour
 from plyfold.disk.arcs import Arc, arcs_of
 from plyfold.disk.motion import shapes_of_disk
 from plyfold.disk.places import Missing, Places, locate, places_in_sheet
-from plyfold.disk.round_map import round_map
+from plyfold.disk.round_map import round_map, runs_once_round
 from plyfold.errors import CertificateError, InputError, PlyfoldError
 from plyfold.flat.triangulate import chosen_immersion
 from plyfold.halfedges import neighbours_of
@@ -38,14 +38,16 @@ from plyfold.mesh.cells import DEFAULT_TRIANGLES, refuse_sizes, triangulate_cell
 from plyfold.mesh.sheets import glue_copies
 from plyfold.outline.given import CurveLike
 from plyfold.outline.points import as_points
+from plyfold.wording import counted
 
 __all__ = ["DISK_ENDINGS", "UnwoundDisk", "map_disk", "model_of_disk", "unwrap"]
 
 # The files that hold texture coordinates.
 DISK_ENDINGS = (".obj", ".ply", ".glb")
 
-# How far beyond the circle a point may be by rounding.
-_ROUNDING = 4e-16
+# How far beyond the circle a point may seem to be by rounding: a vertex is up to √2 units of the last place beyond it,
+# and its distance from the middle is computed to one more.
+_ROUNDING = 2 * np.finfo(np.float64).eps
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +92,7 @@ class UnwoundDisk:
         freeze(self)
 
     def __repr__(self) -> str:
-        return f"<UnwoundDisk: {len(self.faces)} triangles in {self.immersion.n_sheets} sheets>"
+        return f"<UnwoundDisk: {counted(len(self.faces), 'triangle')} in {counted(self.immersion.n_sheets, 'sheet')}>"
 
     def _repr_png_(self) -> bytes:
         from plyfold.draw.notebook import unwound_png
@@ -260,7 +262,7 @@ class UnwoundDisk:
         check_immersed_disk(drawn.points, self.plane, self.faces, self.boundary, drawn.cusps[0])
         circle = self.disk[self.boundary]
         check_immersed_disk(circle, self.disk, self.faces, self.boundary)
-        if not _runs_once_round(circle):
+        if not runs_once_round(circle):
             raise CertificateError("the boundary of the disk does not run once along the unit circle")
 
 
@@ -292,12 +294,6 @@ class Lifted(Protocol):
 
     def unwrap(self) -> UnwoundDisk:
         """Spread the cloth out as a round disk."""
-
-
-def _runs_once_round(circle: Floats) -> bool:
-    on_circle = np.abs(np.hypot(*circle.T) - 1) <= _ROUNDING
-    angle = np.arctan2(circle[:, 1], circle[:, 0]) % (2 * np.pi)
-    return bool(on_circle.all() and angle[0] == 0 and (np.diff(angle) > 0).all())
 
 
 def unwrap(

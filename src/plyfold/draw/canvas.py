@@ -102,11 +102,11 @@ def dots(axes: Axes, points: Floats, colour: str, size: float, **style: Any) -> 
     axes.scatter(points[:, 0], points[:, 1], s=size, color=colour, **style)
 
 
-def cusp_signs(axes: Axes, places: Floats, indices: Sequence[int], weight: float) -> None:
+def cusp_signs(axes: Axes, places: Floats, indices: Sequence[int], weight: float, alpha: float = 1.0) -> None:
     """Mark cusps at some places in the picture: small disks with their indices."""
     if not indices:
         return
-    dots(axes, places, CUSP, 95 * weight**2, edgecolors=PAPER, linewidths=0.8 * weight, zorder=6)
+    dots(axes, places, CUSP, 95 * weight**2, edgecolors=PAPER, linewidths=0.8 * weight, zorder=6, alpha=alpha)
     for place, index in zip(places, indices, strict=True):
         write(axes, place, str(index), 7.0 * weight, color=PAPER, weight="bold", zorder=7)
 

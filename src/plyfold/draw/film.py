@@ -7,11 +7,15 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Callable
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image as Picture
 
 from plyfold.arrays import Floats
 from plyfold.colours import INK, PAPER, rgb, sheet_colour
@@ -121,9 +125,6 @@ def _window(meshes: list[Mesh]) -> tuple[Floats, float]:
 
 def _drawn(image: Image, outline: Floats, middle: Floats, reach: float) -> _Frame:
     """Return one frame: the shaded image in the common window, and the curve where it is not hidden."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
     figure = Figure(figsize=(_PIXELS / 100, _PIXELS / 100), dpi=100, facecolor=PAPER)
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0, 0, 1, 1))
@@ -143,10 +144,6 @@ def _there_and_back(frames: list[_Frame]) -> list[tuple[_Frame, int]]:
 
 
 def _gif(shown: list[tuple[_Frame, int]]) -> bytes:
-    from io import BytesIO
-
-    from PIL import Image as Picture
-
     pictures = [Picture.fromarray(frame).quantize(128) for frame, _ in shown]
     out = BytesIO()
     durations = [1000 * steps // _PER_SECOND for _, steps in shown]

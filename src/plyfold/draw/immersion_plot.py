@@ -6,6 +6,7 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.collections import PolyCollection
 
 from plyfold.arrays import Floats
 from plyfold.colours import INK, PAPER, mix, sheet_colour
@@ -105,7 +106,6 @@ def _stripes(points: Floats, kinds: int, width: float) -> list[Floats]:
 
 
 def _draw_stripes(axes: Axes, stripes: list[Floats], colour: str, clip: PathPatch) -> None:
-    from matplotlib.collections import PolyCollection
 
     drawn = PolyCollection(stripes, facecolor=colour, edgecolor="none", zorder=1.2)
     axes.add_collection(drawn, autolim=False)

@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
+from matplotlib.patches import FancyArrowPatch
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.arrangement import arrange as arrangement_of
@@ -69,7 +70,7 @@ def plot_obstruction(
     --------
     >>> ax = plot_obstruction([(0, 0), (2, 2), (2, 0), (0, 2)])
     >>> " ".join(ax.texts[-1].get_text().split())
-    'The curve turns 0 times, and the outline of a disk turns once.'
+    'The curve turns 0 times; what bounds a surface turns once, or less by an even number.'
     """
     why = _found(subject) if obstruction is None else obstruction
     if isinstance(subject, Immersion):
@@ -139,8 +140,6 @@ def _number_cells(axes: Axes, arrangement: Arrangement, cells: Sequence[int], fr
 
 def _arrows_between(axes: Axes, immersion: Immersion, steps: Sequence[Step], frame: Frame) -> None:
     """Draw a short arrow across the border from each step to the next; each once, there and back side by side."""
-    from matplotlib.patches import FancyArrowPatch
-
     crossed = {_border_between(immersion, step, following): None for step, following in pairwise(steps)}
     for border, leftward in crossed:
         middle, (dx, dy) = border_middle(frame(border_line(immersion.arrangement, border)))

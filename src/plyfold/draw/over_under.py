@@ -20,9 +20,20 @@ from plyfold.colours import CLOTH_HIGH, PAPER, layer_colour, mix, sheet_colour
 from plyfold.draw.casing_gaps import cut_strands, strand_with_gaps
 from plyfold.draw.placement import Frame, border_line, cusps_drawn, drawn_points, line_weight, mark_weight
 from plyfold.errors import InputError
+from plyfold.graphs import components
 from plyfold.layering.layering import Layering
 
-__all__ = ["ClothColours", "ClothPiece", "Hidden", "OverUnder", "Strand", "over_under"]
+__all__ = [
+    "DASHES",
+    "HIDDEN_OPACITY",
+    "HIDDEN_WIDTH",
+    "ClothColours",
+    "ClothPiece",
+    "Hidden",
+    "OverUnder",
+    "Strand",
+    "over_under",
+]
 
 ClothColours: TypeAlias = Literal["cloth", "layers", "sheets"]
 Hidden: TypeAlias = Literal["removed", "dashed"]
@@ -31,6 +42,10 @@ Hidden: TypeAlias = Literal["removed", "dashed"]
 _STROKE = 0.005
 _GAP = 2.0
 _CUSP = 0.015
+
+# How hidden strands are drawn: dashes on and off, in widths of lines, and how much thinner and paler they are.
+DASHES = (2.2, 1.8)
+HIDDEN_WIDTH, HIDDEN_OPACITY = 0.7, 0.6
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,14 +209,9 @@ def _colour(colours: ClothColours, sheet: int, level: int, levels: int) -> str:
 
 def _glued_on_one_level(layering: Layering) -> Ints:
     """Return a number for each sheet, the same for those that are connected by gluings within their level."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     _, right, left = layering.immersion.gluing.T
     same = layering.level[right] == layering.level[left]
-    count = len(layering.level)
-    links = coo_array((np.ones(same.sum()), (right[same], left[same])), shape=(count, count))
-    return np.asarray(connected_components(links, directed=False)[1])
+    return components(len(layering.level), right[same], left[same])
 
 
 def _rings(arrangement: Arrangement, owner: Ints) -> Iterator[tuple[int, Floats]]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from plyfold.arrays import Floats
 from plyfold.colours import CUSP, INK
-from plyfold.draw.over_under import OverUnder, Strand, over_under
+from plyfold.draw.over_under import DASHES, HIDDEN_OPACITY, HIDDEN_WIDTH, OverUnder, Strand, over_under
 from plyfold.draw.svg import SvgPicture
 from plyfold.errors import InputError
 from plyfold.io.saving import refuse_output, save_bytes
@@ -117,8 +117,11 @@ def _layers(picture: SvgPicture, drawn: OverUnder) -> Iterator[str]:
 def _strands(picture: SvgPicture, name: str, strands: list[Strand], width: float) -> Iterator[str]:
     if not strands:
         return
-    dashes = f' stroke-opacity="0.6" stroke-dasharray="{2.2 * width:g} {1.8 * width:g}"' if name == "hidden" else ""
-    width = 0.7 * width if name == "hidden" else width
+    dashes = ""
+    if name == "hidden":
+        on, off = (share * width for share in DASHES)
+        dashes = f' stroke-opacity="{HIDDEN_OPACITY}" stroke-dasharray="{on:g} {off:g}"'
+        width *= HIDDEN_WIDTH
     style = f'fill="none" stroke="{INK}" stroke-width="{width:g}" stroke-linejoin="round"{dashes}'
     yield f'<g id="{name}-strands" inkscape:groupmode="layer" inkscape:label="{name} strands" {style}>'
     for strand in strands:
@@ -195,8 +198,9 @@ def _tikz_strand(strand: Strand, size: float, stroke: float) -> str:
     width = stroke * size * _POINTS_PER_CENTIMETRE
     style = f"{_tikz_name(INK)}, line width={width:.3f}pt"
     if strand.hidden:
-        dashes = f"dash pattern=on {2.2 * width:.3f}pt off {1.8 * width:.3f}pt"
-        style = f"{_tikz_name(INK)}!60, line width={0.7 * width:.3f}pt, {dashes}"
+        on, off = (share * width for share in DASHES)
+        dashes = f"dash pattern=on {on:.3f}pt off {off:.3f}pt"
+        style = f"{_tikz_name(INK)}!{100 * HIDDEN_OPACITY:g}, line width={HIDDEN_WIDTH * width:.3f}pt, {dashes}"
     return f"\\draw[{style}]\n  {_tikz_path(strand.points, size)}{' -- cycle' if strand.closed else ''};"
 
 

@@ -185,7 +185,7 @@ def shade(mesh: Mesh, view: View, pixels: int = 900, paint: Floats | None = None
     ((40, 40, 4), True)
     """
     seen = look(view.project(mesh.vertices), mesh.faces, _canvas(mesh, view, 2 * pixels))
-    body = _rimmed(_average(_body(mesh, view, seen, paint)), seen)
+    body = _rimmed(_average(_body(mesh, view, seen, paint)), seen, _is_steep(mesh, view))
     return Image(_over(body, _floor(mesh, view, seen.pixels.halved())), view, seen)
 
 
@@ -230,18 +230,26 @@ def _one_of_each_four(seen: Seen, hit: Ints) -> tuple[Ints, Ints]:
     return hit[first], which
 
 
-def _rimmed(body: Floats, seen: Seen) -> Floats:
+def _is_steep(mesh: Mesh, view: View) -> Bools:
+    """Return which triangles are seen so much from the side that depth falls from pixel to pixel without an edge."""
+    a, b, c = (view.project(mesh.vertices)[mesh.faces[:, i]] for i in range(3))
+    x, y, depth = np.cross(b - a, c - a).T
+    return np.asarray(np.hypot(x, y) > _STEEPEST / 2 * np.abs(depth))
+
+
+def _rimmed(body: Floats, seen: Seen, is_steep: Bools) -> Floats:
     """Pale the surface just behind the edges of what lies well before it, so that the two stand apart."""
     from scipy.ndimage import gaussian_filter, maximum_filter, minimum_filter
 
     depth, size = seen.depth[::2, ::2], 2 * seen.pixels.size
     solid = np.isfinite(depth)
-    behind = minimum_filter(np.where(solid, depth, np.inf), 3)
+    flat = solid & ~is_steep[seen.triangle[::2, ::2]]
+    behind = minimum_filter(np.where(flat, depth, np.inf), 3)
     edge = np.where(solid & (depth > behind + _STEEPEST * size), depth, -np.inf)
     reach = max(round(_RIM * max(depth.shape)), 1)
     y, x = np.mgrid[-reach : reach + 1, -reach : reach + 1]
     nearest = maximum_filter(edge, footprint=x**2 + y**2 <= (reach + 0.5) ** 2)
-    far = solid & (nearest > np.where(solid, depth, np.inf) + _STEEPEST * reach * size / 2)
+    far = flat & (nearest > np.where(flat, depth, np.inf) + _STEEPEST * reach * size / 2)
     rim = _RIM_STRENGTH * gaussian_filter(far.astype(float), 0.6)[..., None]
     return np.asarray(body * (1 - rim) + body[..., 3:] * rim)
 

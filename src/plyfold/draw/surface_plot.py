@@ -9,10 +9,10 @@ import numpy as np
 
 from plyfold.arrays import Floats
 from plyfold.colours import INK, OBSTRUCTION, layer_colour, rgb, sheet_colour
-from plyfold.draw.canvas import blank, line
+from plyfold.draw.canvas import blank, cusp_signs, line
 from plyfold.draw.depth_buffer import View
 from plyfold.draw.over_under import ClothColours
-from plyfold.draw.placement import closed, line_weight, middle_and_size, natural_stretch
+from plyfold.draw.placement import closed, cusps_drawn, line_weight, mark_weight, middle_and_size, natural_stretch
 from plyfold.draw.render import Image, Mesh, shade
 from plyfold.errors import InputError
 from plyfold.options import refuse_unless_count, refuse_unless_number
@@ -39,7 +39,7 @@ def plot_surface(  # noqa: PLR0913 - each option is keyword-only and independent
     stretch: float | None = None,
     pixels: int = 900,
 ) -> Axes:
-    """Draw the lifted surface, shaded, the outline as a dark line, dashed where it is hidden.
+    """Draw the lifted surface, shaded, the outline as a dark line, dashed where it is hidden, and marks at cusps.
 
     Light comes from the upper left; sheets darken what lies close below them, and stand out from it by a pale rim.
     Where sheets pass through each other, there is a red line.
@@ -90,6 +90,8 @@ def plot_surface(  # noqa: PLR0913 - each option is keyword-only and independent
         _line_in_space(axes, mesh.vertices[closed(loop)], image, INK, width)
     for polyline in surface.intersections:
         _line_in_space(axes, unit(polyline), image, OBSTRUCTION, width)
+    if len(surface.cusps):
+        _cusps_in_space(axes, surface, mesh.vertices[surface.cusps], image)
     return axes
 
 
@@ -135,6 +137,15 @@ class _Unit:
 
     def __call__(self, points: Floats) -> Floats:
         return np.asarray((points - self.middle) / self.size * (1.0, 1.0, self.stretch))
+
+
+def _cusps_in_space(axes: Axes, surface: Surface, places: Floats, image: Image) -> None:
+    """Mark the cusps, paler where something lies before them."""
+    arrangement, hidden = surface.layering.immersion.arrangement, image.hidden(places)
+    plane, (_, indices) = image.view.project(places)[:, :2], cusps_drawn(arrangement)
+    for kind, alpha in ((hidden, 0.4), (~hidden, 1.0)):
+        shown = [indices[number] for number in np.flatnonzero(kind)]
+        cusp_signs(axes, plane[kind], shown, mark_weight(arrangement.n_crossings), alpha)
 
 
 def _line_in_space(axes: Axes, corners: Floats, image: Image, colour: str, width: float) -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
+import shapely
 
 from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrays import Floats, Ints
@@ -106,8 +107,6 @@ def outlined(arrangement: Arrangement, cells: Sequence[int]) -> list[Polygon]:
     PrecisionError
         If a polygon is no longer valid with its crossings rounded to doubles.
     """
-    import shapely
-
     loops, owner = _without_pinches(arrangement, cells)
     coordinates, start = _coordinates(arrangement, loops)
     lines = shapely.linearrings(coordinates, indices=np.repeat(np.arange(len(loops)), np.diff(start)))
@@ -216,8 +215,6 @@ def _signed_areas(coordinates: Floats, start: Ints) -> Floats:
 
 def _refuse_invalid(polygons: npt.NDArray[np.object_], corner: Floats) -> None:
     """Raise PrecisionError if a polygon is missing or not valid; it has the given corner."""
-    import shapely
-
     bad = np.flatnonzero(~shapely.is_valid(polygons))
     if len(bad) == 0:
         return

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+import shapely
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Floats, Ints
@@ -71,8 +72,6 @@ def decompose(curve: OutlineLike, immersion: Immersion | None = None) -> list[Po
     >>> len(decompose(ramp))
     2
     """
-    import shapely
-
     chosen = chosen_immersion(curve, immersion)
     drawn = chosen.arrangement
     points = drawn_outline(drawn).points
@@ -98,8 +97,6 @@ def decompose(curve: OutlineLike, immersion: Immersion | None = None) -> list[Po
 
 def _outlined(points: Floats, faces: Ints, piece: Ints) -> npt.NDArray[np.object_]:
     """Return the polygon of each piece: its corners follow each other in the order of the curve."""
-    import shapely
-
     part, corner = np.divmod(np.unique(np.repeat(piece, 3) * len(points) + faces.ravel()), len(points))
     polygons: npt.NDArray[np.object_] = shapely.polygons(shapely.linearrings(points[corner], indices=part))
     return polygons
@@ -107,8 +104,6 @@ def _outlined(points: Floats, faces: Ints, piece: Ints) -> npt.NDArray[np.object
 
 def _pieces_of_surface(points: Floats, faces: Ints, is_cusp: Bools) -> list[Polygon]:
     """Return the pieces of a surface with holes or cusps: all triangles that overlap are found at once."""
-    import shapely
-
     conflicts: list[set[int]] = [set() for _ in faces]
     for triangle, others in _overlaps(points, faces, [np.arange(len(faces))], is_cusp).items():
         conflicts[triangle] |= others
@@ -208,11 +203,9 @@ def _neighbourhoods(piece: Ints, wanted: Ints, parent: list[int]) -> list[Ints]:
 
 def _overlapping_boxes(triangles: Floats) -> Iterator[tuple[Ints, Ints]]:
     """Yield pairs of triangles whose bounding boxes meet, some at a time, each pair once."""
-    from shapely import STRtree, box
-
     (left, low), (right, high) = triangles.min(axis=1).T, triangles.max(axis=1).T
-    boxes = box(left, low, right, high)
-    tree = STRtree(boxes)
+    boxes = shapely.box(left, low, right, high)
+    tree = shapely.STRtree(boxes)
     for begin in range(0, len(boxes), _AT_ONCE):
         first, second = tree.query(boxes[begin : begin + _AT_ONCE])
         once = begin + first < second

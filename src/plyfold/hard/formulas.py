@@ -19,6 +19,8 @@ from dataclasses import dataclass, field
 from numbers import Integral
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from plyfold.errors import InputError
 from plyfold.hard.flaps import FlapDisk, flap_disk
@@ -165,9 +167,6 @@ def _add_clause(digraph: _Digraph, clause: _Literals, uses: Counter[int]) -> Non
 
 def _places(digraph: _Digraph) -> list[int]:
     """Return where each flap hangs, those that cover each other's handles close together."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import reverse_cuthill_mckee
-
     ends = np.array(digraph.arcs + [(j, i) for i, j in digraph.arcs], dtype=np.int32).reshape(-1, 2).T
     graph = coo_array((np.ones(ends.shape[1]), ends), shape=(digraph.flaps, digraph.flaps)).tocsr()
     place: list[int] = np.argsort(reverse_cuthill_mckee(graph, symmetric_mode=True)).tolist()

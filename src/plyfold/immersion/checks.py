@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -34,11 +34,11 @@ def conditions(immersion: Immersion) -> Iterator[tuple[str, bool]]:
     arrangement = immersion.arrangement
     sheet_cell = np.repeat(np.arange(arrangement.n_cells), arrangement.winding)
     yield "as many sheets as windings", np.array_equal(immersion.sheet_cell, sheet_cell)
-    yield from _along_borders(immersion)
     rows = _rows(immersion)
-    yield "the gluings agree around every crossing", _agree(immersion, rows, corners(arrangement))
+    yield from _along_borders(immersion, rows)
+    yield "the gluings agree around every crossing", _agree_at_crossings(immersion, rows)
     if len(arrangement.bridges):
-        yield "the gluings agree at the feet of bridges", _agree(immersion, rows, corners_at_feet(arrangement))
+        yield "the gluings agree at the feet of bridges", _agree_at_feet(immersion, rows)
     if arrangement.cusp_index.any():
         yield "the sheets wind round every cusp as often as its index says", _wind_round_cusps(immersion, rows)
     by_loops = {piece.loops: piece.euler_characteristic for piece in immersion.pieces}
@@ -53,14 +53,16 @@ def conditions(immersion: Immersion) -> Iterator[tuple[str, bool]]:
 
 def _rows(immersion: Immersion) -> _Rows:
     arrangement = immersion.arrangement
-    bridged = arrangement.cell_of_dart[arrangement.bridges[:, 0]]
-    left, right = np.append(arrangement.left_cell, bridged), np.append(arrangement.right_cell, bridged)
+    left, right = arrangement.left_cell, arrangement.right_cell
+    if len(arrangement.bridges):
+        bridged = arrangement.cell_of_dart[arrangement.bridges[:, 0]]
+        left, right = np.append(left, bridged), np.append(right, bridged)
     return _Rows(left, right, starts_of(arrangement.winding[right]) - immersion.first_sheet[right])
 
 
-def _along_borders(immersion: Immersion) -> Iterator[tuple[str, bool]]:
+def _along_borders(immersion: Immersion, rows: _Rows) -> Iterator[tuple[str, bool]]:
     arrangement, first_sheet = immersion.arrangement, immersion.first_sheet
-    left, right, _ = _rows(immersion)
+    left, right, _ = rows
     lower, upper = arrangement.winding[right], arrangement.winding[left]
     seam = np.repeat(np.arange(len(right)), lower)
     glued = np.stack([seam, first_sheet[right[seam]] + count_each(lower)], axis=1)
@@ -75,29 +77,50 @@ def _along_borders(immersion: Immersion) -> Iterator[tuple[str, bool]]:
     yield "every sheet on the left is glued once or has the border for its own", bool((taken == 1).all())
 
 
-def _agree(immersion: Immersion, rows: _Rows, around: Ints) -> bool:
+def _agree_at_crossings(immersion: Immersion, rows: _Rows) -> bool:
     """Compare the two ways from the bottom cell to the top cell, and follow the own sheets of both strands."""
-    arrangement, own = immersion.arrangement, immersion.own_sheet
+    around, own = corners(immersion.arrangement), immersion.own_sheet
     a_top, a_bottom, b_top, b_bottom = around.T
-    bottom = rows.right[np.maximum(a_bottom, b_bottom)]
-    sheets = _sheets_over(immersion, bottom)
-    at = np.repeat(np.arange(len(around)), arrangement.winding[bottom])
     up = partial(_glued_to, immersion, rows)
-    one_way = up(b_top[at], up(a_bottom[at], sheets))
-    other_way = up(a_top[at], up(b_bottom[at], sheets))
-    if not np.array_equal(one_way, other_way):
+    return (
+        _same_both_ways(immersion, rows, around, up)
+        and np.array_equal(up(b_top, own[a_bottom]), own[a_top])
+        and np.array_equal(up(a_top, own[b_bottom]), own[b_top])
+    )
+
+
+def _agree_at_feet(immersion: Immersion, rows: _Rows) -> bool:
+    """Do the same at the feet of bridges, where one of the two strands is a loop."""
+    around, own = corners_at_feet(immersion.arrangement), immersion.own_sheet
+    if not _same_both_ways(immersion, rows, around, partial(_glued_to_or_itself, immersion, rows)):
         return False
-    for top, below, across in ((a_top, a_bottom, b_top), (b_top, b_bottom, a_top)):
-        is_loop = np.maximum(top, below) < arrangement.n_borders
-        if not np.array_equal(up(across[is_loop], own[below[is_loop]]), own[top[is_loop]]):
+    for loop, across in (([0, 1], 2), ([2, 3], 0)):
+        is_loop = around[:, loop].max(axis=1) < immersion.arrangement.n_borders
+        top, bottom = around[is_loop][:, loop].T
+        above = _glued_to_or_itself(immersion, rows, around[is_loop, across], own[bottom])
+        if not np.array_equal(above, own[top]):
             return False
     return True
 
 
+def _same_both_ways(immersion: Immersion, rows: _Rows, around: Ints, up: Callable[[Ints, Ints], Ints]) -> bool:
+    a_top, a_bottom, b_top, b_bottom = around.T
+    bottom = rows.right[np.maximum(a_bottom, b_bottom)]
+    sheets = _sheets_over(immersion, bottom)
+    at = np.repeat(np.arange(len(around)), immersion.arrangement.winding[bottom])
+    one_way = up(b_top[at], up(a_bottom[at], sheets))
+    return np.array_equal(one_way, up(a_top[at], up(b_bottom[at], sheets)))
+
+
 def _glued_to(immersion: Immersion, rows: _Rows, seam: Ints, right_sheet: Ints) -> Ints:
-    """Return the sheets on the left that are glued to sheets on the right; where there is no seam, the sheet itself."""
-    glued = np.asarray(immersion.gluing[:, 2].take(rows.first[seam] + right_sheet, mode="clip"))
-    return glued if (seam != NO_SEAM).all() else np.where(seam == NO_SEAM, right_sheet, glued)
+    """Return the sheets on the left that are glued to sheets on the right of seams."""
+    return np.asarray(immersion.gluing[rows.first[seam] + right_sheet, 2])
+
+
+def _glued_to_or_itself(immersion: Immersion, rows: _Rows, seam: Ints, right_sheet: Ints) -> Ints:
+    """Return the same, and where there is no seam the sheets themselves."""
+    glued = immersion.gluing[:, 2].take(rows.first[seam] + right_sheet, mode="clip")
+    return np.where(seam == NO_SEAM, right_sheet, glued)
 
 
 def _wind_round_cusps(immersion: Immersion, rows: _Rows) -> bool:

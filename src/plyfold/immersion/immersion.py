@@ -18,6 +18,7 @@ from plyfold.graphs import components
 from plyfold.immersion.checks import conditions
 from plyfold.memory import require_memory
 from plyfold.obstruction import Obstruction
+from plyfold.wording import counted
 
 __all__ = [
     "Group",
@@ -117,7 +118,8 @@ class Immersion:
         freeze(self)
 
     def __repr__(self) -> str:
-        return f"<Immersion: {self.n_sheets} sheets over {self.arrangement.n_cells - 1} cells>"
+        sheets, cells = counted(self.n_sheets, "sheet"), counted(self.arrangement.n_cells - 1, "cell")
+        return f"<Immersion: {sheets} over {cells}>"
 
     def _repr_svg_(self) -> str | None:
         # The disk layout; what is no disk has none.

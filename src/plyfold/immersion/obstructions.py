@@ -8,7 +8,7 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.graphs import components
 from plyfold.immersion.immersion import loop_characteristics
-from plyfold.immersion.shorter_loops import place_of_turning
+from plyfold.immersion.shorter_lobes import place_of_turning
 from plyfold.obstruction import Obstruction
 
 __all__ = [
@@ -16,6 +16,7 @@ __all__ = [
     "impossible_cusp",
     "impossible_turning",
     "is_visibly_no_disk",
+    "loops_apart",
     "may_bound_disk",
     "negative_winding",
     "obstruction",
@@ -38,14 +39,14 @@ def visible_obstruction(arranged: Arrangement, connected: bool = False) -> Obstr
     found = impossible_cusp(arranged)
     found = impossible_turning(arranged, connected) if found is None else found
     found = negative_winding(arranged) if found is None else found
-    return _loops_apart(arranged) if found is None and connected else found
+    return loops_apart(arranged) if found is None and connected else found
 
 
 def obstruction(
     arranged: Arrangement, reason: str, sentence: str, where: tuple[tuple[float, float], ...], value: object
 ) -> Obstruction:
-    """Return the obstruction of an outline; its picture shows one curve, several have none yet."""
-    return Obstruction(reason, sentence, where, value, arranged if arranged.n_loops == 1 else None)
+    """Return the obstruction of an outline, which its picture shows."""
+    return Obstruction(reason, sentence, where, value, arranged)
 
 
 def _impossible_cusps(arranged: Arrangement) -> Ints:
@@ -123,7 +124,7 @@ def _turning_in_words(arranged: Arrangement, members: Ints, connected: bool) -> 
     return f"The {who} {turning} times{at_cusps}; {apart}what bounds {what} turns {often}, or less by an even number."
 
 
-def _loops_apart(arranged: Arrangement) -> Obstruction | None:
+def loops_apart(arranged: Arrangement) -> Obstruction | None:
     """Return the obstruction of loops that cannot bound one piece, because no sheet reaches from some to the others."""
     clusters = int(clusters_of_loops(arranged).max()) + 1
     if clusters == 1:

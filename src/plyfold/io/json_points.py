@@ -11,7 +11,7 @@ import numpy as np
 from plyfold.errors import FileFormatError
 from plyfold.io.cusp_notation import cusps_of_loops
 from plyfold.io.own_version import refuse_later_version
-from plyfold.io.shapes import Line, Shape, shape_of_strokes
+from plyfold.io.shapes import Line, Shape, outline_of_shapes, shape_of_strokes
 from plyfold.io.vector import shapes_in_geojson
 from plyfold.mistaken import mistaken_code
 
@@ -104,18 +104,24 @@ def _loops(lines: Sequence[Any], cusps: object) -> Shape:
 
 
 def _document(document: dict[str, Any]) -> Shape:
-    """Return what is drawn in a document of the sketching page, which writes doubles, large ones without a point."""
+    """Return what is drawn in a document of the sketching page: loops, and the loop that its open strokes make."""
     refuse_later_version(document["plyfold"])
     strokes = document.get("strokes")
     if not isinstance(strokes, list) or not all(isinstance(stroke, dict) for stroke in strokes):
         raise _error("it is a document of the sketching page without strokes")
-    points = [np.array(stroke.get("points", []), dtype=np.float64) for stroke in strokes]
-    closed = [bool(stroke.get("closed")) for stroke in strokes]
-    if not any(closed):
-        return Shape(tuple(Line(line, closed=False) for line in points))
-    marks = cusps_of_loops(document.get("cusps"), [len(line) for line in points])
-    lines = zip(points, closed, marks, strict=True)
-    return Shape(tuple(Line(line, is_loop, cusps=marked) for line, is_loop, marked in lines if len(line)))
+    lines = [line for line in map(_stroke, strokes) if len(np.asarray(line.points))]
+    loops, parts = [line for line in lines if line.closed], [line for line in lines if not line.closed]
+    if not (loops and parts):
+        return Shape(tuple(lines))
+    joined = outline_of_shapes([Shape(tuple(parts))])
+    return Shape((*loops, Line(joined.points)), repairs=joined.repairs)
+
+
+def _stroke(stroke: dict[str, Any]) -> Line:
+    """Return a stroke of the page, which writes doubles, large ones without a point."""
+    points = np.array(stroke.get("points", []), dtype=np.float64)
+    (cusps,) = cusps_of_loops(stroke.get("cusps"), [len(points)])
+    return Line(points, bool(stroke.get("closed")), cusps=cusps)
 
 
 def _code_error(numbers: object) -> FileFormatError | None:

@@ -8,10 +8,11 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from plyfold.arrays import Floats
 from plyfold.errors import CurveError, FileFormatError, StrokeError
 from plyfold.outline.curve import Curve, Outline
-from plyfold.outline.direction import sense
-from plyfold.outline.given import outline_of_curves
+from plyfold.outline.direction import bounds_nothing, sense
+from plyfold.outline.given import outline_of_curves, outline_with
 from plyfold.outline.points import Repair, as_planar_points
 from plyfold.outline.strokes import join_strokes
 from plyfold.outline.vertices import naming_the_curve
@@ -131,35 +132,37 @@ def _open_line(line: Line) -> Repair:
 
 
 def _outline_of_loops(loops: Sequence[Line], repairs: Sequence[Repair]) -> Outline:
-    curves, flat, trouble = [], [], None
+    found = []
     for number, loop in enumerate(loops):
         with naming_the_curve(number, len(loops)):
-            try:
-                curves.append(_turned(Curve(loop.points), loop))
-            except CurveError as error:
-                flat.append(_flat_loop(loop, error))
-                trouble = error
-    if trouble is not None and not curves:
-        raise trouble
+            found.append(_curve_or_nothing(loop))
+    curves = [curve for curve in found if isinstance(curve, Curve)]
+    flat = [repair for repair in found if isinstance(repair, Repair)]
+    if not curves:
+        places = [repair.where for repair in flat]
+        raise CurveError(f"none of the {len(loops)} loops has an area", places, "draw one that goes round something")
     outline = outline_of_curves(curves)
-    return outline if not (flat or repairs) else _with_repairs(outline, [*repairs, *flat])
+    return outline_with(outline, repairs=(*repairs, *flat, *outline.repairs)) if flat or repairs else outline
 
 
-def _turned(curve: Curve, loop: Line) -> Curve:
+def _curve_or_nothing(loop: Line) -> Curve | Repair:
+    """Return a loop as a curve in its direction; if it goes round nothing, the record that it is left out.
+
+    A loop that is no ring of a polygon and has points beside a line stays: to leave it out would be a guess.
+    """
+    try:
+        curve = Curve(loop.points)
+    except CurveError:
+        points, _ = as_planar_points(loop.points)  # raises what else may be wrong
+        if loop.cusps or not len(points):
+            raise
+        return _no_area(points)
+    if loop.direction and not loop.cusps and bounds_nothing(curve.points):
+        return _no_area(curve.points)
     marked = Curve(loop.points, (), loop.cusps) if loop.cusps else curve
     return marked.reversed() if loop.direction and sense(curve.points) == -loop.direction else marked
 
 
-def _flat_loop(loop: Line, error: CurveError) -> Repair:
-    """Return the record of a loop whose points lie on one line; raise the error if something else is wrong with it."""
-    points, _ = as_planar_points(loop.points)
-    if loop.cusps or not len(points):
-        raise error
+def _no_area(points: Floats) -> Repair:
     x, y = points[0].tolist()
     return Repair("loop without area left out", (x, y), 0.0)
-
-
-def _with_repairs(outline: Outline, repairs: Sequence[Repair]) -> Outline:
-    if isinstance(outline, Curve):
-        return Curve(outline.points, (*repairs, *outline.repairs), outline.cusps[0])
-    return Outline(outline.loops, outline.cusps, (*repairs, *outline.repairs))

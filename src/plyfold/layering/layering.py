@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,8 +12,17 @@ from plyfold.arrays import Bools, Ints, freeze
 from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import Immersion, Piece, require_memory_for_gluing
 from plyfold.ragged import count_each, starts_of
+from plyfold.wording import counted
 
-__all__ = ["Layering", "crossing_visits_by_loop", "glued_along_borders", "layering_of_levels", "meeting_sheets"]
+__all__ = [
+    "Layering",
+    "borders_beside_top",
+    "check_levels",
+    "crossing_visits_by_loop",
+    "glued_along_borders",
+    "layering_of_levels",
+    "meeting_sheets",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +60,8 @@ class Layering:
         freeze(self)
 
     def __repr__(self) -> str:
-        return f"<Layering: {self.immersion.n_sheets} sheets on up to {self.level.max(initial=0)} levels>"
+        sheets, levels = counted(self.immersion.n_sheets, "sheet"), counted(self.level.max(initial=0), "level")
+        return f"<Layering: {sheets} on up to {levels}>"
 
     def _repr_svg_(self) -> str | None:
         # A Gauss code alone has no picture, several curves none yet.
@@ -113,33 +122,38 @@ class Layering:
         -----
         O(Σ w log w).
         """
-        for condition, holds in self._conditions():
-            if not holds:
-                raise PlyfoldError(f"internal check failed: {condition}")
-
-    def _conditions(self) -> Iterator[tuple[str, bool]]:
-        cell = self.immersion.sheet_cell
-        upward = np.lexsort((self.level, cell))
-        wrong = np.flatnonzero(self.level[upward] != 1 + count_each(self.immersion.arrangement.winding))
-        where = f"the sheets of cell {cell[upward[wrong[0]]]}" if len(wrong) else "the sheets of every cell"
-        yield f"{where} have levels 1 to its winding number", not len(wrong)
+        check_levels(self.immersion, self.level)
         border, right, left = self.immersion.gluing.T
         order = np.lexsort((self.level[right], border))
         rises = np.diff(self.level[left[order]]) > 0
         elsewhere = np.diff(border[order]) > 0
-        yield "every gluing keeps the order of the sheets", bool((rises | elsewhere).all())
+        if not (rises | elsewhere).all():
+            raise PlyfoldError("internal check failed: every gluing keeps the order of the sheets")
+
+
+def check_levels(immersion: Immersion, level: Ints) -> None:
+    """Check that the sheets over every cell have the levels 1 … w. Raises PlyfoldError, naming the cell."""
+    cell, winding = immersion.sheet_cell, immersion.arrangement.winding
+    upward = np.lexsort((level, cell))
+    wrong = np.flatnonzero(level[upward] != 1 + count_each(winding))
+    if len(wrong):
+        where = int(cell[upward[wrong[0]]])
+        raise PlyfoldError(f"internal check failed: the sheets of cell {where} have levels 1 to {winding[where]}")
 
 
 def meeting_sheets(immersion: Immersion) -> tuple[Ints, Ints]:
-    """Return for every visit the sheets, over the top cell of the crossing, of its strand and of the other strand.
+    """Return for every visit the sheets, over the top cell of the crossing, of its strand and of the other strand."""
+    here = immersion.own_sheet[borders_beside_top(immersion.arrangement)]
+    return here, here[immersion.arrangement.partner]
+
+
+def borders_beside_top(arrangement: Arrangement) -> Ints:
+    """Return for every visit the border of its strand that runs along the top cell of the crossing.
 
     The top cell is on the left of both strands. One of them crosses the other from right to left: that one leaves
     along the top cell, the other one comes along it. At a mark both sheets are the same.
     """
-    arrangement = immersion.arrangement
-    beside_top = np.where(arrangement.ccw, arrangement.border_before, arrangement.border_after)
-    here = immersion.own_sheet[beside_top]
-    return here, here[arrangement.partner]
+    return np.where(arrangement.ccw, arrangement.border_before, arrangement.border_after)
 
 
 def crossing_visits_by_loop(arrangement: Arrangement) -> list[Ints]:

@@ -20,6 +20,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+import pythoncdt as cdt
 
 from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
@@ -85,8 +86,6 @@ class _Covered:
 
     def add_points(self, criterion: str, threshold: float, shortest: float, limit: int) -> int:
         """Split bad triangles, but no edge below the shortest length; return how many points were added."""
-        import pythoncdt as cdt
-
         before = self.library.vertices_count()
         named = getattr(cdt.RefinementCriterion, criterion)
         self.watch.wait_for(
@@ -218,8 +217,6 @@ def _corners(library: Any, triangles: Ints) -> tuple[Ints, Floats]:
 
 def _bad_sides(covered: _Covered) -> Floats:
     """Return the shortest sides of triangles with sharp angles that no sharp corner of the drawing makes."""
-    import pythoncdt as cdt
-
     threshold = float(np.radians(_SMALLEST_ANGLE))
     found = covered.library.find_unrefined_triangles(cdt.RefinementCriterion.SMALLEST_ANGLE, threshold)
     found = [number for number in found if number not in covered.uncovered]
@@ -424,8 +421,6 @@ def _unit_square(points: Floats) -> tuple[Floats, Floats, float]:
 
 def constrained(outline: NodedCurve, watch: Watch = UNWATCHED) -> Any:
     """Return the constrained Delaunay triangulation; its first three vertices are those of an enclosing triangle."""
-    import pythoncdt as cdt
-
     edges = np.stack([outline.chain, outline.chain_end], axis=1)
     mesh = cdt.Triangulation(cdt.VertexInsertionOrder.AUTO, cdt.IntersectingConstraintEdges.NOT_ALLOWED, 0.0)
     try:
@@ -441,7 +436,7 @@ def constrained(outline: NodedCurve, watch: Watch = UNWATCHED) -> Any:
 
 
 def _insert(mesh: Any, points: Floats, edges: Any) -> None:
-    mesh.insert_vertices(points)
+    mesh.insert_vertices(np.ascontiguousarray(points))
     mesh.insert_edges(edges)
 
 

@@ -1,4 +1,4 @@
-"""The small loop that keeps a curve from being the outline of a disk, and the curve without it."""
+"""The small lobe that keeps a curve from being the outline of a disk, and the curve without it."""
 
 from __future__ import annotations
 
@@ -10,37 +10,37 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import PlyfoldError
-from plyfold.immersion.shorter_loops import MOST_CROSSINGS, Loop, is_inside, loops_to_leave_out, places_of
+from plyfold.immersion.shorter_lobes import MOST_CROSSINGS, Lobe, is_inside, lobes_to_leave_out, places_of
 from plyfold.immersion.solve import bounds_disk
 from plyfold.outline.curve import Curve
 
 __all__ = ["Kink", "find_kink"]
 
-# How many loops are left out in earnest.
+# How many lobes are left out in earnest.
 _MOST_TRIED = 16
 
 
 @dataclass(frozen=True, eq=False)
 class Kink:
-    """Loops of the curve, each from a crossing back to it: one as a rule, two if only both can be the cause.
+    """Lobes of the curve, each from a crossing back to it: one as a rule, two if only both can be the cause.
 
     Parameters
     ----------
     places : tuple of (x, y)
         The crossings.
-    loops : tuple of (m, 2) float
-        The loops, each from its crossing on, closed implicitly.
+    lobes : tuple of (m, 2) float
+        The lobes, each from its crossing on, closed implicitly.
     rest : (n, 2) float
         The curve without them, with corners at the crossings.
     """
 
     places: tuple[tuple[float, float], ...]
-    loops: tuple[Floats, ...]
+    lobes: tuple[Floats, ...]
     rest: Floats
 
 
 def find_kink(drawn: Arrangement) -> Kink | None:
-    """Return the shortest loop of at most half the curve's length that can be left out to leave a disk, or two of them.
+    """Return the shortest lobe of at most half the curve's length that can be left out to leave a disk, or two of them.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def find_kink(drawn: Arrangement) -> Kink | None:
     Returns
     -------
     Kink or None
-        What is left has been decided anew. Of the 64 shortest loops, and then of pairs of the 24 shortest, those come
+        What is left has been decided anew. Of the 64 shortest lobes, and then of pairs of the 24 shortest, those come
         in question that leave a curve which turns once and has no negative winding number. The first sixteen of them
         are tried, fewer where the curve has hundreds of crossings.
 
@@ -66,15 +66,15 @@ def find_kink(drawn: Arrangement) -> Kink | None:
     (2, ((5.0, 0.0),))
     """
     tries = min(_MOST_TRIED, MOST_CROSSINGS // max(drawn.n_crossings, 1))
-    kinks = (_without(drawn, loops) for loops in islice(loops_to_leave_out(drawn), tries))
+    kinks = (_without(drawn, lobes) for lobes in islice(lobes_to_leave_out(drawn), tries))
     return next((kink for kink in kinks if _is_disk(kink.rest)), None)
 
 
-def _without(drawn: Arrangement, loops: list[Loop]) -> Kink:
+def _without(drawn: Arrangement, lobes: list[Lobe]) -> Kink:
     borders = np.arange(drawn.n_borders)
-    places = places_of(drawn, [loop.first for loop in loops])
-    left_out = tuple(_along(drawn, loop.first + borders, is_inside(drawn, loop)) for loop in loops)
-    kept = ~np.any([is_inside(drawn, loop) for loop in loops], axis=0)
+    places = places_of(drawn, [lobe.first for lobe in lobes])
+    left_out = tuple(_along(drawn, lobe.first + borders, is_inside(drawn, lobe)) for lobe in lobes)
+    kept = ~np.any([is_inside(drawn, lobe) for lobe in lobes], axis=0)
     return Kink(places, left_out, _along(drawn, borders, kept))
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.predicates import orient
 
-__all__ = ["even_odd_directions", "sense"]
+__all__ = ["bounds_nothing", "even_odd_directions", "sense"]
 
 # Each of the n products and sums of the area is rounded by at most 2^-53 of its size.
 _AREA_ERROR = 4 * 2.0**-53
@@ -38,6 +38,41 @@ def _exact_sense(points: Floats) -> int:
     following = [*places[1:], *places[:1]]
     area = sum((a * d - b * c for (a, b), (c, d) in zip(places, following, strict=True)), Fraction(0))
     return (area > 0) - (area < 0)
+
+
+def bounds_nothing(points: Floats) -> bool:
+    """Tell whether a closed polyline runs back all the way that it comes, so that it winds round no place. Exact.
+
+    Examples
+    --------
+    >>> bounds_nothing(np.array([(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (2.0, 0.0)]))
+    True
+    >>> bounds_nothing(np.array([(0.0, 0.0), (2.0, 2.0), (2.0, 0.0), (0.0, 2.0)]))
+    False
+    """
+    return sense(points) == 0 and len(_without_straight_points(points.tolist())) < 3
+
+
+def _without_straight_points(points: list[list[float]]) -> list[list[float]]:
+    """Leave out points on one line with their neighbours, at which the polyline goes straight on or turns back."""
+    kept: list[list[float]] = []
+    for point in points:
+        kept.append(point)
+        while len(kept) > 1 and _is_straight(kept, -3, -2, -1):
+            del kept[-2]
+    while len(kept) > 2:
+        straight = next((at for at in (-1, 0) if _is_straight(kept, at - 1, at, at + 1)), None)
+        if straight is None:
+            break
+        del kept[straight]
+    return kept
+
+
+def _is_straight(points: list[list[float]], before: int, at: int, after: int) -> bool:
+    """Tell whether a point says nothing: it repeats the next one, or lies on one line with both neighbours."""
+    if points[at] == points[after]:
+        return True
+    return len(points) > 2 and not orient(points[before], points[at], points[after])
 
 
 def even_odd_directions(loops: Sequence[Floats]) -> list[int]:

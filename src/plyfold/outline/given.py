@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from plyfold.errors import CurveError
-from plyfold.outline.curve import Curve, Outline
+from plyfold.outline.curve import Curve, Cusps, Outline
 from plyfold.outline.direction import sense
 from plyfold.outline.points import Repair, left_out
 from plyfold.outline.strokes import join_strokes
@@ -31,6 +31,7 @@ __all__ = [
     "as_outline",
     "left_out_coordinates",
     "outline_of_curves",
+    "outline_with",
 ]
 
 
@@ -172,6 +173,22 @@ def _outline_of_several(values: Sequence[object]) -> Outline:
 def outline_of_curves(curves: Sequence[Curve]) -> Outline:
     """Return several curves as one outline, and one as it is."""
     return curves[0] if len(curves) == 1 else Outline(curves)
+
+
+def outline_with(outline: Outline, cusps: Cusps | None = None, repairs: Iterable[Repair] | None = None) -> Outline:
+    """Return the same loops with other cusps or with another record of what was changed; one loop stays a curve.
+
+    Examples
+    --------
+    >>> outline_with(Curve([(0, 0), (1, 0), (0, 1)]), [[0, 2, 0]])
+    <Curve of 3 points, 1 cusp>
+    """
+    changed = Outline(
+        outline.loops,
+        outline.cusps if cusps is None else cusps,
+        outline.repairs if repairs is None else repairs,
+    )
+    return Curve(changed.points, changed.repairs, changed.cusps[0]) if changed.n_loops == 1 else changed
 
 
 def are_several(value: object) -> bool:

@@ -14,7 +14,8 @@ from plyfold.sketch.export import export
 from plyfold.sketch.lie import lie, lifted
 from plyfold.sketch.look import look_at
 from plyfold.sketch.opening import gallery, opened
-from plyfold.sketch.schema import VERSION, Export, Lie, Lift, Look, Q, parse, read_question
+from plyfold.sketch.schema import VERSION, Export, Lie, Lift, Look, Q, Suggest, parse, read_question
+from plyfold.sketch.suggesting import suggested
 
 __all__ = ["Reply", "answer", "error_reply", "json_reply"]
 
@@ -66,8 +67,8 @@ def answer(name: str, body: bytes, headers: Mapping[str, str]) -> Reply:
 
     Examples
     --------
-    >>> answer("look", b'{"version": 1, "points": [[0, 0], [1, 1], [2, 2]]}', {}).body.decode()
-    '{"version":1,"error":{"kind":"drawing","sentence":"all points lie on one line","where":[[0.0,0.0],[2.0,2.0]],\
+    >>> answer("look", b'{"version": 2, "points": [[0, 0], [1, 1], [2, 2]]}', {}).body.decode()
+    '{"version":2,"error":{"kind":"drawing","sentence":"all points lie on one line","where":[[0.0,0.0],[2.0,2.0]],\
 "hint":"a curve that runs back and forth on one line bounds nothing"}}'
     """
     try:
@@ -123,6 +124,7 @@ def _open(body: bytes, headers: Mapping[str, str]) -> Reply:
 
 _ANSWERS: dict[str, _Answering] = {
     "look": _asked(Look, look_at),
+    "cusps": _asked(Suggest, suggested),
     "lie": _asked(Lie, lie),
     "surface": _asked(Lift, lifted),
     "export": _export,

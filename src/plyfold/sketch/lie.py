@@ -18,7 +18,7 @@ from plyfold.immersion.compare import changed_borders
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.report import words
+from plyfold.report import surface_in_words, words
 from plyfold.sketch.drawings import Layered, immersed, immersion_count, layered
 from plyfold.sketch.patience import patient
 from plyfold.sketch.schema import VERSION, Lie, Lift
@@ -31,7 +31,7 @@ _SECONDS_TO_INTERSECT = 10.0
 
 
 def lie(question: Lie) -> dict[str, Any]:
-    """Return one immersion of a loop, one of its layerings, and what is new in it.
+    """Return one immersion of an outline, one of its layerings, and what is new in it.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def lie(question: Lie) -> dict[str, Any]:
     Raises
     ------
     PlyfoldError
-        If the strokes make no loop that can be used.
+        If the strokes make no outline that can be used.
 
     Examples
     --------
@@ -65,15 +65,15 @@ def lie(question: Lie) -> dict[str, Any]:
     count = immersion_count(question.strokes)
     answer = {
         "version": VERSION,
-        "immersion": str(question.immersion % count),
-        "immersions": str(count),
+        "immersion": str(_number(question.immersion, count)),
+        "immersions": None if count is None else str(count),
         "changed_borders": _changed(question, disk, count),
         "sheets": _own_borders(disk),
         "sheet_cell": disk.sheet_cell.tolist(),
-        "layout": _layout(disk),
+        "layout": _layout(disk) if disk.is_disk else None,
     }
     found = layered(question.strokes, question.immersion, question.layering)
-    answer |= _layering(found) | {"verdict": _verdict(count, found.found)}
+    answer |= _layering(found) | {"verdict": _verdict(disk, count, found.found)}
     return answer | {"seconds": perf_counter() - began}
 
 
@@ -103,16 +103,22 @@ def _layering(layered: Layered) -> dict[str, Any]:
     }
 
 
-def _verdict(count: int, found: Layering | Obstruction | Unknown) -> dict[str, str]:
-    """Return the verdict on the loop in words, now that it is known whether this immersion can be lifted."""
+def _verdict(immersion: Immersion, count: int | None, found: Layering | Obstruction | Unknown) -> dict[str, str]:
+    """Return the verdict on the outline in words, now that it is known whether this immersion can be lifted."""
     obstruction = found.sentence if isinstance(found, Obstruction) else ""
-    return asdict(words(count, obstruction, decided=not isinstance(found, Unknown)))
+    surface = surface_in_words(immersion.pieces)
+    return asdict(words(count, obstruction, decided=not isinstance(found, Unknown), surface=surface))
 
 
-def _changed(question: Lie, disk: Immersion, count: int) -> list[int]:
+def _number(immersion: int, count: int | None) -> int:
+    """Return which of the immersions it is: there is one alone to be had where they are not counted."""
+    return immersion % (count or 1)
+
+
+def _changed(question: Lie, disk: Immersion, count: int | None) -> list[int]:
     """Return the borders that lie otherwise than before: by default in the immersion before this one, if any."""
-    now = question.immersion % count
-    before = now - 1 if question.before is None else question.before % count
+    now = _number(question.immersion, count)
+    before = now - 1 if question.before is None else _number(question.before, count)
     return [] if before < 0 else list(changed_borders(immersed(question.strokes, before), disk))
 
 
@@ -181,7 +187,7 @@ def lifted(question: Lift) -> dict[str, Any]:
     return {
         "version": VERSION,
         "mesh": mesh_data(made),
-        "immersion": str(question.immersion % immersion_count(question.strokes)),
+        "immersion": str(_number(question.immersion, immersion_count(question.strokes))),
         "layering": str(layered(question.strokes, question.immersion, question.layering).number),
         "gap": made.gap,
         "seconds": perf_counter() - began,
@@ -195,9 +201,9 @@ def lifted_surface(question: Lift) -> Surface:
     Raises
     ------
     NotImmersibleError
-        If the loop bounds no disk.
+        If the outline bounds no surface.
     NotEmbeddableError
-        If the disk cannot be lifted, unless the sheets may pass through each other.
+        If the surface cannot be lifted, unless the sheets may pass through each other.
     TimeLimitError
         If that was not decided in time.
     """

@@ -1,8 +1,9 @@
-"""What is this loop? Its crossings, borders, cells and the verdict, as the page shows them while one draws."""
+"""What is this outline? Its crossings, borders, cells and the verdict, as the page shows them while one draws."""
 
 from __future__ import annotations
 
 from dataclasses import asdict
+from hashlib import blake2s
 from time import perf_counter
 from typing import Any
 
@@ -10,23 +11,28 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.gauss import GaussCode
-from plyfold.draw.placement import label_circle
+from plyfold.arrays import Floats
+from plyfold.draw.placement import closed, label_circle
 from plyfold.immersion.blank_word import blank_word
-from plyfold.immersion.solve import count_immersions, find_immersion
-from plyfold.obstruction import Obstruction
+from plyfold.immersion.immersion import Immersion
+from plyfold.obstruction import Obstruction, Unknown
 from plyfold.offers.kinks import Kink, find_kink
-from plyfold.report import words
-from plyfold.sketch.drawings import arranged
+from plyfold.outline.curve import Curve
+from plyfold.outline.direction import even_odd_directions, sense
+from plyfold.report import A_DISK, Words, surface_in_words, words
+from plyfold.sketch.drawings import arranged, first_immersion, immersion_count
 from plyfold.sketch.schema import VERSION, Look
 
 __all__ = ["look_at"]
 
 _LONGEST_WORD = 60
 _LABEL_TOLERANCE = 0.02
+_MOST_TURNS_OFFERED = 3
+_NOTHING_WRONG: dict[str, Any] = {"reason": None, "where": [], "kink": None, "cusps_may_help": False}
 
 
 def look_at(question: Look) -> dict[str, Any]:
-    """Return all that is known of a loop without asking how its cloth lies.
+    """Return all that is known of an outline without asking how its cloth lies.
 
     Parameters
     ----------
@@ -40,85 +46,158 @@ def look_at(question: Look) -> dict[str, Any]:
     Raises
     ------
     PlyfoldError
-        If the strokes make no loop that can be used.
+        If the strokes make no outline that can be used.
 
     Examples
     --------
     >>> from plyfold.sketch.schema import Stroke
     >>> answer = look_at(Look((Stroke(((0, 0), (2, 2), (2, 0), (0, 2)), closed=True),)))
-    >>> answer["turning_number"], answer["verdict"]["reason"], answer["verdict"]["where"]
-    (0, 'turning number', [[1.0, 1.0]])
+    >>> answer["turning_numbers"], answer["verdict"]["reason"], answer["verdict"]["where"]
+    ([0], 'turning number', [[1.0, 1.0]])
     """
     began = perf_counter()
     drawn = arranged(question.strokes)
-    curve = drawn.curve
-    assert curve is not None
+    outline = drawn.outline
+    assert outline is not None
     return {
         "version": VERSION,
-        "points": curve.points.tolist(),
-        "repairs": [{"kind": r.kind, "where": list(r.where), "size": r.size} for r in curve.repairs],
+        "loops": [_loop(curve) for curve in outline.curves],
+        "cusps": _cusps(drawn),
+        "repairs": [{"kind": r.kind, "where": list(r.where), "size": r.size} for r in outline.repairs],
         "reversed": drawn.reversed,
-        "turning_number": drawn.turning_number,
+        "turning_numbers": list(drawn.turning_numbers),
         "crossings": drawn.crossings.tolist(),
         "borders": [_border(drawn, border) for border in range(drawn.n_borders)],
+        "visits": np.stack([drawn.border_before, drawn.border_after], axis=1).tolist(),
         "cells": [_cell(drawn, cell) for cell in range(1, drawn.n_cells)],
-        "verdict": _verdict(drawn),
-        "gauss": str(GaussCode.of(drawn)),
-        "word": _word(drawn),
+        "verdict": _verdict(question, drawn),
+        "code": _code(drawn),
+        **_texts(drawn),
         "seconds": perf_counter() - began,
     }
 
 
+def _loop(curve: Curve) -> dict[str, Any]:
+    index = curve.cusps[0]
+    return {
+        "points": curve.points.tolist(),
+        "cusps": {str(point): int(index[point]) for point in np.flatnonzero(index)},
+    }
+
+
+def _cusps(drawn: Arrangement) -> list[dict[str, Any]]:
+    places = drawn.visit_point
+    return [
+        {"where": places[visit].tolist(), "index": int(drawn.cusp_index[visit])}
+        for visit in np.flatnonzero(drawn.cusp_index)
+    ]
+
+
 def _border(drawn: Arrangement, border: int) -> list[list[float]]:
     points = drawn.border_points(border)
-    whole = points if drawn.n_crossings else np.concatenate([points, points[:1]])
+    whole = points if drawn.start_visit[border] >= 0 else closed(points)
     return [[x, y] for x, y in whole.tolist()]
 
 
 def _cell(drawn: Arrangement, cell: int) -> dict[str, Any]:
     x, y, radius = label_circle(drawn, cell, _LABEL_TOLERANCE)
+    outline, *holes = sorted(drawn.cell_outlines(cell), key=_area, reverse=True)
     return {
         "cell": cell,
         "winding": int(drawn.winding[cell]),
-        "outline": drawn.cell_outline(cell).tolist(),
-        "holes": [],
+        "outline": outline.tolist(),
+        "holes": [hole.tolist() for hole in holes],
         "label": [x, y],
         "radius": radius,
         "borders": sorted({dart // 2 for dart in drawn.cells[cell]}),
     }
 
 
-def _verdict(drawn: Arrangement) -> dict[str, Any]:
-    found = find_immersion(drawn)
-    if isinstance(found, Obstruction):
-        return _no_disk(drawn, found)
-    count = count_immersions(drawn)
+def _area(polygon: Floats) -> float:
+    """Return the signed area: of the boundaries of a bounded cell, the outer one alone runs counter-clockwise."""
+    x, y = (polygon - polygon[0]).T
+    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+
+
+def _code(drawn: Arrangement) -> str:
+    """Return a text that is the same as long as crossings and cusps stay as they are."""
+    parts = (drawn.partner, drawn.ccw, drawn.first_visit, drawn.cusp_index, drawn.cell_of_dart)
+    return blake2s(b"".join(array.tobytes() for array in parts), digest_size=16).hexdigest()
+
+
+def _texts(drawn: Arrangement) -> dict[str, str | None]:
+    """Return the codes that one curve without cusps has; the word where it is short."""
+    if not _is_plain(drawn):
+        return {"gauss": None, "word": None}
+    return {"gauss": str(GaussCode.of(drawn)), "word": _word(drawn)}
+
+
+def _verdict(question: Look, drawn: Arrangement) -> dict[str, Any]:
+    found = first_immersion(question.strokes)
+    match found:
+        case Immersion():
+            said = _immersed(question, found)
+        case Obstruction():
+            said = _obstructed(drawn, found)
+        case Unknown():
+            said = _undecided(found)
+    return _NOTHING_WRONG | said | {"figures": _figures(drawn), "turn": _loops_to_turn(drawn)}
+
+
+def _undecided(unknown: Unknown) -> dict[str, Any]:
+    return {"immersible": None, "immersions": None, **asdict(Words("Not decided in time", unknown.sentence))}
+
+
+def _immersed(question: Look, found: Immersion) -> dict[str, Any]:
+    count = immersion_count(question.strokes)
     return {
         "immersible": True,
-        "immersions": str(count),
-        "reason": None,
-        **asdict(words(count)),
-        "where": [],
-        "kink": None,
+        "immersions": None if count is None else str(count),
+        **asdict(words(count, surface=surface_in_words(found.pieces))),
     }
 
 
-def _no_disk(drawn: Arrangement, obstruction: Obstruction) -> dict[str, Any]:
-    kink = find_kink(drawn)
+def _obstructed(drawn: Arrangement, obstruction: Obstruction) -> dict[str, Any]:
+    kink = find_kink(drawn) if _is_plain(drawn) else None
     return {
         "immersible": False,
         "immersions": "0",
         "reason": obstruction.reason,
-        **asdict(words(0, obstruction.sentence)),
+        **asdict(words(0, obstruction.sentence, surface=A_DISK if _is_plain(drawn) else "a surface")),
         "where": [list(place) for place in obstruction.where],
         "kink": kink and _kink(kink),
+        "cusps_may_help": _cusps_may_help(drawn),
     }
+
+
+def _is_plain(drawn: Arrangement) -> bool:
+    return drawn.n_loops == 1 and not drawn.cusp_index.any()
+
+
+def _figures(drawn: Arrangement) -> list[list[str]]:
+    """Return what distinguishes other surfaces from a disk."""
+    return [] if _is_plain(drawn) else [["Euler characteristic", str(drawn.euler_characteristic)]]
+
+
+def _cusps_may_help(drawn: Arrangement) -> bool:
+    """Tell whether the outline of one piece without handles would turn less, by no more than cusps are looked for."""
+    too_many = drawn.euler_characteristic - (2 - drawn.n_loops)
+    return 0 < too_many <= _MOST_TURNS_OFFERED and bool((drawn.winding >= 0).all())
+
+
+def _loops_to_turn(drawn: Arrangement) -> list[int]:
+    """Return the loops that cross no other and run the other way than if every second one were a hole."""
+    if drawn.outline is None or drawn.n_loops == 1:
+        return []
+    loops = drawn.outline.loops
+    wanted = even_odd_directions(loops)
+    return [loop for loop, direction in enumerate(wanted) if direction == -sense(loops[loop]) != 0]
 
 
 def _kink(kink: Kink) -> dict[str, Any]:
     return {
         "where": [list(place) for place in kink.places],
-        "loops": [loop.tolist() for loop in kink.loops],
+        "lobes": [lobe.tolist() for lobe in kink.lobes],
         "points": kink.rest.tolist(),
     }
 

@@ -1,4 +1,4 @@
-"""From files to documents: saved ones as they were, drawings as a loop, pictures to draw after."""
+"""From files to documents: saved ones as they were, drawings as loops, pictures to draw after."""
 
 from __future__ import annotations
 
@@ -6,16 +6,18 @@ import base64
 import re
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 from urllib.parse import unquote
 
+import numpy as np
+
+from plyfold.arrays import Floats, Ints
 from plyfold.errors import FileFormatError, InputError, StrokeError
 from plyfold.gallery import CURVES
-from plyfold.io.reading import read
-from plyfold.outline.curve import Curve
-from plyfold.outline.given import as_curve
+from plyfold.io.reading import Contents, read_contents
+from plyfold.outline.curve import Outline, Repair
 from plyfold.sketch.pictures import PNG_START, png_document, svg_document
 from plyfold.sketch.schema import (
     MOST_BYTES,
@@ -35,6 +37,7 @@ _PICTURES = ((PNG_START, "png"), (b"\xff\xd8\xff", "jpeg"), (b"GIF8", "gif"), (b
 _LARGEST_PICTURE = 8 * 2**20
 _STRANGE = re.compile(r"[^\w .()+-]")
 _LONGEST_NAME = 100
+_MOST_SHAPES = 200
 
 
 def open_file(name: str, content: bytes) -> Document:
@@ -49,6 +52,7 @@ def open_file(name: str, content: bytes) -> Document:
     Returns
     -------
     Document
+        Of a drawing with several shapes, all of them.
 
     Raises
     ------
@@ -58,22 +62,44 @@ def open_file(name: str, content: bytes) -> Document:
     Examples
     --------
     >>> open_file("loop.csv", b"x,y\n0,0\n4,0\n0,3\n").strokes
-    (Stroke(points=((0.0, 0.0), (4.0, 0.0), (0.0, 3.0)), closed=True),)
+    (Stroke(points=((0.0, 0.0), (4.0, 0.0), (0.0, 3.0)), closed=True, cusps=()),)
     """
-    if len(content) > MOST_BYTES:
-        raise FileFormatError(f"{name} is larger than {MOST_BYTES // 2**20} MiB", hint="thin out the points")
-    carried = _carried(content)
-    if carried is not None:
-        return read_document(carried)
-    kind = next((kind for start, kind in _PICTURES if content.startswith(start)), None)
-    return _tracing(content, kind) if kind else _drawn(name, content)
+    return _shapes(name, content)[0].document
 
 
 def opened(content: bytes, headers: Mapping[str, str]) -> dict[str, Any]:
     """Return the answer to the question what a file holds."""
     name = unquote(headers.get("X-File-Name", "")) or "drawing"
-    document = document_data(open_file(name, content))
-    return {"version": VERSION, "document": document, "name": Path(name).stem[:_LONGEST_NAME]}
+    whole, *shapes = _shapes(name, content)
+    return {
+        "version": VERSION,
+        **_shape_data(whole._replace(name=Path(name).stem[:_LONGEST_NAME])),
+        "shapes": list(map(_shape_data, shapes)),
+    }
+
+
+class _Shape(NamedTuple):
+    """What a file holds, or a part of it."""
+
+    name: str
+    document: Document
+    repairs: tuple[Repair, ...] = ()
+
+
+def _shape_data(shape: _Shape) -> dict[str, Any]:
+    repairs = [{"kind": r.kind, "where": list(r.where), "size": r.size} for r in shape.repairs]
+    return {"name": shape.name, "document": document_data(shape.document), "repairs": repairs}
+
+
+def _shapes(name: str, content: bytes) -> list[_Shape]:
+    """Return the whole that a file holds, and then its shapes, if it is a drawing with several."""
+    if len(content) > MOST_BYTES:
+        raise FileFormatError(f"{name} is larger than {MOST_BYTES // 2**20} MiB", hint="thin out the points")
+    carried = _carried(content)
+    if carried is not None:
+        return [_Shape("", read_document(carried))]
+    kind = next((kind for start, kind in _PICTURES if content.startswith(start)), None)
+    return [_Shape("", _tracing(content, kind))] if kind else _drawn(name, content)
 
 
 def gallery() -> dict[str, Any]:
@@ -150,17 +176,28 @@ def _tracing(content: bytes, kind: str) -> Document:
     return Document((), Backdrop(f"data:image/{kind};base64,{base64.b64encode(content).decode()}"))
 
 
-def _drawn(name: str, content: bytes) -> Document:
-    """Return the loop of a file, or its strokes as they are, to be gone on with, where they do not join."""
+def _drawn(name: str, content: bytes) -> list[_Shape]:
+    """Return the loops of a file, together and by shape; strokes that do not join as they are, to be gone on with."""
+    contents = _contents(name, content)
     try:
-        return _document_of(_read(name, content))
+        whole = _shape_of("", contents.outline())
     except StrokeError:
         strokes = _json_strokes(content)
         if strokes is None:
             raise
-        return read_document(
-            {"plyfold": VERSION, "strokes": [{"points": points, "closed": False} for points in strokes]}
-        )
+        data = [{"points": points, "closed": False} for points in strokes]
+        return [_Shape("", read_document({"plyfold": VERSION, "strokes": data}))]
+    return [whole, *_each(contents)]
+
+
+def _each(contents: Contents) -> Iterator[_Shape]:
+    """Yield the shapes of a drawing with several, those that are outlines."""
+    for index in range(min(len(contents), _MOST_SHAPES) if len(contents) > 1 else 0):
+        try:
+            outline = contents.outline(index)
+        except InputError:  # a lone line beside loops, for example
+            continue
+        yield _shape_of(contents.name(index)[:_LONGEST_NAME], outline)
 
 
 def _json_strokes(content: bytes) -> Any:
@@ -171,15 +208,24 @@ def _json_strokes(content: bytes) -> Any:
     return value.get("strokes") if isinstance(value, dict) else value
 
 
-def _read(name: str, content: bytes) -> Curve:
+def _contents(name: str, content: bytes) -> Contents:
     safe = _STRANGE.sub("_", Path(name).name)[-_LONGEST_NAME:].lstrip(".") or "drawing"
     with tempfile.TemporaryDirectory(prefix="plyfold-") as folder:
         path = Path(folder) / safe
         path.write_bytes(content)
-        return as_curve(read(path))
+        return read_contents(path)
 
 
-def _document_of(curve: Curve) -> Document:
-    if len(curve) > MOST_POINTS:
-        raise InputError(f"the drawing has {len(curve):,} points, more than {MOST_POINTS:,}", hint="thin them out")
-    return Document((Stroke(tuple((x, y) for x, y in curve.points.tolist()), closed=True),))
+def _shape_of(name: str, outline: Outline) -> _Shape:
+    return _Shape(name, _document_of(outline), outline.repairs)
+
+
+def _document_of(outline: Outline) -> Document:
+    if len(outline) > MOST_POINTS:
+        raise InputError(f"the drawing has {len(outline):,} points, more than {MOST_POINTS:,}", hint="thin them out")
+    return Document(tuple(map(_stroke, outline.loops, outline.cusps)))
+
+
+def _stroke(points: Floats, index: Ints) -> Stroke:
+    marks = tuple((int(point), int(index[point])) for point in np.flatnonzero(index))
+    return Stroke(tuple((x, y) for x, y in points.tolist()), closed=True, cusps=marks)

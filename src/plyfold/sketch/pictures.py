@@ -62,7 +62,7 @@ def svg_with(document: Document, picture: str) -> str:
     Examples
     --------
     >>> svg_with(Document(()), "<svg><g/></svg>")[:46]
-    '<svg><metadata id="plyfold">{"plyfold":1,"stro'
+    '<svg><metadata id="plyfold">{"plyfold":2,"stro'
     """
     root = _ROOT.search(picture)
     assert root is not None

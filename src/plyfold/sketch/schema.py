@@ -23,18 +23,20 @@ __all__ = [
     "Look",
     "Polyline",
     "Stroke",
+    "Suggest",
     "document_data",
     "parse",
     "read_document",
     "read_question",
 ]
 
-VERSION = 1
+VERSION = 2
 MOST_BYTES = 16 * 2**20
 MOST_POINTS = 50_000
 _MOST_TRIANGLES = 200_000
 _MOST_SETTINGS = 64
 _LONGEST_INDEX = 1000
+_MOST_TURNS = 1000
 _PICTURE = re.compile(r"data:image/(png|jpeg|gif|webp);base64,[A-Za-z0-9+/]*={0,2}")
 _INDEX = re.compile(rf"-?[0-9]{{1,{_LONGEST_INDEX}}}")
 
@@ -44,10 +46,15 @@ Setting: TypeAlias = str | float | bool | None
 
 @dataclass(frozen=True)
 class Stroke:
-    """Polyline in the order of the pen; ``closed`` if the last one is joined to the first."""
+    """Polyline in the order of the pen; ``closed`` if the last one is joined to the first: then it is a loop.
+
+    ``cusps`` has pairs (point, index), ascending: by how many full turns the surface's angle there is larger than the
+    one that is seen.
+    """
 
     points: Polyline
     closed: bool = False
+    cusps: tuple[tuple[int, int], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -70,7 +77,14 @@ class Document:
 
 @dataclass(frozen=True)
 class Look:
-    """The question what a loop is."""
+    """The question what an outline is."""
+
+    strokes: tuple[Stroke, ...]
+
+
+@dataclass(frozen=True)
+class Suggest:
+    """The question where cusps would help."""
 
     strokes: tuple[Stroke, ...]
 
@@ -106,7 +120,7 @@ class Export:
     surface: Lift
 
 
-Q = TypeVar("Q", Look, Lie, Lift, Export)
+Q = TypeVar("Q", Look, Suggest, Lie, Lift, Export)
 
 
 # ---- reading ---------------------------------------------------------------------------------------------------------
@@ -146,7 +160,7 @@ def read_question(kind: type[Q], data: Any) -> Q:
 
     Parameters
     ----------
-    kind : {Look, Lie, Lift, Export}
+    kind : {Look, Suggest, Lie, Lift, Export}
     data : object
         What its JSON says.
 
@@ -157,7 +171,7 @@ def read_question(kind: type[Q], data: Any) -> Q:
 
     Examples
     --------
-    >>> read_question(Look, {"version": 1, "points": [[0, 0], [1, 0], [0, 1]]}).strokes[0].closed
+    >>> read_question(Look, {"version": 2, "points": [[0, 0], [1, 0], [0, 1]]}).strokes[0].closed
     True
     """
     question = _object(data, "the question")
@@ -176,12 +190,12 @@ def read_document(data: Any) -> Document:
 
     Examples
     --------
-    >>> read_document({"plyfold": 1, "strokes": [{"points": [[0, 0], [1, 0]], "closed": False}]}).strokes
-    (Stroke(points=((0.0, 0.0), (1.0, 0.0)), closed=False),)
+    >>> read_document({"plyfold": 2, "strokes": [{"points": [[0, 0], [1, 0]], "closed": False}]}).strokes
+    (Stroke(points=((0.0, 0.0), (1.0, 0.0)), closed=False, cusps=()),)
     """
     document = _object(data, "the document")
-    if document.get("plyfold") != VERSION:
-        version = document.get("plyfold")
+    version = document.get("plyfold")
+    if isinstance(version, bool) or version not in range(1, VERSION + 1):
         _refuse(f"the document has the version {version!r}, and this is {VERSION}", "open it with a newer plyfold")
     strokes = _strokes(document.get("strokes"), "document.strokes")
     return Document(strokes, _image(document.get("image")), _view(document.get("view", {})))
@@ -193,19 +207,28 @@ def document_data(document: Document) -> dict[str, Any]:
     Examples
     --------
     >>> document_data(Document((), None, {"dark": True}))
-    {'plyfold': 1, 'strokes': [], 'image': None, 'view': {'dark': True}}
+    {'plyfold': 2, 'strokes': [], 'image': None, 'view': {'dark': True}}
     """
     image = document.image
     return {
         "plyfold": VERSION,
-        "strokes": [{"points": list(map(list, stroke.points)), "closed": stroke.closed} for stroke in document.strokes],
+        "strokes": [_stroke_data(stroke) for stroke in document.strokes],
         "image": image and {"href": image.href, "place": image.place and list(image.place), "opacity": image.opacity},
         "view": dict(document.view),
     }
 
 
+def _stroke_data(stroke: Stroke) -> dict[str, Any]:
+    data: dict[str, Any] = {"points": list(map(list, stroke.points)), "closed": stroke.closed}
+    return data | ({"cusps": {str(point): index for point, index in stroke.cusps}} if stroke.cusps else {})
+
+
 def _look(question: dict[str, Any]) -> Look:
     return Look(_drawing(question))
+
+
+def _suggest(question: dict[str, Any]) -> Suggest:
+    return Suggest(_drawing(question))
 
 
 def _lie(question: dict[str, Any]) -> Lie:
@@ -230,8 +253,9 @@ def _export(question: dict[str, Any]) -> Export:
     return Export(document, kind, _lift_of(question, document.strokes))
 
 
-_READERS: dict[type, Callable[[dict[str, Any]], Look | Lie | Lift | Export]] = {
+_READERS: dict[type, Callable[[dict[str, Any]], Look | Suggest | Lie | Lift | Export]] = {
     Look: _look,
+    Suggest: _suggest,
     Lie: _lie,
     Lift: _lift,
     Export: _export,
@@ -258,22 +282,42 @@ def _lift_of(question: dict[str, Any], strokes: tuple[Stroke, ...]) -> Lift:
 
 
 def _drawing(question: dict[str, Any]) -> tuple[Stroke, ...]:
-    if ("points" in question) == ("strokes" in question):
-        _refuse("a question has either points or strokes")
-    if "points" in question:
+    names = [name for name in ("points", "strokes", "loops") if name in question]
+    if len(names) != 1:
+        _refuse("a question has either points or strokes or loops")
+    if names == ["points"]:
         return _limited((Stroke(_points(question["points"], "points"), closed=True),))
-    return _strokes(question["strokes"], "strokes")
+    return _strokes(question[names[0]], names[0])
 
 
 def _strokes(data: Any, name: str) -> tuple[Stroke, ...]:
     strokes = enumerate(_list(data, name))
-    return _limited(tuple(_stroke(stroke, f"{name}[{number}]") for number, stroke in strokes))
+    return _limited(tuple(_stroke(stroke, f"{name}[{number}]", name == "loops") for number, stroke in strokes))
 
 
-def _stroke(data: Any, name: str) -> Stroke:
-    if isinstance(data, dict):
-        return Stroke(_points(data.get("points"), f"{name}.points"), _truth(data.get("closed", False), "closed"))
-    return Stroke(_points(data, name))
+def _stroke(data: Any, name: str, is_loop: bool) -> Stroke:
+    if not isinstance(data, dict):
+        return Stroke(_points(data, name), is_loop)
+    points = _points(data.get("points"), f"{name}.points")
+    closed = is_loop or _truth(data.get("closed", False), "closed")
+    return Stroke(points, closed, _marks(data.get("cusps", {}), len(points), f"{name}.cusps"))
+
+
+def _marks(data: Any, points: int, name: str) -> tuple[tuple[int, int], ...]:
+    found = [(_vertex(vertex, points, name), _turns(index, name)) for vertex, index in _object(data, name).items()]
+    return tuple(sorted(mark for mark in found if mark[1]))
+
+
+def _vertex(data: str, points: int, name: str) -> int:
+    if not (data.isascii() and data.isdecimal() and len(data) < 10 and int(data) < points):
+        _refuse(f"{name} names the point {data[:20]!r}, and there are {points}")
+    return int(data)
+
+
+def _turns(data: Any, name: str) -> int:
+    if isinstance(data, bool) or not isinstance(data, int) or not 0 <= data <= _MOST_TURNS:
+        _refuse(f"{name} has an index that is no whole number from 0 to {_MOST_TURNS}")
+    return data
 
 
 def _limited(strokes: tuple[Stroke, ...]) -> tuple[Stroke, ...]:

@@ -21,8 +21,9 @@ import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
+from plyfold.graphs import ways_from
 from plyfold.halfedges import ends_of
-from plyfold.matrices import factorised
+from plyfold.matrices import diagonal_matrix, factorised, summed
 from plyfold.ragged import next_in_rows
 from plyfold.surface.glue import LiftedMesh, numbers_of_copies
 
@@ -67,9 +68,7 @@ class Cloth:
     @cached_property
     def stiffness(self) -> Any:
         """The matrix K; sparse, with about 19 entries in a row."""
-        from scipy.sparse import diags_array
-
-        return self.bending * (self.laplacian @ diags_array(1 / self.area) @ self.laplacian) + self.laplacian
+        return self.bending * (self.laplacian @ diagonal_matrix(1 / self.area) @ self.laplacian) + self.laplacian
 
     def energy(self, z: Floats) -> float:
         """Return ½ zᵀ K z."""
@@ -82,9 +81,7 @@ class Cloth:
 
     def near(self, watch: Watch) -> Any:
         """Return the factors of M + ℓ² L."""
-        from scipy.sparse import diags_array
-
-        return factorised(diags_array(self.area) + self.bending * self.laplacian, watch)
+        return factorised(diagonal_matrix(self.area) + self.bending * self.laplacian, watch)
 
 
 def cloth_of(points: Floats, mesh: LiftedMesh, stiffness: float, flat: float, watch: Watch = UNWATCHED) -> Cloth:
@@ -148,8 +145,6 @@ def held_response(cloth: Cloth, held: Bools, watch: Watch = UNWATCHED) -> Respon
 
 def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[Any, Floats]:
     """Return the matrix of ½ ∫ w |∇z|² and the area that belongs to each vertex."""
-    from scipy.sparse import coo_array
-
     triangle = corners[faces]
     n = len(corners)
     edges = np.roll(triangle, -1, axis=1) - np.roll(triangle, 1, axis=1)
@@ -160,7 +155,7 @@ def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[
     local += _TIE * (3 * np.eye(3) - 1)
     local *= weight[:, None, None]
     rows, columns = np.repeat(faces, 3, axis=1).ravel(), np.tile(faces, (1, 3)).ravel()
-    laplacian = coo_array((local.ravel(), (rows, columns)), shape=(n, n)).tocsr()
+    laplacian = summed(local.ravel(), rows, columns, (n, n))
     area = np.bincount(faces.ravel(), np.repeat(weight * double_area / 6, 3), minlength=n)
     return laplacian, np.maximum(area, _SMALLEST * area.mean())
 
@@ -173,14 +168,10 @@ def _softness(corners: Floats, mesh: LiftedMesh, length: float) -> Floats:
     on average: they would rather stand upright than bend in their width. So where triangles are narrower than usual,
     the bending length is as much shorter.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import dijkstra
-
     start, end = ends_of(mesh.faces)
     side = np.hypot(*(corners[start] - corners[end]).T)
-    ways = coo_array((side, (start, end)), shape=2 * (len(corners),)).tocsr()
     reach = length / _BENDING_AT_CUSPS
-    way = dijkstra(ways, directed=False, indices=mesh.cusps, min_only=True, limit=reach)
+    way = ways_from(mesh.cusps, len(corners), np.stack([start, end], axis=1), side, reach)
     way[mesh.cusps] = side.min()
     (ux, uy), (vx, vy) = (corners[mesh.faces[:, i]].T - corners[mesh.faces[:, 0]].T for i in (1, 2))
     area = ux * vy - uy * vx
@@ -195,8 +186,6 @@ def _ties(mesh: LiftedMesh, area: Floats, strength: float) -> Any:
 
     Pieces that lie apart from all others are tied by one vertex each, so that their heights are known.
     """
-    from scipy.sparse import coo_array
-
     n = len(area)
     lower, upper = mesh.stacked[mesh.piece[mesh.stacked[:, 0]] != mesh.piece[mesh.stacked[:, 1]]].T
     apart = np.unique(mesh.heap, return_index=True)[1][1:]
@@ -204,7 +193,7 @@ def _ties(mesh: LiftedMesh, area: Floats, strength: float) -> Any:
     weight = np.concatenate([strength * np.minimum(area[lower], area[upper]), np.ones(len(apart))])
     rows, columns = np.concatenate([*ends, *ends]), np.concatenate([*ends, *ends[::-1]])
     signs = np.concatenate([weight, weight, -weight, -weight])
-    return coo_array((signs, (rows, columns)), shape=(n, n)).tocsr()
+    return summed(signs, rows, columns, (n, n))
 
 
 def _alone(mesh: LiftedMesh) -> Bools:

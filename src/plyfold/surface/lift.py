@@ -38,6 +38,7 @@ from plyfold.surface.glue import cusps_of, intersection_curves, stack_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, flat_weight, refuse_stiffness, smooth_heights
 from plyfold.surface.stairs import heights_of_stairs, with_steps
 from plyfold.surface.thicken import Solid, thicken
+from plyfold.wording import counted
 
 __all__ = ["Surface", "layering_of", "lift"]
 
@@ -99,7 +100,8 @@ class Surface:
         freeze(self)
 
     def __repr__(self) -> str:
-        return f"<Surface: {len(self.faces)} triangles in {self.layering.immersion.n_sheets} sheets>"
+        triangles, sheets = counted(len(self.faces), "triangle"), counted(self.layering.immersion.n_sheets, "sheet")
+        return f"<Surface: {triangles} in {sheets}>"
 
     @property
     def curve(self) -> Curve:

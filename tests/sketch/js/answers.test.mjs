@@ -29,7 +29,7 @@ test("a question that was cancelled, or that nobody can cancel, is not asked aga
 
 test("whatever else changes while an answer is on its way, it is asked for once", () => {
   const document = loop([[0, 0], [4, 0], [0, 3]]);
-  const answered = { history: begin(document), answered: document, answer: { points: [] }, lie: { immersion: "0", layering: "0" } };
+  const answered = { history: begin(document), answered: document, answer: { loops: [] }, lie: { immersion: "0", layering: "0" } };
   const store = createStore({ ...START, ...answered });
   const asked = [];
   const timer = globalThis.setInterval;

@@ -85,7 +85,7 @@ test("rounded drawings have six digits of their size, at every scale", () => {
 
 test("what is no drawing is refused", async () => {
   await assert.rejects(decode("#d=AAAA"));
-  for (const wrong of [null, {}, { plyfold: 2, strokes: [] }, { plyfold: 1, strokes: [{ points: [[0, null]] }] }]) {
+  for (const wrong of [null, {}, { plyfold: 3, strokes: [] }, { plyfold: 2, strokes: [{ points: [[0, 0]], cusps: { 1: 1 } }] }, { plyfold: 1, strokes: [{ points: [[0, null]] }] }]) {
     assert.throws(() => checked(wrong), /no drawing/);
   }
   assert.equal(checked({ plyfold: 1, strokes: [], image: { href: "https://elsewhere/x.png" } }).image, null);

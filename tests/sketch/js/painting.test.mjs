@@ -14,13 +14,13 @@ function recorder() {
 }
 
 const THEME = {
-  ink: "ink", paper: "paper", dot: "dot", accent: "accent", wrong: "wrong", lit: "lit",
+  ink: "ink", paper: "paper", dot: "dot", accent: "accent", wrong: "wrong", cusp: "cusp", lit: "lit",
   winding: ["one", "two"], negative: ["minus one"], "on-winding": ["dark", "pale"], "on-negative": ["dark"], sheets: ["first", "second"],
 };
 const CAMERA = { scale: 2, x: 100, y: 100 };
 const BLANK = {
   size: { width: 200, height: 200 }, camera: CAMERA, theme: THEME, document: { strokes: [], image: null }, joins: [], openEnds: [],
-  answer: null, lie: null, tool: "draw", path: [], next: null, selected: null, cursor: null, hover: null, snap: false, image: null,
+  answer: null, offered: [], lie: null, tool: "draw", path: [], next: null, selected: null, cursor: null, hover: null, snap: false, image: null,
 };
 
 test("the grid has lines of round numbers, far enough apart", () => {
@@ -40,7 +40,7 @@ test("y is up in the drawing and down on the screen", () => {
 test("every stroke, cell, number and cross is painted in its place", () => {
   const [context, calls] = recorder();
   const strokes = [{ points: [[0, 0], [40, 0], [40, 40]], closed: true }];
-  const cell = { cell: 1, winding: -1, outline: strokes[0].points, label: [30, 10], radius: 10 };
+  const cell = { cell: 1, winding: -1, outline: strokes[0].points, holes: [], label: [30, 10], radius: 10 };
   const verdict = { where: [[20, 20]], kink: null };
   paint(context, { ...BLANK, document: { strokes, image: null }, answer: { crossings: [], cells: [cell], verdict } });
   assert.ok(calls.some(([name, ...values]) => name === "moveTo" && `${values}` === `${toScreen(CAMERA, [0, 0])}`));
@@ -65,4 +65,23 @@ test("vertices that are near each other are smaller", () => {
   const [near, far] = [radii(2), radii(20)];
   assert.equal(near.length, 4);
   assert.ok(near.every((radius, i) => radius < far[i]));
+});
+
+test("cusps are marked with their index, and offered ones too", () => {
+  const [context, calls] = recorder();
+  const strokes = [{ points: [[0, 0], [40, 0], [40, 40]], closed: true, cusps: { 1: 2 } }];
+  paint(context, { ...BLANK, document: { strokes, image: null }, offered: [{ where: [40, 40], index: 1 }] });
+  const [offered, marked] = calls.filter(([name]) => name === "fillText");
+  assert.deepEqual(offered, ["fillText", "1", 180, 20.5]);
+  assert.deepEqual(marked, ["fillText", "2", 180, 100.5]);
+  assert.ok(calls.some(([name, dash]) => name === "setLineDash" && dash.length === 2));
+});
+
+test("what other loops take away from a cell is not painted", () => {
+  const [context, calls] = recorder();
+  const square = (size) => [[-size, -size], [size, -size], [size, size], [-size, size]];
+  const cell = { cell: 1, winding: 1, outline: square(40), holes: [square(10).reverse()], label: [25, 0], radius: 15 };
+  paint(context, { ...BLANK, answer: { crossings: [], cells: [cell], verdict: { where: [], kink: null } } });
+  assert.deepEqual(calls.find(([name]) => name === "fill"), ["fill", "evenodd"]);
+  assert.equal(calls.filter(([name]) => name === "closePath").length, 2);
 });

@@ -16,9 +16,12 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+import shapely
+from scipy.sparse import coo_array, diags_array
 
 from plyfold.arrangement.drawing.skeleton import Kind, Skeleton
 from plyfold.arrays import Complexes, Floats, Ints
+from plyfold.matrices import factorised
 
 __all__ = ["energy", "relaxed"]
 
@@ -101,22 +104,15 @@ def _step(
 
 
 def _is_simple(loop: Complexes) -> bool:
-    import shapely
-
     return bool(shapely.LinearRing(np.column_stack([loop.real, loop.imag])).is_simple)
 
 
 def _newton(places: Complexes, skeleton: Skeleton) -> tuple[Complexes, float]:
     """Return the step that minimises a convex model of the energy, and the derivative along it."""
-    from scipy.sparse.linalg import splu
-
     n = len(places)
     terms = (_triangle_terms(places, skeleton), _curve_terms(places, skeleton))
     gradient = sum(np.bincount(term.unknowns.ravel(), term.gradient.ravel(), minlength=2 * n) for term in terms)
-    # The symmetric mode of the solver and its order for symmetric matrices make it several times as fast.
-    options = {"SymmetricMode": True}
-    solver = splu(_assembled(terms, 2 * n), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
-    step = -solver.solve(gradient)
+    step = -factorised(_assembled(terms, 2 * n)).solve(gradient)
     return step[:n] + 1j * step[n:], float(gradient @ step)
 
 
@@ -125,8 +121,6 @@ def _assembled(terms: tuple[_Terms, ...], size: int) -> Any:
 
     Moving or turning everything costs nothing; a little more on the diagonal makes a solution unique all the same.
     """
-    from scipy.sparse import coo_array, diags_array
-
     rows = np.concatenate([np.repeat(term.unknowns, 6, axis=1).ravel() for term in terms])
     columns = np.concatenate([np.tile(term.unknowns, 6).ravel() for term in terms])
     entries = np.concatenate([term.hessian.ravel() for term in terms])

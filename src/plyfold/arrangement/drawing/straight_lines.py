@@ -13,8 +13,10 @@ References
 from __future__ import annotations
 
 import numpy as np
+from scipy.sparse.linalg import splu
 
 from plyfold.arrays import Complexes, Ints
+from plyfold.matrices import laplacian
 
 __all__ = ["grid_drawing", "tutte_drawing"]
 
@@ -46,19 +48,14 @@ def tutte_drawing(triangles: Ints, boundary: Ints) -> Complexes:
     >>> bool(abs(tutte_drawing(fan, np.array([0, 1, 2]))[3]) < 1e-12)
     True
     """
-    from scipy.sparse import coo_array, diags_array
-    from scipy.sparse.linalg import splu
-
-    n = int(triangles.max()) + 1
     tail, head = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
-    half = coo_array((np.ones(len(tail)), (tail, head)), shape=(n, n)).tocsr()
-    joined = half + half.T
-    laplacian = (diags_array(joined.sum(axis=1)) - joined).tocsr()
+    forces = laplacian(tail, head, np.ones(len(tail)))
+    n = forces.shape[0]
     places = np.zeros(n, dtype=np.complex128)
     places[boundary] = np.exp(2j * np.pi * np.arange(len(boundary)) / len(boundary))
     inner = np.setdiff1d(np.arange(n), boundary)
-    solver = splu(laplacian[inner][:, inner].tocsc())
-    pull = -(laplacian[inner][:, boundary] @ places[boundary])
+    solver = splu(forces[inner][:, inner].tocsc())
+    pull = -(forces[inner][:, boundary] @ places[boundary])
     places[inner] = solver.solve(pull.real) + 1j * solver.solve(pull.imag)
     return places
 

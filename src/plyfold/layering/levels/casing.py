@@ -19,7 +19,7 @@ from plyfold.arrays import Bools, Ints
 from plyfold.clock import Clock, Watch
 from plyfold.errors import InputError, TimeLimitError
 from plyfold.immersion.obstructions import visible_obstruction
-from plyfold.layering.layering import Layering, layering_of_levels
+from plyfold.layering.layering import Layering, borders_beside_top, layering_of_levels
 from plyfold.layering.levels.equations import (
     LevelClauses,
     level_clauses,
@@ -198,7 +198,7 @@ def _first_fault(arranged: Arrangement, casing: Bools, level: Ints, start: int) 
     visit = np.arange(len(casing))
     outside = (level < 1) | (level > arranged.winding[arranged.left_cell])
     at_departure = np.where(visit == start, 1, level)
-    top = at_departure[np.where(arranged.ccw, arranged.border_before, arranged.border_after)]
+    top = at_departure[borders_beside_top(arranged)]
     disagree = np.where(casing, top <= top[arranged.partner], top >= top[arranged.partner])
     walked = (visit - start - 1) % len(visit)
     faulty = np.roll(outside | (disagree & (walked > walked[arranged.partner])), -start - 1)

@@ -39,6 +39,7 @@ __all__ = [
     "LevelClauses",
     "LevelEquations",
     "all_wanted",
+    "clauses_of",
     "contradiction",
     "level_clauses",
     "level_equations",
@@ -309,6 +310,11 @@ def _by_demand(number: int, demand: Ints, rows: Ints) -> list[list[list[int]]]:
     return demands
 
 
+def clauses_of(rows: Sequence[Sequence[Ints]]) -> list[list[int]]:
+    """Return the clauses of rows of literals, which are arrays as long as each other, without what is always so."""
+    return list(chain.from_iterable(_without_constants(np.stack(row, axis=1))[1] for row in rows))
+
+
 def _without_constants(rows: Ints) -> tuple[Ints, list[list[int]]]:
     """Return which clauses do not hold anyway, and those without literals that are always false."""
     which = np.flatnonzero(~(rows == _TRUE).any(axis=1))
@@ -370,8 +376,9 @@ def no_levels(arranged: Arrangement, clauses: LevelClauses, clock: Clock, becaus
     among_crossings, among_cusps = contradiction(clauses, clock)
     crossings = sorted(crossing_from_base[i] for i in among_crossings)
     cusps = sorted(cusp_from_base[i] for i in among_cusps)
-    at = f"{len(crossings)} crossings" + f" and {len(cusps)} cusps" * bool(cusps)
+    at = f"{len(crossings)} crossings" + (f" and {len(cusps)} cusp" + "s" * (len(cusps) > 1)) * bool(cusps)
     sentence = f"No embedding: {because}no levels of the strands fit together at {at}."
-    places = np.concatenate([arranged.crossings[crossings], arranged.visit_point[cusps]]) if arranged.outline else ()
+    drawn = arranged.outline is not None
+    places = np.concatenate([arranged.crossings[crossings], arranged.visit_point[cusps]]).tolist() if drawn else []
     where, value = tuple((x, y) for x, y in places), (*crossings, *(("cusp", visit) for visit in cusps))
     return obstruction(arranged, "no embedding", sentence, where, value)

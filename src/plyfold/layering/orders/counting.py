@@ -8,7 +8,7 @@ import numpy as np
 
 from plyfold.clock import Clock
 from plyfold.immersion.immersion import Immersion
-from plyfold.layering.orders.search import OrderProblem, order_problem, undecided
+from plyfold.layering.orders.search import OrderProblem, order_problem_in_time, undecided
 from plyfold.layering.tables import Table, TooLargeError, count_solutions
 from plyfold.obstruction import Obstruction, Unknown
 
@@ -58,12 +58,9 @@ def count_layerings(immersion: Immersion, time_limit: float | None = None) -> in
     2
     """
     clock = Clock(time_limit)
-    try:
-        problem = order_problem(immersion, clock)
-    except TimeoutError:
-        return undecided("time limit", _QUESTION, clock)
-    if isinstance(problem, Obstruction):
-        return 0
+    problem = order_problem_in_time(immersion, clock, _QUESTION)
+    if not isinstance(problem, OrderProblem):
+        return 0 if isinstance(problem, Obstruction) else problem
     try:
         return count_orders(problem, clock)
     except TimeoutError:

@@ -24,13 +24,14 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Floats, Ints, freeze
 from plyfold.clock import Clock
-from plyfold.errors import PlyfoldError
 from plyfold.immersion.immersion import Immersion
-from plyfold.layering.orders.maxsat import fewest_failures
+from plyfold.layering.layering import check_levels
+from plyfold.layering.orders.maxsat import equal_or_failing, fewest_failures
 from plyfold.layering.orders.search import OrderProblem, independent_orders
 from plyfold.memory import number_of_tuples, require_memory
 from plyfold.ragged import count_each, pairs_in_each
-from plyfold.sat import StoppableSolver, in_time, solver_of
+from plyfold.sat import StoppableSolver, search_in_time
+from plyfold.wording import counted
 
 __all__ = ["IntersectingLayering", "border_lengths", "least_intersecting_layering"]
 
@@ -58,7 +59,7 @@ class IntersectingLayering:
     >>> from plyfold import find_immersion
     >>> from plyfold.gallery import CURVES
     >>> least_intersecting_layering(find_immersion(CURVES["seven-flaps"].curve), time_limit=5.0)  # doctest: +ELLIPSIS
-    <IntersectingLayering: ... intersections along borders, ...the least possible>
+    <IntersectingLayering: ... along borders, ...the least possible>
     """
 
     immersion: Immersion
@@ -69,7 +70,7 @@ class IntersectingLayering:
         freeze(self)
 
     def __repr__(self) -> str:
-        found = f"{len(self.intersections)} intersections along borders"
+        found = f"{counted(len(self.intersections), 'intersection')} along borders"
         return f"<IntersectingLayering: {found}, {'' if self.optimal else 'maybe not '}the least possible>"
 
     @cached_property
@@ -101,9 +102,7 @@ class IntersectingLayering:
         PlyfoldError
             Naming the cell. That would be a mistake in plyfold.
         """
-        for cell, sheets in enumerate(self.immersion.sheets):
-            if sorted(self.level[list(sheets)].tolist()) != list(range(1, len(sheets) + 1)):
-                raise PlyfoldError(f"internal check failed: the sheets of cell {cell} have levels 1 to {len(sheets)}")
+        check_levels(self.immersion, self.level)
 
 
 def least_intersecting_layering(immersion: Immersion, time_limit: float | None = None) -> IntersectingLayering:
@@ -219,12 +218,7 @@ class _Wishes:
     @property
     def clauses(self) -> Iterator[list[int]]:
         """The constraints on orders, and that unequal literals are a failure."""
-        unequal = (
-            clause
-            for (a, b), failure in zip(self.literals, self.failure, strict=True)
-            for clause in ([-a, b, failure], [a, -b, failure])
-        )
-        return chain(self.problem.clauses, unequal)
+        return chain(self.problem.clauses, equal_or_failing(self.literals, self.failure))
 
 
 def _wishes(problem: OrderProblem, clock: Clock) -> _Wishes:
@@ -251,8 +245,7 @@ def _most_wishes(wishes: _Wishes, clock: Clock) -> list[int]:
 
 def _greedy(wishes: _Wishes, clock: Clock) -> list[int]:
     """Return the literals of a solution: fulfil wishes, the weightiest first, as long as there is time."""
-    with solver_of(wishes.clauses, clock) as solver:
-        return in_time(clock.left, solver, partial(_one_by_one, wishes, solver))
+    return search_in_time(wishes.clauses, clock, partial(_one_by_one, wishes))
 
 
 def _one_by_one(wishes: _Wishes, solver: StoppableSolver) -> list[int]:

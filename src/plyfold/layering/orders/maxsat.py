@@ -8,13 +8,20 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from plyfold.clock import Clock
 from plyfold.sat import Clauses, StoppableSolver, in_time, solve
 
-__all__ = ["fewest_failures"]
+__all__ = ["equal_or_failing", "fewest_failures"]
+
+
+def equal_or_failing(pairs: Iterable[Sequence[int]], failures: Iterable[int]) -> Iterator[list[int]]:
+    """Yield the clauses that both literals of each pair are true or both false, or else its failure is true."""
+    for (first, second), failure in zip(pairs, failures, strict=True):
+        yield [-first, second, failure]
+        yield [first, -second, failure]
 
 
 def fewest_failures(

@@ -22,10 +22,10 @@ from itertools import chain
 from plyfold.clock import Clock
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering, crossing_visits_by_loop, meeting_sheets
-from plyfold.layering.orders.maxsat import fewest_failures
-from plyfold.layering.orders.search import OrderProblem, order_problem, solve_orders, undecided
+from plyfold.layering.orders.maxsat import equal_or_failing, fewest_failures
+from plyfold.layering.orders.search import OrderProblem, order_problem_in_time, solve_orders, undecided
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.sat import StoppableSolver, in_time, solver_of
+from plyfold.sat import StoppableSolver, search_in_time
 
 __all__ = ["nicest_layering"]
 
@@ -61,11 +61,8 @@ def nicest_layering(immersion: Immersion, time_limit: float | None = None) -> La
     2
     """
     clock = Clock(time_limit)
-    try:
-        problem = order_problem(immersion, clock)
-    except TimeoutError:
-        return undecided("time limit", _QUESTION, clock)
-    if isinstance(problem, Obstruction):
+    problem = order_problem_in_time(immersion, clock, _QUESTION)
+    if not isinstance(problem, OrderProblem):
         return problem
     found = solve_orders(problem, clock)
     if not isinstance(found, Layering):
@@ -90,11 +87,10 @@ def _over(problem: OrderProblem) -> list[list[int]]:
 
 def _greedy(problem: OrderProblem, over: list[int], clock: Clock) -> list[int]:
     """Walk along the curve and change between over and under only where it cannot be helped."""
-    with solver_of(problem.clauses, clock) as solver:
-        return in_time(clock.left, solver, partial(_walk, solver, over))
+    return search_in_time(problem.clauses, clock, partial(_walk, over))
 
 
-def _walk(solver: StoppableSolver, over: list[int]) -> list[int]:
+def _walk(over: list[int], solver: StoppableSolver) -> list[int]:
     over_now = True
     # Decisions become clauses: with more assumptions than variables, Glucose writes beyond its arrays.
     for literal in over:
@@ -111,14 +107,10 @@ def _fewest_changes(problem: OrderProblem, over: list[list[int]], clock: Clock) 
     certain = sum(times for (first, second), times in pairs.items() if first == -second)
     open_pairs = [pair for pair in pairs if pair[0] != -pair[1]]
     change = dict(enumerate(open_pairs, problem.n_variables + 1))
-    unequal = (
-        clause
-        for variable, (first, second) in change.items()
-        for clause in ([-first, second, variable], [first, -second, variable])
-    )
+    equal = equal_or_failing(change.values(), change)
     weight = {variable: pairs[pair] for variable, pair in change.items()}
     n_variables = problem.n_variables + len(change)
-    true, least = fewest_failures(chain(problem.clauses, unequal), n_variables, weight, clock)
+    true, least = fewest_failures(chain(problem.clauses, equal), n_variables, weight, clock)
     return true, certain + least
 
 

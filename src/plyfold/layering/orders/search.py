@@ -105,11 +105,8 @@ def find_layering(
     [2, 1, 1, 1, 1]
     """
     clock = Clock(time_limit)
-    try:
-        problem = order_problem(immersion, clock)
-    except TimeoutError:
-        return undecided("time limit", _QUESTION, clock)
-    return problem if isinstance(problem, Obstruction) else solve_orders(problem, clock, fix or {})
+    problem = order_problem_in_time(immersion, clock, _QUESTION)
+    return solve_orders(problem, clock, fix or {}) if isinstance(problem, OrderProblem) else problem
 
 
 def solve_orders(problem: OrderProblem, clock: Clock, fix: FixedOrders = _NOTHING) -> Layering | Obstruction | Unknown:
@@ -309,15 +306,10 @@ class OrderProblem:
 
     def components(self) -> list[list[int]]:
         """Return the variables that constraints tie together, and those that are free each alone, in order."""
-        from scipy.sparse import coo_array
-        from scipy.sparse.csgraph import connected_components
-
-        n = self.n_variables
         variable = np.abs(self.triples) - 1
         ends = np.concatenate([variable[:, :2], variable[:, 1:]])
-        tied = coo_array((np.ones(len(ends), dtype=bool), ends.T), shape=(n, n))
         groups: dict[int, list[int]] = {}
-        for number, label in enumerate(connected_components(tied, directed=False)[1].tolist(), 1):
+        for number, label in enumerate(components(self.n_variables, *ends.T).tolist(), 1):
             groups.setdefault(label, []).append(number)
         return list(groups.values())
 
@@ -350,6 +342,14 @@ def order_problem(immersion: Immersion, clock: Clock = NO_LIMIT) -> OrderProblem
     if len(contradictions):
         return _reversed_pair(immersion, graph, int(contradictions[0]))
     return _problem(immersion, graph, clock)
+
+
+def order_problem_in_time(immersion: Immersion, clock: Clock, question: str) -> OrderProblem | Obstruction | Unknown:
+    """Return the same, or at the time limit that a question is left open."""
+    try:
+        return order_problem(immersion, clock)
+    except TimeoutError:
+        return undecided("time limit", question, clock)
 
 
 def independent_orders(immersion: Immersion, clock: Clock = NO_LIMIT) -> OrderProblem:

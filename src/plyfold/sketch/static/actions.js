@@ -2,18 +2,20 @@
 // Buttons, shortcuts, menus and help are all made from this table.
 
 import * as commands from "./commands.js";
-import { EMPTY, deletePoint, lastStrokeOnly, loop, reversed, toggleClosed, withImage, withStrokes } from "./document.js";
+import { EMPTY, deletePoint, lastStrokeOnly, reversed, toggleClosed, turned, withImage, withStrokes, withTurned } from "./document.js";
 import { canRedo, canUndo } from "./history.js";
 import { closedAll, smoothedDrawing } from "./tidying.js";
-import { answerShown, errorShown, lieShown, smallKink } from "./store.js";
+import { answerShown, errorShown, lieShown, offerShown, smallKink, turnable } from "./store.js";
 import { zoomed } from "./camera.js";
 
 const drawn = (state) => state.history.present.strokes.length > 0;
 const allClosed = (state) => drawn(state) && !state.path.length && state.history.present.strokes.every(({ closed }) => closed);
 const several = (count) => count !== null && count !== undefined && count !== "0" && count !== "1";
 const present = (page) => page.store.state.history.present;
-/** Points of an answer in the direction in which the loop was drawn; answers run with the disk on the left. */
-const asDrawn = ({ points, reversed: turned }, given = points) => (turned ? [given[0], ...given.slice(1).reverse()] : given);
+const selectedStroke = ({ selected, history }) => (selected && history.present.strokes.length > 1 ? selected.stroke : null);
+/** Loops of an answer in the direction in which they were drawn; answers run with the surface on the left. */
+const asDrawn = ({ reversed: wasTurned }, loops) =>
+  loops.map((given) => ({ ...given, closed: true })).map((stroke) => (wasTurned ? turned(stroke) : stroke));
 const toggle = (field) => (page) => page.store.set({ [field]: !page.store.state[field] });
 
 const tool = (name, label, key, hint) => ({
@@ -50,6 +52,7 @@ export const ACTIONS = [
   tool("points", "Points", "P", "Place points one by one; the first point again closes the loop, a double click ends it"),
   tool("edit", "Edit", "E", "Drag points, with Alt a single one of a smooth line; drag a line to insert one; double click to delete one"),
   tool("erase", "Erase", "X", "Rub out parts of strokes"),
+  tool("cusp", "Cusps", "U", "Click where the surface turns once more than is seen; again for two and three turns, and for none"),
   tool("hand", "Move", "H", "Move the paper (also with Space held, or two fingers)"),
 
   { name: "undo", label: "Undo", keys: ["Ctrl+Z"], group: "history", hint: "Take the last change back", perform: commands.undoStep,
@@ -57,13 +60,14 @@ export const ACTIONS = [
   { name: "redo", label: "Redo", keys: ["Ctrl+Shift+Z", "Ctrl+Y"], group: "history", hint: "Do again what was taken back",
     perform: commands.redoStep, enabled: (state) => canRedo(state.history) || state.ahead.length > 0 },
 
-  { name: "reverse", label: "Reverse", keys: ["R"], group: "change", hint: "Draw it in the other direction",
-    perform: (page) => commands.edit(page, reversed(present(page))), enabled: drawn },
+  { name: "reverse", label: "Reverse", labelNow: (state) => (selectedStroke(state) === null ? "Reverse" : "Turn loop"), keys: ["R"], group: "change",
+    hint: "Draw it in the other direction; with a point chosen, its loop alone: holes run the other way",
+    perform: (page) => commands.reverse(page, selectedStroke(page.store.state)), enabled: drawn },
   { name: "close", label: "Close", labelNow: (state) => (allClosed(state) ? "Cut open" : "Close"), keys: ["C"], group: "change", hint: "Join the ends of a stroke, or open a loop",
     perform: (page) => (page.store.state.path.length ? commands.finishPath(page, true) : commands.edit(page, toggleClosed(present(page)))),
     enabled: (state) => drawn(state) || state.path.length > 2 },
-  { name: "join", label: "Join", keys: ["J"], group: "change", hint: "Make one loop of all strokes",
-    perform: (page) => commands.edit(page, withStrokes(present(page), loop(asDrawn(answerShown(page.store.state))).strokes)),
+  { name: "join", label: "Join", keys: ["J"], group: "change", hint: "Make a loop of all open strokes",
+    perform: (page) => commands.edit(page, withStrokes(present(page), asDrawn(page.store.state.answer, page.store.state.answer.loops))),
     enabled: (state) => Boolean(answerShown(state)) && state.history.present.strokes.some(({ closed }) => !closed) },
   { name: "smooth", label: "Smooth", keys: ["M"], group: "change", hint: "Smooth and simplify; the crossings stay as they are",
     perform: (page) => commands.edit(page, smoothedDrawing(page)), enabled: drawn },
@@ -87,8 +91,12 @@ export const ACTIONS = [
   walking("layeringDown", "Previous layering", "ArrowDown", "layering", -1),
   walking("layeringUp", "Next layering", "ArrowUp", "layering", 1),
   { name: "removeKink", label: "Remove the kink", keys: ["Shift+K"], group: "answers", hint: "Draw the loop without the small kink",
-    perform: (page) => commands.edit(page, withStrokes(present(page), loop(asDrawn(page.store.state.answer, page.store.state.answer.verdict.kink.points)).strokes)),
+    perform: (page) => commands.edit(page, withStrokes(present(page), asDrawn(page.store.state.answer, [page.store.state.answer.verdict.kink]))),
     enabled: (state) => smallKink(state) !== null },
+  { name: "markCusps", label: "Mark cusps", labelNow: (state) => commands.offerLabel(offerShown(state)), keys: ["Shift+U"], group: "answers",
+    hint: "Mark the cusps that would help, as they are shown", perform: commands.markOffered, enabled: (state) => offerShown(state) !== null },
+  { name: "holes", label: "Make holes", keys: ["Shift+H"], group: "answers", hint: "Turn loops round so that every second one, from outside, is a hole",
+    perform: (page) => commands.edit(page, withTurned(present(page), turnable(page.store.state))), enabled: (state) => turnable(state).length > 0 },
   { name: "closeLoop", label: "Close the loop", keys: ["Shift+J"], group: "answers", hint: "Bridge the gap between the ends",
     perform: (page) => commands.edit(page, closedAll(present(page))),
     enabled: (state) => errorShown(state)?.kind === "unfinished" && state.history.present.strokes.length === 1 },
@@ -101,7 +109,7 @@ export const ACTIONS = [
     perform: ({ store }) => store.set({ scene: store.state.scene === "surface" ? "layout" : "surface" }) },
 
   { name: "fresh", label: "New", keys: ["N"], group: "file", hint: "Begin a new drawing; this one is kept", perform: (page) => commands.openDrawing(page, EMPTY) },
-  { name: "open", label: "Open", keys: ["Ctrl+O"], group: "file", hint: "Open SVG, JSON, CSV, or a picture to draw after", perform: (page) => page.chooseFile() },
+  { name: "open", label: "Open", keys: ["Ctrl+O"], group: "file", hint: "Open SVG, GeoJSON, JSON, CSV, WKT, OBJ, or a picture to draw after", perform: (page) => page.chooseFile() },
   { name: "gallery", label: "Gallery", keys: ["G"], group: "file", hint: "Curves to begin with", perform: (page) => page.showGallery() },
   { name: "drawings", label: "Drawings", keys: ["Shift+G"], group: "file", hint: "Drawings kept in this browser", perform: (page) => page.showDrawings() },
   { name: "share", label: "Link", keys: ["Shift+S"], group: "file", hint: "Copy a link that holds the whole drawing", perform: commands.share, enabled: drawn },

@@ -4,12 +4,16 @@
 import { SILENT, ask } from "./answers.js";
 import { fitted } from "./camera.js";
 import { crossingCode } from "./crossings.js";
-import { EMPTY, addStroke, allPoints, ends, isEmpty, joins, paths, rounded, withImage } from "./document.js";
+import { indexAt, nextIndex } from "./cusps.js";
+import {
+  EMPTY, VERSION, addStroke, allPoints, ends, isEmpty, joins, markCusp, paths, reversed, rounded, vertexAt, withImage, withTurned,
+} from "./document.js";
 import { begin, record, redo, undo } from "./history.js";
 import { complete, keepNewPicture, save, settingsOf, whole } from "./keeping.js";
 import { LONGEST_LINK, asText, encode } from "./link.js";
-import { answerShown, shown } from "./store.js";
+import { answerShown, offerShown, shown } from "./store.js";
 import { newPlace, recall } from "./storage.js";
+import { counted } from "./wording.js";
 
 export const tell = ({ store }, text, actions = []) => store.set({ notice: { text, actions } });
 
@@ -47,6 +51,38 @@ export function finishPath(page, closed) {
   const { path, history } = page.store.state;
   page.store.set({ path: [], ahead: [] });
   if (path.length > 1) edit(page, addStroke(history.present, { points: path, closed: closed && path.length > 2 }));
+}
+
+/** Turn a loop round; the whole drawing, if none is named. */
+export function reverse(page, stroke) {
+  const { present } = page.store.state.history;
+  edit(page, stroke === null ? reversed(present) : withTurned(present, [stroke]));
+  if (stroke !== null) tell(page, "The loop runs the other way round.");
+}
+
+// ---- cusps --------------------------------------------------------------------------------------------------------
+
+const TURNS = ["The point is no cusp any more.", "A cusp: the surface turns once more round it than is seen.", "A cusp: two turns more than is seen.", "A cusp: three turns more than is seen."];
+
+/** One turn more at a point; none after the last one, and where the one that is there is refused. */
+export function cycleCusp(page, document, { stroke, vertex }) {
+  const { verdict } = answerShown(page.store.state) ?? {};
+  const refused = verdict?.reason === "cusp" && vertexAt(document, verdict.where[0], Infinity);
+  const index = refused.stroke === stroke && refused.vertex === vertex ? 0 : nextIndex(indexAt(document.strokes[stroke], vertex));
+  edit(page, markCusp(document, { stroke, vertex }, index));
+  page.store.set({ selected: { stroke, vertex } });
+  tell(page, TURNS[index]);
+}
+
+export const offerLabel = (offer) => (offer && offer.cusps.length > 1 ? `Mark the ${offer.cusps.length} cusps` : "Mark the cusp");
+
+/** Mark the cusps that were offered, each at the point of the drawing where it was found. */
+export function markOffered(page) {
+  const { store } = page;
+  const { present } = store.state.history;
+  const marked = offerShown(store.state).cusps.reduce(
+    (document, { where, index }) => markCusp(document, vertexAt(present, where, Infinity), index), present);
+  edit(page, marked);
 }
 
 export function step(page, direction) {
@@ -127,12 +163,19 @@ export function fit({ store, size }) {
 /** Open a file that was chosen or dropped. */
 export async function openFile(page, file) {
   const headers = { "X-File-Name": encodeURIComponent(file.name), "X-Plyfold-Page": "open" };
-  const response = await fetch("/api/v1/open", { method: "POST", headers, body: file }).catch(() => null);
+  const response = await fetch("/api/v2/open", { method: "POST", headers, body: file }).catch(() => null);
   const answer = await response?.json();
   if (!answer || answer.error) return tell(page, answer?.error.sentence ?? SILENT);
-  const { document, name } = answer;
-  if (document.strokes.length || !document.image) return openDrawing(page, { ...EMPTY, ...document }, name ?? file.name);
-  return usePicture(page, document.image);
+  const { document, shapes } = answer;
+  if (shapes.length > 1) return page.chooseShape(answer);
+  return document.strokes.length || !document.image ? openShape(page, answer) : usePicture(page, document.image);
+}
+
+/** Open what a file holds, or a part of it, and say what was left out or changed. */
+export async function openShape(page, { name, document, repairs }) {
+  await openDrawing(page, { ...EMPTY, ...document }, name);
+  const { notice } = page.store.state;
+  if (repairs.length) tell(page, [notice?.text, `In the file: ${counted(repairs.map(({ kind }) => kind))}.`].filter(Boolean).join(" "), notice?.actions);
 }
 
 const USE = "Use it all the same";
@@ -156,7 +199,7 @@ async function linkOf(page) {
   if (fragment.length <= LONGEST_LINK || !answer) return fragment;
   const shorter = rounded(document);
   const told = await ask("look", { strokes: shorter.strokes });
-  return told?.gauss === answer.gauss && told.verdict.immersions === answer.verdict.immersions ? encode(shorter) : fragment;
+  return told?.code === answer.code && told.verdict.immersions === answer.verdict.immersions ? encode(shorter) : fragment;
 }
 
 export async function share(page) {
@@ -174,8 +217,8 @@ export const copy = (text) => navigator.clipboard.writeText(text).then(() => tru
 export async function exportAs(page, format) {
   const { immersion, layering, gap } = page.store.state;
   tell(page, `Writing ${format.toUpperCase()} …`);
-  const body = JSON.stringify({ version: 1, document: complete(page), format, immersion, layering, gap });
-  const response = await fetch("/api/v1/export", { method: "POST", headers: { "Content-Type": "application/json" }, body }).catch(() => null);
+  const body = JSON.stringify({ version: VERSION, document: complete(page), format, immersion, layering, gap });
+  const response = await fetch("/api/v2/export", { method: "POST", headers: { "Content-Type": "application/json" }, body }).catch(() => null);
   if (!response?.ok || response.headers.get("Content-Disposition") === null) {
     const answer = await response?.json().catch(() => null);
     return tell(page, answer?.error?.sentence ?? SILENT);

@@ -4,7 +4,7 @@ import { toScreen, fitted } from "./camera.js";
 import { ACTIONS } from "./actions.js";
 import { SILENT } from "./answers.js";
 import { button, actionsIn } from "./buttons.js";
-import { openDrawing, openKept, tell } from "./commands.js";
+import { openDrawing, openKept, openShape, tell } from "./commands.js";
 import { allPoints, loop } from "./document.js";
 import { save } from "./keeping.js";
 import { CURSOR_KEYS } from "./keyboard.js";
@@ -80,13 +80,23 @@ function card(document_, title, detail, onOpen) {
 }
 
 export async function showGallery(page) {
-  const { curves } = await fetch("/api/v1/gallery").then((response) => response.json()).catch(() => ({}));
+  const { curves } = await fetch("/api/v2/gallery").then((response) => response.json()).catch(() => ({}));
   if (!curves) return tell(page, `${SILENT}: start plyfold sketch again.`);
   const cards = curves.map(({ name, title, points, crossings, immersions }) => {
     const detail = `${name}: ${crossings} crossing${crossings === "1" ? "" : "s"}, ${immersions === "0" ? "no disk" : `${immersions} immersion${immersions === "1" ? "" : "s"}`}`;
     return card(loop(points), title, detail, () => openDrawing(page, loop(points), name));
   });
   return show("Curves to begin with", make("div", { className: "cards" }, ...cards));
+}
+
+/** The shapes of a file, to pick one from, or all of them as one outline. */
+export function showShapes(page, { shapes, ...whole }) {
+  const all = card(whole.document, "All as one outline", strokesOf(whole.document), () => openShape(page, whole));
+  const cards = shapes.map((shape, i) => {
+    const title = shape.name || `Shape ${i + 1}`;
+    return card(shape.document, title, strokesOf(shape.document), () => openShape(page, { ...shape, name: `${whole.name}: ${title}` }));
+  });
+  show(`${whole.name} has ${shapes.length} shapes`, make("div", { className: "cards" }, all, ...cards));
 }
 
 /** The hour of today's drawings, and the day of older ones. */
@@ -99,7 +109,7 @@ function timeOf(date, now = new Date()) {
 
 function strokesOf({ strokes, image }) {
   if (!strokes.length) return image ? "Picture to draw after" : "Empty drawing";
-  if (strokes.length > 1) return `${strokes.length} strokes`;
+  if (strokes.length > 1) return `${strokes.length} ${strokes.every(({ closed }) => closed) ? "loops" : "strokes"}`;
   return strokes[0].closed ? "Loop" : "Open stroke";
 }
 

@@ -1,9 +1,12 @@
 // The drawing: an immutable document, and edits that return a new one. What is undone, saved, shared and exported.
-//   {plyfold: 1, strokes: [{points: [[x, y]..], closed}..], image: null | {href, place, opacity}, view: {}}
+//   {plyfold: 2, strokes: [{points: [[x, y]..], closed, cusps: {vertex: index}}..], image: null | {href, place, opacity}, view: {}}
+// Closed strokes are loops of one outline, each with the surface on its left; `cusps` is there where a stroke has some.
 
+import { cuspsOf, withCusp, withPoints } from "./cusps.js";
 import { bounds, distance, distanceToSegment, edges, middle, nearestOnSegment } from "./geometry.js";
 
-export const EMPTY = Object.freeze({ plyfold: 1, strokes: [], image: null, view: {} });
+export const VERSION = 2;
+export const EMPTY = Object.freeze({ plyfold: VERSION, strokes: [], image: null, view: {} });
 
 export const isEmpty = (document) => document.strokes.length === 0 && !document.image;
 export const allPoints = (document) => document.strokes.flatMap(({ points }) => points);
@@ -24,19 +27,38 @@ export const movePoint = (document, { stroke, vertex }, point) =>
   changeStroke(document, stroke, (old) => ({ ...old, points: old.points.with(vertex, point) }));
 
 export const insertPoint = (document, { stroke, vertex }, point) =>
-  changeStroke(document, stroke, (old) => ({ ...old, points: old.points.toSpliced(vertex, 0, point) }));
+  changeStroke(document, stroke, (old) => withPoints(old, old.points.toSpliced(vertex, 0, point)));
 
 export const deletePoint = (document, { stroke, vertex }) =>
   changeStroke(document, stroke, (old) => withoutVertex(old, vertex));
 
-function withoutVertex({ points, closed }, vertex) {
-  const left = points.toSpliced(vertex, 1);
-  return { points: left, closed: closed && left.length > 2 };
+function withoutVertex(stroke, vertex) {
+  const left = stroke.points.toSpliced(vertex, 1);
+  return withPoints(stroke, left, stroke.closed && left.length > 2);
 }
 
-/** The other direction, from the same first point. */
-export const reversed = (document) => withStrokes(document, document.strokes.toReversed().map(({ points, closed }) => (
-  { closed, points: closed ? [points[0], ...points.slice(1).toReversed()] : points.toReversed() })));
+/** A stroke in the other direction; a loop from the same first point. */
+export function turned(stroke) {
+  const { points, closed } = stroke;
+  return withPoints(stroke, closed ? [points[0], ...points.slice(1).toReversed()] : points.toReversed());
+}
+
+/** The whole drawing in the other direction. Loops keep their places; open strokes come the other way round. */
+export function reversed(document) {
+  const open = document.strokes.filter(({ closed }) => !closed).map(turned);
+  return withStrokes(document, document.strokes.map((stroke) => (stroke.closed ? turned(stroke) : open.pop())));
+}
+
+/** Some strokes in the other direction: a loop that was an outer boundary bounds a hole. */
+export const withTurned = (document, indices) =>
+  withStrokes(document, document.strokes.map((stroke, i) => (indices.includes(i) ? turned(stroke) : stroke)));
+
+/** The index of a point as a cusp; 0 takes the mark away. */
+export const markCusp = (document, { stroke, vertex }, index) => changeStroke(document, stroke, (old) => withCusp(old, vertex, index));
+
+/** All cusps: {place, index}. */
+export const allCusps = ({ strokes }) =>
+  strokes.flatMap((stroke) => cuspsOf(stroke).map(({ vertex, index }) => ({ place: stroke.points[vertex], index })));
 
 /** Close the last open stroke, or open a single closed one. */
 export function toggleClosed(document) {
@@ -50,7 +72,7 @@ export function rounded(document) {
   const box = bounds(allPoints(document)) ?? [0, 0, 0, 0];
   const step = 10 ** (Math.floor(Math.log10(Math.max(box[2] - box[0], box[3] - box[1]) || 1)) - 5);
   const near = (value) => Number((Math.round(value / step) * step).toPrecision(15));
-  return withStrokes(document, document.strokes.map(({ points, closed }) => ({ closed, points: points.map((point) => point.map(near)) })));
+  return withStrokes(document, document.strokes.map((stroke) => ({ ...stroke, points: stroke.points.map((point) => point.map(near)) })));
 }
 
 // ---- finding ------------------------------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 /** What is left of strokes after a round eraser has gone over them. */
 
+import { withPoints } from "./cusps.js";
 import { minus, mix } from "./geometry.js";
 
 /** The part of an edge, from share to share of it, that lies in a circle; null if there is none. */
@@ -33,7 +34,7 @@ function erasedStroke(stroke, centre, radius) {
   if (pieces.length === 1) return [stroke];
   // The first and the last piece of a loop are one, unless the eraser was at its first point.
   if (stroke.closed && pieces.at(-1).length) pieces[0] = [...pieces.pop(), ...pieces[0].slice(1)];
-  return pieces.filter((points) => points.length > 1).map((points) => ({ points, closed: false }));
+  return pieces.filter((points) => points.length > 1).map((points) => withPoints(stroke, points, false));
 }
 
 /** The strokes without what lies within `radius` of a point. */

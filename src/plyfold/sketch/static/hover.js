@@ -8,9 +8,11 @@ export function hoverAt(state, place, reach) {
   const answer = answerShown(state);
   if (!answer) return null;
   const border = borderAt(answer, place, reach);
-  const cell = answer.cells.find(({ outline }) => inside(place, outline))?.cell ?? null;
+  const cell = answer.cells.find((found) => isIn(found, place))?.cell ?? null;
   return border === null && cell === null ? null : { cell, border, sheets: sheetsOf(lieShown(state), cell, border) };
 }
+
+const isIn = ({ outline, holes }, place) => inside(place, outline) && !holes.some((hole) => inside(place, hole));
 
 function borderAt({ borders }, place, reach) {
   const near = (points) => edges({ points, closed: false }).some(([a, b]) => distanceToSegment(place, a, b) < reach);

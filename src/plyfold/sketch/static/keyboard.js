@@ -12,7 +12,7 @@ const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowD
 
 export const CURSOR_KEYS = [
   ["← → ↑ ↓", "Move the cursor; with Shift in small steps"],
-  ["Enter", "Place a point; in Edit, take up a point and put it down"],
+  ["Enter", "Place a point; in Edit, take up a point and put it down; in Cusps, mark it"],
   ["[ ]", "Go to the previous or next point"],
   ["Del", "Delete the point at the cursor"],
   ["Esc", "End the line, then leave"],
@@ -22,7 +22,7 @@ export function toggleCursor(page) {
   const { store } = page;
   if (store.state.cursor) return store.set({ cursor: null, carried: null });
   const { width, height } = page.size();
-  const tool = store.state.tool === "edit" ? "edit" : "points";
+  const tool = ["edit", "cusp"].includes(store.state.tool) ? store.state.tool : "points";
   store.set({ tool, cursor: toDrawing(store.state.camera, [width / 2, height / 2]) });
   return page.focusDrawing();
 }
@@ -71,8 +71,9 @@ function kept(page, place) {
 
 function press(page) {
   const { tool, cursor, camera } = page.store.state;
-  if (tool === "edit") takeOrPut(page);
-  else TOOLS.points.down(page, placed(page, cursor), REACH / camera.scale);
+  if (tool === "edit") return takeOrPut(page);
+  const reach = REACH / camera.scale;
+  return tool === "cusp" ? TOOLS.cusp.down(page, cursor, reach) : TOOLS.points.down(page, placed(page, cursor), reach);
 }
 
 function takeOrPut(page) {

@@ -18,13 +18,13 @@ const pathThrough = (points) => `M${points.map(([x, y]) => `${x.toFixed(4)} ${(-
 const words = ({ sheet, cell, borders }) =>
   `Sheet ${sheet} over cell ${cell}: border${borders.length > 1 ? "s" : ""} ${borders.join(", ")}`;
 
-function paintNothing(svg) {
+function paintNothing(svg, sentence) {
   svg.append(element("text", { class: "nothing" }));
-  svg.lastChild.textContent = "The layout of a disk appears here.";
+  svg.lastChild.textContent = sentence;
 }
 
 /**
- * Draw the layout of `lie` into an <svg>; of null it says so. `onHover({cell, sheets, border} | null)` is told what the
+ * Draw the layout of `lie` into an <svg>; where there is none, it says so. `onHover({cell, sheets, border} | null)` is told what the
  * pointer is over.
  */
 export function paintLayout(svg, lie, onHover) {
@@ -32,7 +32,7 @@ export function paintLayout(svg, lie, onHover) {
   const colourOf = (sheet) => sheetColour(theme, sheet);
   svg.replaceChildren();
   svg.setAttribute("viewBox", "-1.12 -1.12 2.24 2.24");
-  if (!lie) return paintNothing(svg);
+  if (!lie?.layout) return paintNothing(svg, lie ? "Only a disk has a layout." : "The layout of a disk appears here.");
   svg.setAttribute("role", "img");
   svg.setAttribute("aria-label", `Disk layout: ${lie.layout.groups.length} sheets with borders of their own.`);
   svg.append(element("circle", { r: 1, class: "rim" }));

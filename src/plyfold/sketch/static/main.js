@@ -37,6 +37,7 @@ const page = {
   focusDrawing: () => canvas.focus(),
   toggleCursor: () => toggleCursor(page),
   chooseFile: () => find("file").click(),
+  chooseShape: (file) => dialogs.showShapes(page, file),
   showGallery: () => dialogs.showGallery(page),
   showDrawings: () => dialogs.showDrawings(page),
   showExports: () => dialogs.showExports(page),
@@ -67,7 +68,7 @@ async function restore() {
   if (hasDrawing(location.hash)) return openLink();
   if (sessionStorage.getItem("plyfold.started")) return undefined;
   sessionStorage.setItem("plyfold.started", "yes");
-  const { document: given, name } = await fetch("/api/v1/start").then((response) => response.json()).catch(() => ({}));
+  const { document: given, name } = await fetch("/api/v2/start").then((response) => response.json()).catch(() => ({}));
   return given && openDrawing(page, { ...EMPTY, ...given }, name);
 }
 

@@ -7,9 +7,9 @@ import { bounds } from "./geometry.js";
 const SQUARES = 128;
 const HALF = 2 ** 25;
 
-/** A path as a ring or chain of links {point, before, after}; at the ends of a chain there is null. */
-export function linked({ points, closed }) {
-  const links = points.map((point) => ({ point, before: null, after: null, squares: null, seen: 0 }));
+/** A path as a ring or chain of links {point, before, after, fixed}; at the ends of a chain there is null. Cusps are fixed. */
+export function linked({ points, closed, cusps = {} }) {
+  const links = points.map((point, i) => ({ point, before: null, after: null, fixed: i in cusps, squares: null, seen: 0 }));
   links.forEach((link, i) => {
     link.before = links[i - 1] ?? (closed ? links.at(-1) : null);
     link.after = links[i + 1] ?? (closed ? links[0] : null);

@@ -3,6 +3,7 @@
  *
  * picture = {size: {width, height}, camera, theme, document, joins: [[a, b]..], openEnds: [[x, y]..],
  *            answer: to `look` or null, lie: to `lie` or null,           both about this very document
+ *            offered: [{where, index}..],                                cusps that would help
  *            tool, path: points being placed, next: where the next one would be, selected: {stroke, vertex},
  *            cursor: [x, y] of the keyboard, hover: {cell, sheets, border}, kink: small or null, snap, image: loaded picture or null}
  * The theme is that of colours.js.
@@ -10,6 +11,7 @@
 
 import { toDrawing, toScreen } from "./camera.js";
 import { onWinding, sheetColour, windingColour } from "./colours.js";
+import { allCusps } from "./document.js";
 import { distance } from "./geometry.js";
 
 const TURN = 2 * Math.PI;
@@ -30,7 +32,9 @@ export function paint(context, picture) {
   if (lie) paintLie(scene);
   if (answer) paintAnswer(scene);
   scene.openEnds.forEach((place) => paintRing(scene, place));
-  if (scene.tool === "edit") paintVertices(scene);
+  if (scene.tool === "edit" || scene.tool === "cusp") paintVertices(scene);
+  scene.offered.forEach(({ where, index }) => paintCusp(scene, where, index, true));
+  allCusps(document).forEach(({ place, index }) => paintCusp(scene, place, index));
   paintPath(scene);
   if (scene.cursor) paintCursor(scene, scene.cursor);
 }
@@ -68,30 +72,42 @@ function paintImage({ context, camera, document, at, image }) {
 }
 
 function trace({ context, at }, points, closed) {
-  context.beginPath();
   points.forEach((point, i) => (i ? context.lineTo(...at(point)) : context.moveTo(...at(point))));
   if (closed) context.closePath();
 }
 
-function line(scene, points, { closed = false, colour, width = 2.5, dash = [], cap = "round" }) {
-  trace(scene, points, closed);
-  Object.assign(scene.context, { strokeStyle: colour, lineWidth: width, lineJoin: "round", lineCap: cap });
-  scene.context.setLineDash(dash);
-  scene.context.stroke();
-  scene.context.setLineDash([]);
+/** All loops round a cell. */
+function traceCell(scene, { outline, holes }) {
+  scene.context.beginPath();
+  [outline, ...holes].forEach((points) => trace(scene, points, true));
 }
 
-function paintCell(scene, { winding, outline }) {
-  const colour = windingColour(scene.theme, winding);
+function line(scene, points, { closed = false, ...style }) {
+  scene.context.beginPath();
+  trace(scene, points, closed);
+  stroke(scene, style);
+}
+
+function stroke({ context }, { colour, width = 2.5, dash = [], cap = "round" }) {
+  Object.assign(context, { strokeStyle: colour, lineWidth: width, lineJoin: "round", lineCap: cap });
+  context.setLineDash(dash);
+  context.stroke();
+  context.setLineDash([]);
+}
+
+function paintCell(scene, cell) {
+  const colour = windingColour(scene.theme, cell.winding);
   if (!colour) return;
-  trace(scene, outline, true);
+  traceCell(scene, cell);
   scene.context.fillStyle = colour;
-  scene.context.fill();
+  scene.context.fill("evenodd");
 }
 
 function paintHover(scene) {
   const cell = scene.answer.cells.find((found) => found.cell === scene.hover?.cell);
-  if (cell) line(scene, cell.outline, { closed: true, colour: scene.theme.lit, width: 9 });
+  if (!cell) return;
+  traceCell(scene, cell);
+  stroke(scene, { colour: scene.theme.lit, width: 9 });
 }
 
 function paintStroke(scene, { points, closed }) {
@@ -124,7 +140,7 @@ function paintDirection({ context, theme, at }, points, closed) {
 function paintAnswer(scene) {
   const { answer, lie, theme } = scene;
   const { where } = answer.verdict;
-  scene.kink?.loops.forEach((loop) => line(scene, loop, { closed: true, colour: theme.wrong, width: 4 }));
+  scene.kink?.lobes.forEach((lobe) => line(scene, lobe, { closed: true, colour: theme.wrong, width: 4 }));
   answer.crossings.forEach((place) => paintDot(scene, place, 3, theme.accent));
   answer.cells.forEach((cell) => paintNumber(scene, cell));
   [...where, ...(lie?.obstruction?.where ?? [])].forEach((place) => paintCross(scene, place));
@@ -147,14 +163,13 @@ function paintLie(scene) {
   (scene.hover?.sheets ?? []).forEach((sheet) =>
     lie.sheets[sheet]?.forEach((border) =>
       line(scene, answer.borders[border], { colour: sheetColour(theme, sheet), width: 6 })));
-  if (lie.casing) answer.borders.forEach((_, visit) => lie.casing[visit] && paintOver(scene, visit));
+  if (lie.casing) answer.visits.forEach(([before, after], visit) => lie.casing[visit] && paintOver(scene, before, after));
 }
 
-/** The strand that passes over at a visit, with a gap in the one below. */
-function paintOver(scene, visit) {
+/** The strand that passes over where a border ends and another one starts, with a gap in the one below. */
+function paintOver(scene, before, after) {
   const { borders } = scene.answer;
-  const before = borders[(visit - 1 + borders.length) % borders.length];
-  const piece = [...ending(scene, before, 9), ...ending(scene, borders[visit].toReversed(), 9).toReversed().slice(1)];
+  const piece = [...ending(scene, borders[before], 9), ...ending(scene, borders[after].toReversed(), 9).toReversed().slice(1)];
   line(scene, piece, { colour: scene.theme.paper, width: 8, cap: "butt" });
   line(scene, piece, { colour: scene.theme.ink });
 }
@@ -224,6 +239,19 @@ function paintVertices(scene) {
       Object.assign(context, { lineWidth: 1.6, strokeStyle: theme.ink });
       context.stroke();
     }));
+}
+
+/** A cusp and its index; one that is only offered has a dashed ring. */
+function paintCusp({ context, theme, at }, place, index, isOffered = false) {
+  const [x, y] = at(place);
+  const [ink, ground] = isOffered ? [theme.cusp, theme.paper] : [theme.paper, theme.cusp];
+  context.beginPath();
+  context.arc(x, y, 10, 0, TURN);
+  context.fillStyle = ground;
+  context.fill();
+  stroke({ context }, { colour: ink, width: 2, dash: isOffered ? [4, 3] : [] });
+  Object.assign(context, { font: "700 13px system-ui, sans-serif", textAlign: "center", textBaseline: "middle", fillStyle: ink });
+  context.fillText(String(index), x, y + 0.5);
 }
 
 function paintPath(scene) {

@@ -4,11 +4,12 @@ import { actionNamed } from "./actions.js";
 import { SILENT } from "./answers.js";
 import { button } from "./buttons.js";
 import { isEmpty } from "./document.js";
-import { answerShown, errorShown, lieShown, shown } from "./store.js";
+import { counted } from "./wording.js";
+import { answerShown, errorShown, lieShown, offerShown, shown } from "./store.js";
 
 const HEADLINES = { unfinished: "Not a loop yet", away: SILENT };
 const LONGEST = 600;
-const REMEDIES = ["removeKink", "closeLoop", "lastOnly"];
+const REMEDIES = ["markCusps", "holes", "removeKink", "closeLoop", "lastOnly"];
 const find = (id) => document.getElementById(id);
 const grouped = (digits) => (digits.length > 24 ? `about 10^${digits.length - 1}` : digits.replace(/\B(?=(\d{3})+$)/g, ","));
 
@@ -22,7 +23,7 @@ export function verdictOf(state) {
   const lie = lieShown(state);
   const kind = answer.verdict.immersible ? (lie?.obstruction ? "unlifted" : "yes") : "no";
   const { headline, sentence } = (lie ?? answer).verdict;
-  return { kind, headline, sentence };
+  return { kind, headline, sentence: [sentence, offerShown(state)?.sentence].filter(Boolean).join(" ") };
 }
 
 export function figuresOf(state) {
@@ -30,10 +31,13 @@ export function figuresOf(state) {
   if (!answer) return [];
   const lie = lieShown(state);
   const rows = [
+    ...(answer.loops.length > 1 ? [["loops", String(answer.loops.length)]] : []),
     ["crossings", String(answer.crossings.length)],
-    ["turning number", `${answer.turning_number}${answer.reversed ? " (drawn clockwise)" : ""}`.replace("-", "−")],
+    ...(answer.cusps.length ? [["cusps", counted(answer.cusps.map(({ index }) => `index ${index}`))]] : []),
+    turningOf(answer),
     ["cells by winding number", windings(answer.cells)],
-    ["immersions", grouped(answer.verdict.immersions)],
+    ...answer.verdict.figures,
+    ["immersions", answer.verdict.immersions === null ? "more than could be counted" : grouped(answer.verdict.immersions)],
   ];
   if (lie?.levels) rows.push(["levels", String(Math.max(...lie.levels))]);
   if (answer.gauss) rows.push(["Gauss code", answer.gauss]);
@@ -43,13 +47,12 @@ export function figuresOf(state) {
   return rows;
 }
 
-/** "vertex moved, 12 times" instead of twelve times the same. */
-function counted(words) {
-  return [...new Set(words)].map((word) => {
-    const times = words.filter((other) => other === word).length;
-    return times > 1 ? `${word}, ${times} times` : word;
-  }).join("; ");
+function turningOf({ turning_numbers: numbers, reversed: wasTurned }) {
+  if (numbers.length > 1) return ["turning numbers", numbers.map(minus).join(", ") + (wasTurned ? " (turned round)" : "")];
+  return ["turning number", minus(numbers[0]) + (wasTurned ? " (drawn clockwise)" : "")];
 }
+
+const minus = (number) => String(number).replace("-", "−");
 
 /** As much of a long code as is read; the copy has the whole. */
 const readable = (value) => (value.length > LONGEST ? `${value.slice(0, LONGEST)} …` : value);

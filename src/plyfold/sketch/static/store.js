@@ -10,7 +10,7 @@ export const START = Object.freeze({
   name: null, // of the file or curve that the drawing came from
   preview: null, // the document while something is dragged
   grabbed: null, // the document as it was when a point was taken hold of
-  tool: "draw", // draw, points, edit, erase or hand
+  tool: "draw", // draw, points, edit, erase, cusp or hand
   busy: false, // a stroke or drag is under way
   path: [], // the points of the stroke or polyline in the making
   ahead: [], // points of the polyline that were taken back, the next one first
@@ -24,6 +24,7 @@ export const START = Object.freeze({
   camera: CAMERA,
   answer: null, // to `look`, or {error}
   answered: null, // the document that the answer is about
+  offer: null, // the answer to `cusps`: where they would help
   lie: null, // the answer to `lie`
   mesh: null, // the surface, or null
   unlifted: null, // why there is no surface: a sentence
@@ -71,9 +72,18 @@ export const errorShown = (state) => (isAnswered(state) ? (state.answer.error ??
 export function smallKink(state) {
   const kink = answerShown(state)?.verdict.kink;
   if (!kink) return null;
-  const loops = kink.loops.reduce((sum, loop) => sum + lengthOf(loop), 0);
-  return loops <= (loops + lengthOf(kink.points)) / 4 ? kink : null;
+  const lobes = kink.lobes.reduce((sum, lobe) => sum + lengthOf(lobe), 0);
+  return lobes <= (lobes + lengthOf(kink.points)) / 4 ? kink : null;
 }
 
 /** How the cloth lies, if that is about what is seen. */
-export const lieShown = (state) => (answerShown(state) && state.lie?.layout ? state.lie : null);
+export const lieShown = (state) => (answerShown(state) && state.lie?.sheets ? state.lie : null);
+
+/** The cusps that would help, if that is about what is seen. */
+export const offerShown = (state) => (answerShown(state) && state.offer?.cusps?.length ? state.offer : null);
+
+/** The strokes that would have to be turned round for every second loop to be a hole. Open strokes have no number in answers. */
+export function turnable(state) {
+  const answer = answerShown(state);
+  return answer && shown(state).strokes.every(({ closed }) => closed) ? answer.verdict.turn : [];
+}

@@ -1,6 +1,7 @@
 // From what the pen did to a stroke worth keeping: thinned, smoothed, simplified, with the crossings it was drawn with.
 
 import { mayStraighten } from "./crossings.js";
+import { withPoints } from "./cusps.js";
 import { add, bounds, cross, distance, distanceToSegment, meetingPlace, mix, scaled } from "./geometry.js";
 import { gridOver, linked, unlink } from "./nearby.js";
 
@@ -27,7 +28,7 @@ export function thinned(points, spacing) {
  */
 function smooth({ links, grid }) {
   for (const link of links) {
-    if (!link.before || !link.after) continue;
+    if (!link.before || !link.after || link.fixed) continue;
     const [a, b, c] = [link.before.point, link.point, link.after.point];
     if (!mayStraighten(a, b, c, grid.near(bounds([a, b, c])))) continue;
     link.point = add(scaled(b, 0.5), scaled(add(a, c), 0.25));
@@ -59,7 +60,7 @@ function simplify({ links, grid }, tolerance) {
 
 function removeIfFree(link, tolerance, grid, passed) {
   const { before, after } = link;
-  if (!before || !after) return false;
+  if (!before || !after || link.fixed) return false;
   const out = [...passed.get(before), link.point, ...passed.get(link)];
   if (out.some((point) => distanceToSegment(point, before.point, after.point) > tolerance)) return false;
   const corner = [before.point, link.point, after.point];
@@ -75,7 +76,7 @@ export function tidied(path, tolerance, obstacles = [], rounds = SMOOTHINGS) {
   const links = linked(path);
   const work = { links, grid: gridOver([links, ...obstacles.map(linked)]) };
   for (let round = 0; round < rounds; round++) smooth(work);
-  return { points: simplify(work, tolerance).map(({ point }) => point), closed: path.closed };
+  return withPoints(path, simplify(work, tolerance).map(({ point }) => point));
 }
 
 /** What the pen did, as a stroke: `pixel` is the size of one. Where its end comes back to its beginning it is closed. */

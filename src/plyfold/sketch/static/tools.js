@@ -3,7 +3,7 @@
 
 import { distance } from "./geometry.js";
 import { addStroke, deletePoint, edgeAt, insertPoint, movePoint, snapped, vertexAt, withStrokes } from "./document.js";
-import { allowed, currentJoins, edit, editIfAllowed, finishPath, tell } from "./commands.js";
+import { allowed, currentJoins, cycleCusp, edit, editIfAllowed, finishPath, tell } from "./commands.js";
 import { dragPoint } from "./dragging.js";
 import { erased } from "./erasing.js";
 import { penStroke, thinned } from "./strokes.js";
@@ -93,9 +93,19 @@ function rub({ store }, places) {
   if (strokes !== before.strokes) store.set({ preview: withStrokes(before, strokes) });
 }
 
+const cusp = {
+  down(page, place, reach) {
+    const document = present(page);
+    const vertex = vertexAt(document, place, reach);
+    if (vertex) return cycleCusp(page, document, vertex);
+    const edge = edgeAt(document, place, reach);
+    return edge ? cycleCusp(page, insertPoint(document, edge, edge.point), edge) : page.store.set({ selected: null });
+  },
+};
+
 const hand = { move: (page) => page.pan() };
 
-export const TOOLS = { draw, points, edit: editing, erase, hand };
+export const TOOLS = { draw, points, edit: editing, erase, cusp, hand };
 
 /** Give up what is under way; nothing is changed. */
 export const cancel = ({ store }) => store.set({ preview: null, path: [], ahead: [], busy: false, refused: false });

@@ -1,16 +1,16 @@
-"""Turning numbers of the loops at crossings, against the exterior angles of the loops as polygons."""
+"""Turning numbers of the lobes at crossings, against the exterior angles of the lobes as polygons."""
 
 import numpy as np
 import pytest
 
 import plyfold as pf
-from plyfold.arrangement.loops import loop_turning_numbers
+from plyfold.arrangement.lobes import lobe_turning_numbers
 from reference.crossings import crossings, turning_number
 from reference.random_curves import SEVERAL_IMMERSIONS, random_polygon, ribbon_outline, smooth_curve
 
 
-def loops_as_polygons(polygon):
-    """For each crossing the loop from its first visit to its second and the rest, as polygons in exact fractions."""
+def lobes_as_polygons(polygon):
+    """For each crossing the lobe from its first visit to its second and the rest, as polygons in exact fractions."""
     drawn = crossings(polygon)
     n = len(polygon)
     for first, second in enumerate(drawn.code.partner):
@@ -24,8 +24,8 @@ def loops_as_polygons(polygon):
 def check(polygon):
     drawn = pf.arrange(polygon, "raise")
     walked = [tuple(point) for point in drawn.curve.points.tolist()]
-    expected = [[turning_number(loop) for loop in pair] for pair in loops_as_polygons(walked)]
-    found = loop_turning_numbers(drawn)
+    expected = [[turning_number(lobe) for lobe in pair] for pair in lobes_as_polygons(walked)]
+    found = lobe_turning_numbers(drawn)
     assert found.tolist() == expected
     assert (found.sum(axis=1) == drawn.turning_number).all()
 
@@ -49,8 +49,8 @@ def test_ribbon():
 def test_code_without_a_drawing():
     drawn = pf.arrange(ribbon_outline(np.random.default_rng(3), 60))
     code = pf.Arrangement.from_gauss(*drawn.gauss_code())
-    assert np.array_equal(loop_turning_numbers(code), loop_turning_numbers(drawn))
+    assert np.array_equal(lobe_turning_numbers(code), lobe_turning_numbers(drawn))
 
 
-def test_circle_has_no_loops():
-    assert loop_turning_numbers([(0, 0), (1, 0), (0, 1)]).shape == (0, 2)
+def test_circle_has_no_lobes():
+    assert lobe_turning_numbers([(0, 0), (1, 0), (0, 1)]).shape == (0, 2)

@@ -1,4 +1,4 @@
-"""Loops that could be left out of a curve: at each crossing the shorter one of the two into which it falls apart there.
+"""Lobes that could be left out of a curve: at each crossing the shorter one of the two into which it falls apart there.
 
 They are where a curve turns too often, or not often enough. What is left without one need not bound a disk; here it is
 only asked whether the numbers allow it.
@@ -13,19 +13,20 @@ from typing import NamedTuple
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrangement.loops import loop_turning_numbers
+from plyfold.arrangement.lobes import lobe_turning_numbers
 from plyfold.arrays import Bools, Floats, Ints
+from plyfold.graphs import spanning_tree
 
-__all__ = ["MOST_CROSSINGS", "Loop", "is_inside", "loops_to_leave_out", "place_of_turning", "places_of"]
+__all__ = ["MOST_CROSSINGS", "Lobe", "is_inside", "lobes_to_leave_out", "place_of_turning", "places_of"]
 
 # Curves with more crossings are not asked what would be left of them.
 MOST_CROSSINGS = 4000
-# How many of the shortest loops are looked at, one or two at a time.
-_MOST_LOOPS = 64
+# How many of the shortest lobes are looked at, one or two at a time.
+_MOST_LOBES = 64
 _MOST_IN_PAIRS = 24
 
 
-class Loop(NamedTuple):
+class Lobe(NamedTuple):
     """The part of the curve from one visit to a crossing on to the other, and how often it turns."""
 
     length: float
@@ -34,8 +35,8 @@ class Loop(NamedTuple):
     turning: int
 
 
-class _Loops(NamedTuple):
-    """Loops as arrays, the shortest first, and how often the rest of the curve turns without each of them."""
+class _Lobes(NamedTuple):
+    """Lobes as arrays, the shortest first, and how often the rest of the curve turns without each of them."""
 
     length: Floats
     first: Ints
@@ -44,28 +45,28 @@ class _Loops(NamedTuple):
     rest: Ints
 
 
-def loops_to_leave_out(drawn: Arrangement) -> Iterator[list[Loop]]:
-    """Yield loops, or two of them, without which the curve may bound a disk, as far as its numbers tell.
+def lobes_to_leave_out(drawn: Arrangement) -> Iterator[list[Lobe]]:
+    """Yield lobes, or two of them, without which the curve may bound a disk, as far as its numbers tell.
 
-    Of the 64 shortest loops, and then of pairs of the 24 shortest, those that leave a curve which turns once and winds
+    Of the 64 shortest lobes, and then of pairs of the 24 shortest, those that leave a curve which turns once and winds
     one way only. None for more than 4,000 crossings.
     """
     if not 0 < drawn.n_crossings <= MOST_CROSSINGS:
         return
-    columns = (column[:_MOST_LOOPS].tolist() for column in _shorter_loops(drawn)[:4])
-    loops = [Loop(*row) for row in zip(*columns, strict=True)]
-    inside = np.array([is_inside(drawn, loop) for loop in loops])
+    columns = (column[:_MOST_LOBES].tolist() for column in _shorter_lobes(drawn)[:4])
+    lobes = [Lobe(*row) for row in zip(*columns, strict=True)]
+    inside = np.array([is_inside(drawn, lobe) for lobe in lobes])
     winding = _windings(drawn, inside)
-    for chosen in _choices(loops, inside):
-        left = drawn.turning_number - sum(loops[i].turning for i in chosen)
+    for chosen in _choices(lobes, inside):
+        left = drawn.turning_number - sum(lobes[i].turning for i in chosen)
         if abs(left) == 1 and (left * (drawn.winding - winding[chosen].sum(axis=0)) >= 0).all():
-            yield [loops[i] for i in chosen]
+            yield [lobes[i] for i in chosen]
 
 
 def place_of_turning(drawn: Arrangement) -> tuple[tuple[float, float], ...]:
     """Return where a drawing turns too often, or not often enough; for a code without a drawing nothing.
 
-    The crossing of the shortest loop, or of two, without which it may bound a disk; else of the shortest one without
+    The crossing of the shortest lobe, or of two, without which it may bound a disk; else of the shortest one without
     which it would turn nearer to once; else of the shortest one that does itself. One of these there always is: what
     lies between the two visits to a crossing, and crosses itself nowhere else, turns once.
 
@@ -79,19 +80,19 @@ def place_of_turning(drawn: Arrangement) -> tuple[tuple[float, float], ...]:
     """
     if drawn.n_loops > 1 or drawn.outline is None or not drawn.n_crossings:
         return ()
-    chosen = next(loops_to_leave_out(drawn), None)
-    return places_of(drawn, [loop.first for loop in chosen] if chosen else [_nearer_to_once(drawn)])
+    chosen = next(lobes_to_leave_out(drawn), None)
+    return places_of(drawn, [lobe.first for lobe in chosen] if chosen else [_nearer_to_once(drawn)])
 
 
 def _nearer_to_once(drawn: Arrangement) -> int:
-    """Return the first visit of the shortest loop that leaves, or else is, a curve that turns nearer to once."""
-    loops = _shorter_loops(drawn)
+    """Return the first visit of the shortest lobe that leaves, or else is, a curve that turns nearer to once."""
+    lobes = _shorter_lobes(drawn)
     off = abs(drawn.turning_number - 1)
-    for turning in (loops.rest, loops.turning):
+    for turning in (lobes.rest, lobes.turning):
         nearer = np.flatnonzero(np.abs(np.abs(turning) - 1) < off)
         if len(nearer):
-            return int(loops.first[nearer[0]])
-    raise AssertionError("a closed curve has a simple loop at one of its crossings")
+            return int(lobes.first[nearer[0]])
+    raise AssertionError("a closed curve has a simple lobe at one of its crossings")
 
 
 def places_of(drawn: Arrangement, visits: list[int]) -> tuple[tuple[float, float], ...]:
@@ -99,23 +100,23 @@ def places_of(drawn: Arrangement, visits: list[int]) -> tuple[tuple[float, float
     return tuple((x, y) for x, y in drawn.crossings[drawn.crossing_of_visit[visits]].tolist())
 
 
-def is_inside(drawn: Arrangement, loop: Loop) -> Bools:
-    """Tell of each border whether the loop has it."""
-    along = (np.arange(drawn.n_borders) - loop.first) % drawn.n_borders
-    return np.asarray(along < (loop.last - loop.first) % drawn.n_borders)
+def is_inside(drawn: Arrangement, lobe: Lobe) -> Bools:
+    """Tell of each border whether the lobe has it."""
+    along = (np.arange(drawn.n_borders) - lobe.first) % drawn.n_borders
+    return np.asarray(along < (lobe.last - lobe.first) % drawn.n_borders)
 
 
-def _shorter_loops(drawn: Arrangement) -> _Loops:
-    """Return the shorter one of the two loops at each crossing, the shortest first."""
+def _shorter_lobes(drawn: Arrangement) -> _Lobes:
+    """Return the shorter one of the two lobes at each crossing, the shortest first."""
     first = np.flatnonzero(np.arange(len(drawn.partner)) < drawn.partner)
     second = drawn.partner[first]
     along, whole = _places_along(drawn)
     inner = along[second] - along[first]
     shorter = inner <= whole - inner
-    turning = np.take_along_axis(loop_turning_numbers(drawn), np.stack([~shorter, shorter], axis=1).astype(int), axis=1)
+    turning = np.take_along_axis(lobe_turning_numbers(drawn), np.stack([~shorter, shorter], axis=1).astype(int), axis=1)
     length = np.where(shorter, inner, whole - inner)
     order = np.argsort(length, kind="stable")
-    return _Loops(
+    return _Lobes(
         length=length[order],
         first=np.where(shorter, first, second)[order],
         last=np.where(shorter, second, first)[order],
@@ -135,25 +136,19 @@ def _places_along(drawn: Arrangement) -> tuple[Floats, float]:
     return (ends - edges)[start] + since_start, float(ends[-1])
 
 
-def _choices(loops: list[Loop], inside: Bools) -> Iterator[list[int]]:
-    """Yield the numbers of what may be left out: each loop, then pairs without a common border, the shortest first."""
-    yield from ([i] for i in range(len(loops)))
-    pairs = [list(pair) for pair in combinations(range(len(loops))[:_MOST_IN_PAIRS], 2)]
+def _choices(lobes: list[Lobe], inside: Bools) -> Iterator[list[int]]:
+    """Yield the numbers of what may be left out: each lobe, then pairs without a common border, the shortest first."""
+    yield from ([i] for i in range(len(lobes)))
+    pairs = [list(pair) for pair in combinations(range(len(lobes))[:_MOST_IN_PAIRS], 2)]
     apart = [pair for pair in pairs if not inside[pair].all(axis=0).any()]
-    yield from sorted(apart, key=lambda pair: sum(loops[i].length for i in pair))
+    yield from sorted(apart, key=lambda pair: sum(lobes[i].length for i in pair))
 
 
 def _windings(drawn: Arrangement, inside: Bools) -> Ints:
-    """Return how often loops wind around each cell, shape (loops, cells): left of their borders once more."""
+    """Return how often lobes wind around each cell, shape (lobes, cells): left of their borders once more."""
+    parent, border, order = spanning_tree(drawn.n_cells, drawn.left_cell, drawn.right_cell)
+    more = np.where(drawn.left_cell[border] == np.arange(drawn.n_cells), 1, -1) * inside[:, border]
     winding = np.zeros((len(inside), drawn.n_cells), dtype=np.int64)
-    reached, waiting = {0}, [0]
-    cell_of = drawn.cell_of_dart.tolist()
-    while waiting:
-        cell = waiting.pop()
-        for dart in drawn.cells[cell]:
-            beyond = cell_of[dart ^ 1]
-            if beyond not in reached:
-                reached.add(beyond)
-                waiting.append(beyond)
-                winding[:, beyond] = winding[:, cell] + (1 if dart % 2 else -1) * inside[:, dart // 2]
+    for cell in order[1:].tolist():
+        winding[:, cell] = winding[:, parent[cell]] + more[:, cell]
     return winding

@@ -1,4 +1,4 @@
-"""The two loops into which a curve falls apart at each of its crossings, and how often they turn."""
+"""The two lobes into which a curve falls apart at each of its crossings, and how often they turn."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from plyfold.arrangement.arrangement import CurveLike, arrange, require_one_loop
 from plyfold.arrays import Ints
 from plyfold.graphs import spanning_tree
 
-__all__ = ["loop_turning_numbers"]
+__all__ = ["lobe_turning_numbers"]
 
 
-def loop_turning_numbers(curve: CurveLike) -> Ints:
-    """Return the turning numbers (Whitney indices) of the two loops at every crossing.
+def lobe_turning_numbers(curve: CurveLike) -> Ints:
+    """Return the turning numbers (Whitney indices) of the two lobes at every crossing.
 
-    At a crossing the curve is two loops: from the first visit to the second, and from there on to the first again. Each
+    At a crossing the curve is two lobes: from the first visit to the second, and from there on to the first again. Each
     turns at the crossing from one strand to the other by less than half a turn, one to the left and one to the right,
     so the two turning numbers add up to that of the curve.
 
@@ -26,7 +26,7 @@ def loop_turning_numbers(curve: CurveLike) -> Ints:
     Returns
     -------
     (k, 2) int
-        One row for each crossing: the loop from its first visit to its second, and the rest.
+        One row for each crossing: the lobe from its first visit to its second, and the rest.
 
     Raises
     ------
@@ -42,7 +42,7 @@ def loop_turning_numbers(curve: CurveLike) -> Ints:
     --------
     >>> from plyfold import Arrangement
     >>> limacon = Arrangement.from_gauss([1, 0], [True, False], outer=1)
-    >>> loop_turning_numbers(limacon).tolist()
+    >>> lobe_turning_numbers(limacon).tolist()
     [[1, 1]]
     """
     drawn = arrange(curve)
@@ -51,8 +51,8 @@ def loop_turning_numbers(curve: CurveLike) -> Ints:
     second = drawn.partner[first]
     along = np.concatenate([[0], np.cumsum(_quarter_turns(drawn.left_cell, drawn.right_cell))])
     corner = np.where(drawn.ccw[second], 1, -1)
-    loop = (along[second] - along[first] + corner) // 4
-    return np.column_stack([loop, drawn.turning_number - loop])
+    lobe = (along[second] - along[first] + corner) // 4
+    return np.column_stack([lobe, drawn.turning_number - lobe])
 
 
 def _quarter_turns(left: Ints, right: Ints) -> Ints:

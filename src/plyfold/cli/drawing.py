@@ -1,0 +1,105 @@
+"""The drawing that a command is about: all shapes of a file or one of them, with the cusps that were asked for."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from plyfold.cli.progress import Stopwatch
+from plyfold.errors import FileFormatError, InputError, NotEmbeddableError, TimeLimitError
+from plyfold.obstruction import Obstruction, Unknown
+
+if TYPE_CHECKING:
+    from plyfold.io.cusp_notation import CuspMark
+    from plyfold.outline.curve import Outline
+
+__all__ = ["add_drawing_options", "read_outline"]
+
+
+def add_drawing_options(command: argparse.ArgumentParser) -> None:
+    """Give a subcommand the file and the options that say what in it is meant."""
+    command.set_defaults(read_shape=None, shape={})
+    command.add_argument("file", metavar="FILE", help='a drawing, "-" for standard input, or gallery:NAME')
+    command.add_argument("--id", help="the element of an SVG, or the feature of a GeoJSON; by default all of it")
+    command.add_argument("--index", type=int, metavar="N", help="which shape of the file, from 0 on; by default all")
+    command.add_argument(
+        "--each",
+        action="store_true",
+        help="each shape for itself, one after the other; outputs get their numbers before the ending",
+    )
+    command.add_argument(
+        "--cusp",
+        type=_cusp,
+        action="append",
+        default=[],
+        metavar="[LOOP:]POINT[xM]",
+        help="a point where the surface turns M full turns further than one sees (default: 1), counted from 0 in its "
+        "loop: --cusp 12, --cusp 0:12, --cusp 0:12x2; as often as needed",
+    )
+    command.add_argument("--cusps", choices=["auto"], help="have cusps proposed, where up to 3 turns are too many")
+    command.add_argument("--uv", action="store_true", help="of an OBJ or PLY, the texture coordinates as the flat mesh")
+    command.add_argument("--tolerance", type=float, help="how far a Bézier or arc may be from its polyline")
+
+
+def _cusp(text: str) -> CuspMark:
+    from plyfold.io.cusp_notation import parse_cusp
+
+    try:
+        return parse_cusp(text)
+    except FileFormatError as error:
+        raise argparse.ArgumentTypeError(f"{error.message}: {error.hint}") from None
+
+
+def read_outline(options: argparse.Namespace, watch: Stopwatch) -> Outline:
+    """Read the outline that is meant, and mark its cusps."""
+    watch("reading")
+    outline = _with_cusps(_read(options), options.cusp)
+    return _with_proposed_cusps(outline, getattr(options, "time_limit", None), watch) if options.cusps else outline
+
+
+def _read(options: argparse.Namespace) -> Outline:
+    if options.read_shape is not None:
+        outline: Outline = options.read_shape()
+        return outline
+    if options.file.startswith("gallery:"):
+        from plyfold.gallery import named_curve
+
+        return named_curve(options.file.removeprefix("gallery:")).curve
+    from plyfold.io.reading import read
+
+    return read(options.file, id=options.id, index=options.index, tolerance=options.tolerance, uv=options.uv)
+
+
+def _with_cusps(outline: Outline, marks: list[CuspMark]) -> Outline:
+    """Return the outline with some more cusps, or with other indices."""
+    if not marks:
+        return outline
+    from plyfold.outline.given import outline_with
+
+    cusps = [index.copy() for index in outline.cusps]
+    for loop, point, turns in marks:
+        if loop >= len(cusps) or point >= len(cusps[loop]):
+            loops = f"the outline has {len(cusps)} loop" + "s" * (len(cusps) > 1)
+            there = f"loop {loop} has points 0 to {len(cusps[loop]) - 1}" if loop < len(cusps) else loops
+            raise InputError(f"there is no point {loop}:{point} to be a cusp", hint=f"both count from 0: {there}")
+        cusps[loop][point] = turns
+    return outline_with(outline, cusps)
+
+
+def _with_proposed_cusps(outline: Outline, time_limit: float | None, watch: Stopwatch) -> Outline:
+    """Return the outline with cusps for the turns that are too many, if there are some; its repairs say which."""
+    from plyfold.offers.cusps import suggest_cusps
+    from plyfold.outline.given import outline_with
+    from plyfold.outline.points import Repair
+
+    watch("looking for cusps")
+    found = suggest_cusps(outline, time_limit=time_limit)
+    if isinstance(found, Unknown):
+        raise TimeLimitError(f"{found}", hint="name them with --cusp, or give it more time")
+    if isinstance(found, Obstruction):
+        if found.reason == "turning number" and found.value <= 0:
+            return outline
+        raise NotEmbeddableError(found, hint="name the cusps with --cusp")
+    places = [outline.loops[loop][point].tolist() for loop, point in found.cusps]
+    proposed = [Repair("cusp proposed", (x, y), 0.0) for x, y in places]
+    return outline_with(found.outline, repairs=(*found.outline.repairs, *proposed))

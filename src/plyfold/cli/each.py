@@ -1,0 +1,81 @@
+"""``--each``: a command for every shape of a file, one after the other."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from plyfold.cli.inputs import BAD_INPUT, DISK, NO_DISK, UNKNOWN
+from plyfold.errors import InputError
+from plyfold_command import INTERRUPTED
+
+if TYPE_CHECKING:
+    from plyfold.io.reading import Contents
+
+__all__ = ["each_shape"]
+
+# Of several exit codes the first one here is that of all together.
+_WORST_FIRST = (BAD_INPUT, UNKNOWN, NO_DISK, DISK)
+
+
+def each_shape(options: argparse.Namespace, answer: Callable[[argparse.Namespace], int]) -> int:
+    """Run a command for each shape of its file.
+
+    Parameters
+    ----------
+    options : Namespace
+    answer : callable
+        Runs the command with such options, and returns the exit code.
+
+    Returns
+    -------
+    int
+        2 if one of them was bad input, else 3 if one was undecided, else 1 if one is not what was asked for, else 0.
+    """
+    found: list[Contents] = []
+    code = answer(argparse.Namespace(**vars(options) | {"run": partial(_open, found)}))
+    if code != DISK:
+        return code
+    codes = set()
+    for number in range(len(found[0])):
+        codes.add(code := answer(_of_one_shape(options, found[0], number)))
+        if code == INTERRUPTED:
+            return code
+    return next(code for code in _WORST_FIRST if code in codes)
+
+
+def _open(found: list[Contents], options: argparse.Namespace) -> int:
+    """Read the file, as a command of its own, so that errors are told as always."""
+    from plyfold.io.reading import read_contents
+
+    if options.index is not None:
+        raise InputError("--index chooses one shape, and --each takes all", hint="give one of them")
+    if options.file.startswith("gallery:"):
+        raise InputError("a curve of the gallery is one shape", hint="leave out --each")
+    found.append(read_contents(options.file, id=options.id, tolerance=options.tolerance, uv=options.uv))
+    return DISK
+
+
+def _of_one_shape(options: argparse.Namespace, contents: Contents, number: int) -> argparse.Namespace:
+    """Return the options for one of the shapes; unless JSON is asked for, say which one it is."""
+    name = contents.name(number)
+    changed = {"read_shape": partial(contents.outline, number), "shape": {"index": number, "id": name}}
+    if getattr(options, "output", None):
+        changed["output"] = [_numbered(path, number) for path in options.output]
+    if not getattr(options, "json", False):
+        print(f"shape {number}" + (f" ({name})" if name else ""))
+    return argparse.Namespace(**vars(options) | changed)
+
+
+def _numbered(path: str, number: int) -> str:
+    """Return the path of an output with a number before its ending.
+
+    Examples
+    --------
+    >>> _numbered("out/loop.glb", 3)
+    'out/loop-3.glb'
+    """
+    return str(Path(path).with_stem(f"{Path(path).stem}-{number}"))
