@@ -3,3 +3,4 @@
 from plyfold import gallery
 
 CURVES = {name: named.coarse() for name, named in gallery.CURVES.items()}
+OUTLINES = {name: named.coarse() for name, named in gallery.OUTLINES.items()}

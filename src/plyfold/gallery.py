@@ -1,9 +1,11 @@
-"""Named curves with their known answers, used by the tests, the pictures and anyone who wants a curve to begin with.
+"""Named curves and outlines with known answers, for the tests, the pictures, and anyone who wants one to begin with.
 
 >>> from plyfold import gallery
 >>> ramp = gallery.CURVES["exit-ramp"]
 >>> len(ramp.curve), ramp.crossings, ramp.immersions
 (482, 4, 1)
+>>> gallery.OUTLINES["linked-rings"].outline
+<Outline of 4 loops, 800 points>
 """
 
 from __future__ import annotations
@@ -12,16 +14,18 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
+from typing import Self
 
 import numpy as np
 import numpy.typing as npt
 
 from plyfold.errors import InputError
-from plyfold.outline.curve import Curve
-from plyfold.outline.given import as_curve
+from plyfold.outline.curve import Curve, Outline
+from plyfold.outline.given import as_curve, as_outline
 from plyfold.wording import counted
 
-__all__ = ["CURVES", "NamedCurve", "chain", "named_curve", "ribbon", "rounded"]
+__all__ = ["CURVES", "OUTLINES", "NamedCurve", "NamedOutline", "band", "chain", "named_curve", "ribbon", "rounded"]
 
 Points = npt.NDArray[np.float64]
 
@@ -29,33 +33,36 @@ POINTS_A_TURN = 200
 
 
 @dataclass(frozen=True, eq=False)
-class NamedCurve:
-    """A curve with its known answers.
+class NamedOutline:
+    """An outline with its known answers.
 
     Parameters
     ----------
     name, title : str
-        A short name for the command line, and what the curve shows.
+        A short name for the command line, and what the outline shows.
     sample : callable
-        Returns the points, shape (n, 2), for a number of points on a full turn; polygons have their corners.
+        Returns the outline, or the points of a curve, for a number of points on a full turn; polygons have their
+        corners.
     crossings : int
         Number of crossings, k.
     turning_number : int
-        After orienting the curve so that it is not negative.
+        Of all loops together, after orienting a curve so that it is not negative.
     immersions : int
-        In how many ways the curve bounds an immersed disk.
+        In how many ways it bounds an immersed surface; of a curve that turns once, an immersed disk.
     embeddable : int
         How many of these can be layered.
 
     Examples
     --------
-    >>> CURVES["milnor"]
-    <NamedCurve milnor: 6 crossings, 2 immersions>
+    >>> OUTLINES["ring"]
+    <NamedOutline ring: 0 crossings, 1 immersion>
+    >>> OUTLINES["ring"].outline.n_loops
+    2
     """
 
     name: str
     title: str
-    sample: Callable[[int], Points]
+    sample: Callable[[int], Outline | Points]
     crossings: int
     turning_number: int
     immersions: int
@@ -63,28 +70,19 @@ class NamedCurve:
 
     def __repr__(self) -> str:
         crossings, immersions = counted(self.crossings, "crossing"), counted(self.immersions, "immersion")
-        return f"<NamedCurve {self.name}: {crossings}, {immersions}>"
+        return f"<{type(self).__name__} {self.name}: {crossings}, {immersions}>"
 
-    def _repr_svg_(self) -> str | None:
+    def _repr_svg_(self) -> str:
         from plyfold.arrangement.arrangement import arrange
 
-        return arrange(self.curve)._repr_svg_()
+        return arrange(self.outline)._repr_svg_()
 
     @cached_property
-    def curve(self) -> Curve:
-        """The curve itself, so fine that it looks smooth."""
-        return Curve(self.draw())
+    def outline(self) -> Outline:
+        """The outline itself, so fine that it looks smooth."""
+        return as_outline(self.sample(POINTS_A_TURN))
 
-    @property
-    def outline(self) -> Curve:
-        """The curve as what everything takes that takes an outline."""
-        return self.curve
-
-    def draw(self, a_turn: int = POINTS_A_TURN) -> Points:
-        """Return the points, with so many on a full turn; polygons have their corners."""
-        return self.sample(a_turn)
-
-    def coarse(self, a_turn: int = 40) -> NamedCurve:
+    def coarse(self, a_turn: int = 40) -> Self:
         """Return the same with fewer points, for what takes long with many.
 
         Examples
@@ -93,6 +91,26 @@ class NamedCurve:
         (200, 40)
         """
         return replace(self, sample=lambda _: self.sample(a_turn))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class NamedCurve(NamedOutline):
+    """A curve with its known answers: an outline with one loop and without cusps.
+
+    Examples
+    --------
+    >>> CURVES["milnor"]
+    <NamedCurve milnor: 6 crossings, 2 immersions>
+    """
+
+    @property
+    def curve(self) -> Curve:
+        """The curve itself, so fine that it looks smooth."""
+        return as_curve(self.outline)
+
+    def draw(self, a_turn: int = POINTS_A_TURN) -> Points:
+        """Return the points, with so many on a full turn; polygons have their corners."""
+        return as_curve(self.sample(a_turn)).points
 
 
 def ribbon(centre: npt.ArrayLike, width: float) -> Points:
@@ -115,10 +133,38 @@ def ribbon(centre: npt.ArrayLike, width: float) -> Points:
     [[0.0, -1.0], [4.0, -1.0], [4.0, 1.0], [0.0, 1.0]]
     """
     line = np.asarray(centre, dtype=np.float64)
-    along = np.gradient(line, axis=0)
-    along /= np.hypot(*along.T)[:, None]
-    side = width / 2 * np.stack([-along[:, 1], along[:, 0]], axis=1)
+    side = width / 2 * _left_of(np.gradient(line, axis=0))
     return np.concatenate([line - side, (line + side)[::-1]])
+
+
+def band(centre: npt.ArrayLike, width: float) -> tuple[Points, Points]:
+    """Return the outline of a closed ribbon: its right side, and its left side backward.
+
+    Parameters
+    ----------
+    centre : array_like, shape (m, 2)
+        Closed centre line; it must bend more gently than half the width.
+    width : float
+
+    Returns
+    -------
+    pair of ndarray, shape (m, 2)
+        However often the centre line crosses itself, they bound an immersed ring.
+
+    Examples
+    --------
+    >>> right, left = band([(2, 0), (0, 2), (-2, 0), (0, -2)], width=2)
+    >>> right.tolist(), left.tolist()
+    ([[3.0, 0.0], [0.0, 3.0], [-3.0, 0.0], [0.0, -3.0]], [[0.0, -1.0], [-1.0, 0.0], [0.0, 1.0], [1.0, 0.0]])
+    """
+    line = np.asarray(centre, dtype=np.float64)
+    side = width / 2 * _left_of(np.roll(line, -1, axis=0) - np.roll(line, 1, axis=0))
+    return line - side, (line + side)[::-1]
+
+
+def _left_of(along: Points) -> Points:
+    """Return unit vectors to the left of some directions."""
+    return np.asarray(np.stack([-along[:, 1], along[:, 0]], axis=1) / np.hypot(*along.T)[:, None])
 
 
 def rounded(corners: npt.ArrayLike, rounds: int = 3) -> Points:
@@ -211,7 +257,7 @@ def _doubled_circle(a_turn: int) -> Points:
     return _polar(1 + 0.12 * np.sin(t / 2), t)
 
 
-def _finely_rounded(corners: Sequence[tuple[float, float]], a_turn: int) -> Points:
+def _finely_rounded(corners: npt.ArrayLike, a_turn: int) -> Points:
     """Round a polygon in three rounds for 40 points on a turn, and in one more for each doubling."""
     return rounded(corners, 3 + max(0, round(math.log2(a_turn / 40))))
 
@@ -305,6 +351,88 @@ def _seven_flaps(_: int) -> Points:
     return curve.points if curve is not None else np.empty((0, 2))
 
 
+# ---- outlines ------------------------------------------------------------------------------------------------------
+
+
+def _ring(a_turn: int) -> Outline:
+    return Outline(band(1.6 * _circle(a_turn), 0.9))
+
+
+def _linked_rings(a_turn: int) -> Outline:
+    right, left = band(1.6 * _circle(a_turn), 0.6)
+    aside = np.array([2.1, 0.15])
+    return Outline([right, left, right + aside, left + aside])
+
+
+def _pen(corners: Sequence[tuple[float, float]], a_turn: int) -> Points:
+    """Return a line of cubic Béziers, each from one of the corners to the third one after it, with its last point."""
+    share = np.arange(a_turn // 4)[:, None] / (a_turn // 4)
+    weights = [(1 - share) ** 3, 3 * share * (1 - share) ** 2, 3 * share**2 * (1 - share), share**3]
+    places = np.array(corners, dtype=np.float64)
+    pieces = [np.hstack(weights) @ places[start : start + 4] for start in range(0, len(places) - 1, 3)]
+    return np.concatenate([*pieces, places[-1:]])
+
+
+def _letter_b(a_turn: int) -> Outline:
+    corners = [
+        (0, 1.2), (0, 3), (0, 7), (0, 8.8), (0, 9.8), (0.3, 10), (1.2, 10), (5.2, 10), (5.2, 6), (1.4, 6), (0.6, 6),
+        (-0.4, 6), (-0.9, 6), (-2.4, 6), (-2.4, 4), (-0.9, 4), (-0.4, 4), (0.6, 4), (1.4, 4), (6.2, 4), (6.2, 0),
+        (1.4, 0), (0.3, 0), (0, 0.2), (0, 1.2),
+    ]  # fmt: skip
+    return Outline(band(_pen(corners, a_turn)[:-1], 1.1))
+
+
+def _letter_g(a_turn: int) -> Outline:
+    stroke = [
+        (2.1, 10.1), (2.1, 7), (2.1, 4), (2.1, 2.6), (2.1, -1.8), (-2.2, -1.2), (-2.2, 1.2), (-2.2, 2.8), (0.4, 2.8),
+        (4.2, 4.2),
+    ]  # fmt: skip
+    bowl = (0, 7) + _circle(a_turn) * (2.2, 2.4)
+    return Outline([*band(bowl, 1.1), ribbon(_pen(stroke, a_turn), 1.1)])
+
+
+def _ampersand(a_turn: int) -> Outline:
+    stroke = [
+        (6.2, 0.1), (4.6, 1.9), (0.9, 5.6), (0.9, 7.9), (0.9, 9.9), (3.9, 9.9), (3.9, 7.9), (3.9, 5.6), (-0.2, 5.2),
+        (-0.2, 2.4), (-0.2, -0.9), (4.9, -0.9), (5.6, 4.2),
+    ]  # fmt: skip
+    return Curve(ribbon(_pen(stroke, a_turn), 1.1))
+
+
+def _disk_with_handle(a_turn: int) -> Outline:
+    """Return a disk with two arches on it, one over the other: their four feet take turns."""
+    body = [(-4.0, -1.2), (-3.4, -2.6), (-1.6, -3.2), (1.6, -3.2), (3.4, -2.6), (4.0, -1.2)]
+    outer, inner = 2.6 * _polar(1.0, np.linspace(0, np.pi, 7)), 1.6 * _polar(1.0, np.linspace(np.pi, 0, 7))
+    right, left = np.array([1.1, 0.5]), np.array([-1.1, 0.5])
+    gaps = np.array([[(-2.0, 0.1)], [(0.0, 0.1)], [(2.0, 0.1)]])
+    arches = [outer + right, gaps[0], inner + left, gaps[1], inner + right, gaps[2], outer + left]
+    return Curve(_finely_rounded(np.concatenate([body, *arches]), a_turn))
+
+
+def _limacon_with_cusp(a_turn: int) -> Outline:
+    t = _turns(1, 2 * a_turn, 0.0)
+    return Curve(_polar(0.6 + np.cos(t), t), cusps={a_turn: 1})
+
+
+def _torus_front(a_turn: int) -> Outline:
+    """Return the outline of what faces the viewer of a torus, from 30° above its plane.
+
+    The circle in the middle of the tube is seen as an ellipse, and the outline runs beside it, on both sides, as far
+    away as the tube is thick. Where the ellipse is bent as the tube is, the inner loop has a spike: at four places. At
+    those two of them that are behind the hole, the front goes round the spike once and further, so these are cusps.
+    """
+    wide, high, tube = 3.0, 1.5, 1.3
+    spike = math.asin(math.sqrt(((wide * high * tube) ** (2 / 3) - high**2) / (wide**2 - high**2)))
+    spikes = [spike, np.pi - spike, np.pi + spike, 2 * np.pi - spike, 2 * np.pi + spike]
+    part = a_turn // 2
+    inner = np.concatenate([np.linspace(start, end, part, endpoint=False) for start, end in pairwise(spikes)])
+    loops = [
+        _polar(1.0, turn) * (wide, high) - side * tube * _left_of(_polar(1.0, turn + np.pi / 2) * (wide, high))
+        for turn, side in ((_turns(1, 2 * a_turn), 1), (inner[::-1], -1))
+    ]
+    return Outline(loops, {(1, 2 * part - 1): 1, (1, part - 1): 1})
+
+
 # After each figure of the paper (Mukherjee, Gopi, Rossignac 2011): a loop of its kind, not a copy of it.
 CURVES: Mapping[str, NamedCurve] = {
     named.name: named
@@ -333,8 +461,25 @@ CURVES: Mapping[str, NamedCurve] = {
 }
 
 
-def named_curve(name: str) -> NamedCurve:
-    """Return a curve of the gallery.
+OUTLINES: Mapping[str, NamedOutline] = {
+    named.name: named
+    for named in (
+        NamedOutline("ring", "a ring, which has a hole", _ring, 0, 0, 1, 1),
+        NamedOutline("linked-rings", "two rings, which can be linked", _linked_rings, 8, 0, 1, 1),
+        NamedOutline("letter-b", "the letter B, a closed stroke of a pen", _letter_b, 8, 0, 1, 1),
+        NamedOutline("letter-g", "the letter g, a closed stroke and an open one", _letter_g, 10, 1, 1, 1),
+        NamedOutline("ampersand", "an ampersand, one open stroke of a pen", _ampersand, 8, 1, 1, 1),
+        NamedOutline("disk-with-handle", "a disk with a handle: two arches cross", _disk_with_handle, 4, -1, 1, 1),
+        NamedOutline(
+            "limacon-with-cusp", "Pascal's limaçon, a disk with a cusp at the tip", _limacon_with_cusp, 1, 2, 1, 1
+        ),
+        NamedOutline("torus-front", "the front of a torus: a ring with two cusps", _torus_front, 2, 2, 1, 1),
+    )
+}
+
+
+def named_curve(name: str) -> NamedOutline:
+    """Return a curve or an outline of the gallery.
 
     Parameters
     ----------
@@ -343,7 +488,8 @@ def named_curve(name: str) -> NamedCurve:
 
     Returns
     -------
-    NamedCurve
+    NamedOutline
+        For one loop without cusps, a :class:`NamedCurve`.
 
     Raises
     ------
@@ -355,6 +501,7 @@ def named_curve(name: str) -> NamedCurve:
     >>> named_curve("milnor").immersions
     2
     """
-    if name not in CURVES:
-        raise InputError(f"the gallery has no curve {name!r}", hint=f"it has {', '.join(CURVES)}")
-    return CURVES[name]
+    known = {**CURVES, **OUTLINES}
+    if name not in known:
+        raise InputError(f"the gallery has no curve {name!r}", hint=f"it has {', '.join(known)}")
+    return known[name]

@@ -14,7 +14,7 @@ import trimesh
 import plyfold as pf
 from plyfold.cli.commands import main
 from plyfold.cli.progress import Stopwatch
-from plyfold.gallery import CURVES
+from plyfold.gallery import CURVES, OUTLINES
 from plyfold.report import words
 
 LOOP = "0,0\n9,0\n9,6\n3,6\n3,-3\n4,-3\n4,5\n8,5\n8,1\n0,1\n"
@@ -189,7 +189,7 @@ def test_draw_marks_why_not(eight, tmp_path, capsys):
 def test_gallery_lists_and_saves(tmp_path, capsys):
     assert main(["gallery"]) == 0
     listed = capsys.readouterr().out
-    assert all(name in listed for name in CURVES)
+    assert all(name in listed for name in (*CURVES, *OUTLINES))
     for ending in ("csv", "json", "svg"):
         out = tmp_path / f"ramp.{ending}"
         assert main(["gallery", "exit-ramp", "-o", str(out)]) == 0
@@ -203,9 +203,11 @@ def test_gallery_lists_and_saves(tmp_path, capsys):
 def test_the_whole_gallery_is_saved_and_read_back_exactly(tmp_path, capsys):
     folder = tmp_path / "new" / "curves"
     assert main(["gallery", "--all", str(folder)]) == 0
-    for name, known in CURVES.items():
-        assert pf.read(folder / f"{name}.csv").points.tolist() == known.curve.points.tolist()
-    assert len(list(folder.iterdir())) == len(CURVES)
+    for name, known in (CURVES | OUTLINES).items():
+        back = pf.read(folder / f"{name}.csv")
+        assert [loop.tolist() for loop in back.loops] == [loop.tolist() for loop in known.outline.loops]
+        assert [index.tolist() for index in back.cusps] == [index.tolist() for index in known.outline.cusps]
+    assert len(list(folder.iterdir())) == len(CURVES | OUTLINES)
     (folder / "circle.csv").unlink()
     assert main(["gallery", "--all", str(folder)]) == 2
     assert "exists already" in capsys.readouterr().err

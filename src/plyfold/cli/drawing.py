@@ -64,7 +64,7 @@ def _read(options: argparse.Namespace) -> Outline:
     if options.file.startswith("gallery:"):
         from plyfold.gallery import named_curve
 
-        return named_curve(options.file.removeprefix("gallery:")).curve
+        return named_curve(options.file.removeprefix("gallery:")).outline
     from plyfold.io.reading import read
 
     return read(options.file, id=options.id, index=options.index, tolerance=options.tolerance, uv=options.uv)

@@ -1,4 +1,4 @@
-"""The gallery on the command line: list the named curves, print one, or save them."""
+"""The gallery on the command line: list the named curves and outlines, print one, or save them."""
 
 from __future__ import annotations
 
@@ -14,9 +14,12 @@ __all__ = ["add_gallery_command"]
 
 def add_gallery_command(commands: Any) -> None:
     """Add the subcommand to a parser."""
-    gallery = commands.add_parser("gallery", help="list the named curves, or save one", description="Named curves.")
+    named = "named curves and outlines"
+    gallery = commands.add_parser(
+        "gallery", help=f"list the {named}, or save one", description=f"{named.capitalize()}."
+    )
     gallery.set_defaults(run=_gallery)
-    gallery.add_argument("name", nargs="?", help="a curve to print as CSV, or to save with -o")
+    gallery.add_argument("name", nargs="?", help="one to print as CSV, or to save with -o")
     gallery.add_argument(
         "-o",
         "--output",
@@ -36,21 +39,22 @@ def _gallery(options: argparse.Namespace) -> int:
         from plyfold.gallery import named_curve
         from plyfold.io.outline_files import OUTLINE_WRITERS
 
-        print(OUTLINE_WRITERS[".csv"](named_curve(options.name).curve), end="")
+        print(OUTLINE_WRITERS[".csv"](named_curve(options.name).outline), end="")
     else:
         _save_curve(options)
     return 0
 
 
 def _list_gallery(options: argparse.Namespace) -> None:
-    from plyfold.gallery import CURVES
+    from plyfold.gallery import CURVES, OUTLINES
 
     if options.output is not None:
         raise InputError("no curve was named to be saved", hint="give a NAME, or --all DIR for all curves")
-    print(f"{'name':<18}{'crossings':>9}{'turning':>9}{'immersions':>12}{'lifted':>8}  title")
-    for curve in CURVES.values():
-        figures = f"{curve.crossings:>9}{curve.turning_number:>9}{curve.immersions:>12}{curve.embeddable:>8}"
-        print(f"{curve.name:<18}{figures}  {curve.title}")
+    for known in (CURVES, OUTLINES):
+        print(f"{'name':<18}{'crossings':>9}{'turning':>9}{'immersions':>12}{'lifted':>8}  title")
+        for named in known.values():
+            figures = f"{named.crossings:>9}{named.turning_number:>9}{named.immersions:>12}{named.embeddable:>8}"
+            print(f"{named.name:<18}{figures}  {named.title}")
 
 
 def _save_curve(options: argparse.Namespace) -> None:
@@ -58,20 +62,20 @@ def _save_curve(options: argparse.Namespace) -> None:
     from plyfold.io.outline_files import OUTLINE_WRITERS, save
 
     refuse_output(options.output, tuple(OUTLINE_WRITERS), options.force)
-    save(named_curve(options.name).curve, options.output, force=options.force)
+    save(named_curve(options.name).outline, options.output, force=options.force)
     print(f"wrote {options.output}")
 
 
 def _save_gallery(options: argparse.Namespace) -> None:
-    from plyfold.gallery import CURVES
+    from plyfold.gallery import CURVES, OUTLINES
     from plyfold.io.outline_files import save
 
     if options.name is not None or options.output is not None:
         raise InputError("--all saves every curve", hint="leave out the NAME and -o")
     Path(options.all).mkdir(parents=True, exist_ok=True)
-    paths = {name: Path(options.all) / f"{name}.csv" for name in CURVES}
-    for path in paths.values():
+    gallery = {Path(options.all) / f"{named.name}.csv": named for named in (*CURVES.values(), *OUTLINES.values())}
+    for path in gallery:
         refuse_existing(path, options.force)
-    for name, path in paths.items():
-        save(CURVES[name].curve, path, force=options.force)
+    for path, named in gallery.items():
+        save(named.outline, path, force=options.force)
         print(f"wrote {path}")
