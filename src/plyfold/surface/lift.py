@@ -14,7 +14,7 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, watched_arrangement
 from plyfold.arrays import Floats, Ints, freeze
-from plyfold.certify import check_surface, check_surface_mesh
+from plyfold.certify import check_surface
 from plyfold.clock import UNWATCHED, Clock, Progress, Watch
 from plyfold.disk.unwrap import UnwoundDisk, unwound_mesh
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
@@ -134,10 +134,8 @@ class Surface:
         """
         gap, outline = 0.0 if len(self.passing) else self.gap, self.outline
         mesh = self.vertices, self.faces, self.boundary
-        check_surface(outline.loops, *mesh, gap, passing=self.passing, cusps=outline.cusps)
-        pieces = self.layering.immersion.pieces
-        kinds = [(len(piece.loops), piece.euler_characteristic) for piece in pieces]
-        check_surface_mesh(self.faces, len(self.vertices), kinds)
+        kinds = [(len(piece.loops), piece.euler_characteristic) for piece in self.layering.immersion.pieces]
+        check_surface(outline.loops, *mesh, gap, passing=self.passing, cusps=outline.cusps, pieces=kinds)
 
     def unwrap(self) -> UnwoundDisk:
         """Spread the cloth out as a round disk: one-to-one, the boundary by arc length, no triangle flipped.
