@@ -91,8 +91,6 @@ LATE = {
     ("plyfold.outline.direction", "shapely"): _SMALL,
     ("plyfold.outline.given", "shapely"): _SMALL,
     ("plyfold.sat", "pysat"): _STAGE,
-    ("plyfold.surface.energy", "scipy"): _STAGE,
-    ("plyfold.surface.glue", "scipy"): _STAGE,
     ("plyfold.surface.heights", "scipy"): _STAGE,
 }
 

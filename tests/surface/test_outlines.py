@@ -7,6 +7,7 @@ import pytest
 
 import plyfold as pf
 from plyfold.certify import check_surface_mesh
+from plyfold.draw.viewer import mesh_data
 from plyfold.errors import InputError
 from plyfold.mesh.cells import triangulate_cells
 from plyfold.surface.stairs import with_steps
@@ -200,3 +201,9 @@ def test_stair_of_several_turns(turns):
     surface = pf.lift(curve, triangles=1000)
     surface.check()
     assert np.ptp(surface.vertices[:, 2]) > (turns - 0.5) * surface.gap
+
+
+def test_page_of_what_is_no_disk_has_no_way_from_the_disk():
+    data = mesh_data(pf.lift([SQUARE, HOLE], triangles=100))
+    assert data["frames"] == []
+    assert len(mesh_data(pf.lift(limacon(), triangles=100))["frames"]) > 1

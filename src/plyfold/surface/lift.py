@@ -14,7 +14,7 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, watched_arrangement
 from plyfold.arrays import Floats, Ints, freeze
-from plyfold.certify import check_surface, check_surface_mesh
+from plyfold.certify import check_surface
 from plyfold.clock import UNWATCHED, Clock, Progress, Watch
 from plyfold.disk.unwrap import UnwoundDisk, unwound_mesh
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
@@ -134,10 +134,8 @@ class Surface:
         """
         gap, outline = 0.0 if len(self.passing) else self.gap, self.outline
         mesh = self.vertices, self.faces, self.boundary
-        check_surface(outline.loops, *mesh, gap, passing=self.passing, cusps=outline.cusps)
-        pieces = self.layering.immersion.pieces
-        kinds = [(len(piece.loops), piece.euler_characteristic) for piece in pieces]
-        check_surface_mesh(self.faces, len(self.vertices), kinds)
+        kinds = [(len(piece.loops), piece.euler_characteristic) for piece in self.layering.immersion.pieces]
+        check_surface(outline.loops, *mesh, gap, passing=self.passing, cusps=outline.cusps, pieces=kinds)
 
     def unwrap(self) -> UnwoundDisk:
         """Spread the cloth out as a round disk: one-to-one, the boundary by arc length, no triangle flipped.
@@ -268,12 +266,14 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     time_limit: float | None = None,
     progress: Progress | None = None,
 ) -> Surface:
-    """Lift a closed curve to a layered surface that does not cut itself: the whole way (§2 to §4 of [MGR11]_).
+    """Lift an outline to a layered surface that does not cut itself: the whole way (§2 to §4 of [MGR11]_).
 
     Parameters
     ----------
     curve : Curve, (n, 2) array_like, shapely geometry, Arrangement, Immersion, Layering or IntersectingLayering
-        Of a curve the first immersion that can be layered is lifted.
+        Of a curve that bounds a disk the first immersion that can be layered is lifted; of any other outline, such as
+        an :class:`~plyfold.Outline` or a list of curves, an embedding. Pieces that do not hang together keep the gap
+        too, where they lie over each other, and lie on the table where not. Round a cusp the surface is a spiral stair.
     allow_intersections : bool, optional
         If no immersion can be layered, lift the one that does with the shortest self-intersections, as far as is known
         (``surface.layering.optimal``), and report them.
@@ -291,7 +291,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     pins : mapping, optional
         Heights that are given, in units of the drawing: ``{sheet: z}`` holds a whole sheet level, ``{(x, y): z}`` a
         point where a single sheet lies, and ``{(x, y, sheet): z}`` one of several sheets. Without pins the lowest
-        vertex has the height 0.
+        vertex has the height 0, also that of pieces which lie over no other.
     flat : bool or float, optional
         Keep those parts level that nothing overlaps: they are so many times as stiff (at least 1), or 100 times if
         true. The way up and down is made where sheets overlap, as far as it can be.
@@ -300,8 +300,8 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         routine is still to come to its end. With ``allow_intersections``, half of the time is for the search.
     progress : callable, optional
         Called with the name of the stage and the fraction of it done: "finding the crossings", "finding an immersion",
-        "layering immersion 1", "looking for short intersections", "triangulating the cells", "gluing the sheets",
-        "smoothing heights".
+        "layering immersion 1" or "layering the sheets", "looking for short intersections", "triangulating the cells",
+        "gluing the sheets", "smoothing heights".
 
     Returns
     -------
@@ -310,7 +310,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     Raises
     ------
     NotImmersibleError
-        If the curve bounds no immersed disk; ``error.obstruction`` says why.
+        If the outline bounds no immersed surface; ``error.obstruction`` says why.
     NotEmbeddableError
         If none of its immersions can be layered; ``error.obstruction`` belongs to the first. Not with
         ``allow_intersections``.
@@ -321,7 +321,8 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         its parts that rounding can break have been checked.
     InputError
         If an option is of the wrong kind, ``gap`` or a size is not positive, or the triangles would be more than ten
-        million; if pins name no place of the surface, or leave less room than the gap somewhere.
+        million; if pins name no place of the surface, or leave less room than the gap somewhere; with
+        ``allow_intersections``, if sheets change places on the way round a ring.
 
     References
     ----------
@@ -344,7 +345,8 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     refuse_stiffness(stiffness)
     weight = flat_weight(flat)
     cells = triangulate_cells(drawn, max_area, triangles, watch)
-    steps = with_steps(cells, cusps_of(drawn))
+    # Chords between sheets that pass through each other would cut the steps.
+    steps = with_steps(cells, cusps_of(drawn) if isinstance(layering, Layering) else drawn.visit_edge[:0])
     if steps.cells is not cells:
         cells = steps.cells
         refuse_broken(drawn, cells)

@@ -371,12 +371,15 @@ class Viewer {
   }
 
   motionSlider() {
-    const slider = range({ min: 0, max: 2, value: 2, title: "From the round disk over the flat drawing to the lifted surface" });
+    // What is no disk has no way from there.
+    const isDisk = this.surface.frames.length > 0;
+    const [min, title] = isDisk ? [0, "From the round disk over the flat drawing"] : [1, "From the flat drawing"];
+    const slider = range({ min, max: 2, value: 2, title: `${title} to the lifted surface` });
     slider.addEventListener("input", () => {
       this.set({ morph: slider.valueAsNumber });
       this.fit();
     });
-    return labelled("Disk to surface", slider);
+    return labelled(isDisk ? "Disk to surface" : "Flat to surface", slider);
   }
 
   explodeSlider() {
