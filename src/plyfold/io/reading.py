@@ -171,8 +171,11 @@ def read_each(
 
     Parameters
     ----------
-    path, id, tolerance, uv
-        As for :func:`read`.
+    path : str or Path
+        As for :func:`read`, and so are the others.
+    id : str, optional
+    tolerance : float, optional
+    uv : bool, optional
 
     Returns
     -------
