@@ -14,9 +14,9 @@ import numpy.typing as npt
 from plyfold.arrangement.general_position import in_general_position
 from plyfold.arrangement.leftmost import leftmost_crossing
 from plyfold.arrangement.maps import (
+    CellWalk,
     Code,
     Map,
-    Walk,
     cell_of_each_dart,
     in_bounded_cells,
     numbered_crossings,
@@ -179,7 +179,7 @@ class Arrangement:
 
     @classmethod
     def _of_map(
-        cls, drawn: Map, walked: Walk, turning: tuple[int, ...], outline: Outline | None, **more: Any
+        cls, drawn: Map, walked: CellWalk, turning: tuple[int, ...], outline: Outline | None, **more: Any
     ) -> Arrangement:
         """Return the arrangement of loops whose cells have been walked round."""
         code, (following, *boundaries) = drawn.code, walked

@@ -18,9 +18,9 @@ from plyfold.arrays import Bools, Floats, Ints
 from plyfold.predicates import cross_sign
 
 __all__ = [
+    "CellWalk",
     "Code",
     "Map",
-    "Walk",
     "cell_of_each_dart",
     "in_bounded_cells",
     "numbered_crossings",
@@ -30,7 +30,7 @@ __all__ = [
 ]
 
 
-Walk: TypeAlias = tuple[Ints, Ints, Ints]
+CellWalk: TypeAlias = tuple[Ints, Ints, Ints]
 """The dart after each dart, where the boundary of each cell starts, and the darts cell by cell."""
 
 
@@ -75,7 +75,7 @@ def oriented(partner: Ints, ccw: Bools, outer: int) -> tuple[Map, int, bool]:
     return Map(code, np.array([outer]), np.empty((0, 2), dtype=np.int64)), turning, turned_round
 
 
-def walked_round(drawn: Map) -> Walk:
+def walked_round(drawn: Map) -> CellWalk:
     """Return the dart after each, and the boundaries of all cells: where each starts, and their darts."""
     following = next_darts(drawn.code.partner, drawn.code.ccw, drawn.code.first_visit)
     boundaries = cell_boundaries(following, int(drawn.outside[0]))
@@ -85,7 +85,7 @@ def walked_round(drawn: Map) -> Walk:
     return following, *boundaries
 
 
-def in_bounded_cells(plain: Map, walked: Walk) -> list[int]:
+def in_bounded_cells(plain: Map, walked: CellWalk) -> list[int]:
     """Return which of the pairs of darts with the same cell lie in a bounded one."""
     inner: list[int] = np.flatnonzero(cell_of_each_dart(*walked[1:])[plain.same_cell[:, 0]]).tolist()
     return inner
