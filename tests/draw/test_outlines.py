@@ -1,5 +1,6 @@
 """Pictures of outlines with several loops, holes and cusps."""
 
+import base64
 import re
 from collections import Counter
 from xml.etree import ElementTree
@@ -17,7 +18,7 @@ from plyfold.draw.figures import overview
 from plyfold.draw.over_under import over_under
 from plyfold.draw.over_under_files import over_under_svg, over_under_tikz
 from plyfold.draw.placement import Frame, arrows, border_line, label_circle
-from plyfold.draw.viewer import page
+from plyfold.draw.viewer import mesh_data, page
 from plyfold.errors import InputError
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -250,6 +251,11 @@ def test_a_surface_has_its_loops_and_cusps_in_the_picture_and_on_the_page(outlin
         assert near.covers(shapely.MultiPoint(loop))
     signs = [text.get_text() for text in ax.texts]
     assert signs == [str(index) for index in np.concatenate(outline.cusps).tolist() if index]
+    data = mesh_data(surface)
+    cusps = np.frombuffer(base64.b64decode(data["cusps"]), "<u4")
+    assert surface.boundary[cusps].tolist() == cusps.tolist()
+    assert surface.vertices[cusps, :2].tolist() == outline.points[np.concatenate(outline.cusps) > 0].tolist()
+    assert len(data["frames"]) == (10 if surface.layering.immersion.is_disk else 0)
     html = page(surface)
     assert all(f"<dt>{name}</dt>" in html for name in ("triangles", "layers"))
 
