@@ -1,4 +1,4 @@
-"""Levels at cusps and at the feet of bridges: casings, contradictions, orders over immersions, surfaces in one piece."""
+"""Levels at cusps and at feet of bridges: casings, contradictions, orders over immersions, surfaces in one piece."""
 
 import numpy as np
 import pytest

@@ -17,9 +17,10 @@ from hypothesis import strategies as st
 from PIL import Image as Picture
 
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError
-from plyfold.gallery import CURVES
+from plyfold.gallery import CURVES, OUTLINES
+from plyfold.sketch.drawings import outline_of
 from plyfold.sketch.export import FORMATS, export
-from plyfold.sketch.opening import open_file, opened, start
+from plyfold.sketch.opening import gallery, open_file, opened, start
 from plyfold.sketch.pictures import png_document, png_with, svg_document, svg_with
 from plyfold.sketch.schema import MOST_BYTES, Backdrop, Document, Export, Lift, Stroke, document_data, read_document
 
@@ -325,6 +326,18 @@ def test_what_the_page_begins_with(tmp_path):
     (tmp_path / "saved.json").write_bytes(written(DOCUMENTS["nasty"], "json"))
     saved = start(str(tmp_path / "saved.json"))
     assert (saved["name"], saved["document"]) == ("saved", document_data(DOCUMENTS["nasty"]))
+    (tmp_path / "two.svg").write_text('<svg><rect id="a" width="9" height="9"/><path id="b" d="M0 30h9v9z"/></svg>')
+    assert [shape["name"] for shape in start(str(tmp_path / "two.svg"))["shapes"]] == ["a", "b"]
+
+
+def test_the_gallery_has_outlines_as_they_are_drawn():
+    drawn = {curve["name"]: read_document(curve["document"]).strokes for curve in gallery()["curves"]}
+    assert drawn.keys() == {**CURVES, **OUTLINES}.keys()
+    for name, named in OUTLINES.items():
+        outline = outline_of(drawn[name])
+        assert [loop.tolist() for loop in outline.loops] == [loop.tolist() for loop in named.outline.loops]
+        assert [index.tolist() for index in outline.cusps] == [index.tolist() for index in named.outline.cusps]
+    assert any(stroke.cusps for strokes in drawn.values() for stroke in strokes)
 
 
 @pytest.mark.parametrize("file", ["gallery:nothing", "no/such/file.svg", "."])

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from plyfold.errors import CertificateError
 
-__all__ = ["Bools", "Floats", "Ints", "Outline", "as_faces", "as_outline", "different", "finite", "pair_keys"]
+__all__ = ["Bools", "Floats", "Ints", "Loops", "as_faces", "as_loops", "different", "finite", "pair_keys"]
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int64]
@@ -29,7 +29,7 @@ def finite(points: npt.ArrayLike, columns: int) -> Floats:
 
 
 @dataclass(frozen=True, eq=False)
-class Outline:
+class Loops:
     """Closed loops, with numbers for their points and edges, loop after loop; edge i starts at point i.
 
     Parameters
@@ -58,16 +58,16 @@ class Outline:
         return np.stack([self.points, self.points[self.following]], axis=1)
 
 
-def as_outline(
+def as_loops(
     loops: npt.ArrayLike | Sequence[npt.ArrayLike], cusps: npt.ArrayLike | Sequence[npt.ArrayLike] | None = None
-) -> Outline:
+) -> Loops:
     """Return the points of one loop, or of a list of several, as an outline; and the cusps, in arrays of that shape."""
     several = _are_several(loops)
     rows = [finite(points, 2) for points in cast("Sequence[npt.ArrayLike]", loops if several else [loops])]
     lengths = [len(points) for points in rows]
     if not lengths or 0 in lengths:
         raise CertificateError("there is no loop, or one without points")
-    found = Outline(np.concatenate(rows), np.append(0, np.cumsum(lengths)), _as_cusps(cusps, lengths, several))
+    found = Loops(np.concatenate(rows), np.append(0, np.cumsum(lengths)), _as_cusps(cusps, lengths, several))
     if len(same := np.flatnonzero((found.edges[:, 0] == found.edges[:, 1]).all(axis=1))):
         raise CertificateError("the curve has the same point twice in a row", where=found.points[same[:1]])
     return found

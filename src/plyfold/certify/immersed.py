@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.certify.disk import Sides, disk_sides, surface_sides
-from plyfold.certify.exact import Bools, Floats, Ints, Outline, as_outline, different, finite
+from plyfold.certify.exact import Bools, Floats, Ints, Loops, as_loops, different, finite
 from plyfold.certify.places import ExactPlaces, on_edges, require_positive
 from plyfold.errors import CertificateError
 
@@ -76,9 +76,7 @@ def check_immersed_disk(
     """
     near = finite(vertices_xy, 2)
     sides = disk_sides(faces, len(near))
-    require_on_edges(
-        sides, walked(as_outline([curve_points], None if cusps is None else [cusps]), near, sides, boundary)
-    )
+    require_on_edges(sides, walked(as_loops([curve_points], None if cusps is None else [cusps]), near, sides, boundary))
 
 
 def check_immersed_surface(
@@ -125,7 +123,7 @@ def check_immersed_surface(
     """
     near = finite(vertices_xy, 2)
     sides = surface_sides(faces, len(near))
-    require_on_edges(sides, walked(as_outline(loops, cusps), near, sides, boundary))
+    require_on_edges(sides, walked(as_loops(loops, cusps), near, sides, boundary))
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +132,7 @@ class Walk:
 
     Parameters
     ----------
-    outline : Outline
+    outline : Loops
     near : (v, 2) float
         The vertices as they are given.
     loop : (b,) int
@@ -147,7 +145,7 @@ class Walk:
         The places in this row of the points of the outline.
     """
 
-    outline: Outline
+    outline: Loops
     near: Floats
     loop: Ints
     after: Ints
@@ -172,7 +170,7 @@ class Walk:
         return edges
 
 
-def walked(outline: Outline, near: Floats, sides: Sides, boundary: npt.ArrayLike) -> Walk:
+def walked(outline: Loops, near: Floats, sides: Sides, boundary: npt.ArrayLike) -> Walk:
     """Return the boundary of a mesh as a walk along an outline."""
     loop = np.asarray(boundary)
     first = _require_boundary_loops(sides, loop, near)
@@ -183,7 +181,7 @@ def walked(outline: Outline, near: Floats, sides: Sides, boundary: npt.ArrayLike
     return walk_along(outline, near, loop, first)
 
 
-def walk_along(outline: Outline, near: Floats, loop: Ints, first: Ints) -> Walk:
+def walk_along(outline: Loops, near: Floats, loop: Ints, first: Ints) -> Walk:
     """Return rows of vertices, which begin at ``first``, as a walk along an outline, through all its points."""
     at = _positions_of(outline, near[loop], first)
     after = np.arange(1, len(loop) + 1)
@@ -267,7 +265,7 @@ def require_along_curve(walk: Walk, places: ExactPlaces) -> None:
         raise CertificateError("the boundary stops or runs backwards along the curve", where=walk.near[walk.loop[back]])
 
 
-def _positions_of(outline: Outline, walk: Floats, first: Ints) -> Ints:
+def _positions_of(outline: Loops, walk: Floats, first: Ints) -> Ints:
     """Return where the points of the outline occur along the boundary, in order."""
     at: list[int] = []
     for loop, start in enumerate(first[:-1].tolist()):

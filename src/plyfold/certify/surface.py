@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.certify.disk import surface_sides
-from plyfold.certify.exact import Ints, as_faces, as_outline, finite
+from plyfold.certify.exact import Ints, as_faces, as_loops, finite
 from plyfold.certify.immersed import common_places, require_along_curve, require_immersed, walk_along, walked
 from plyfold.certify.layered import require_gap, require_layered, require_no_overlap
 from plyfold.certify.places import require_positive
@@ -61,7 +61,7 @@ def check_surface(  # noqa: PLR0913 - the parts of a mesh, and two options
     require_gap(gap)
     positions = finite(vertices, 3)
     sides = surface_sides(faces, len(positions))
-    walk = walked(as_outline(loops, cusps), positions[:, :2], sides, boundary)
+    walk = walked(as_loops(loops, cusps), positions[:, :2], sides, boundary)
     places = common_places(walk)
     require_immersed(sides, walk, places)
     require_layered(positions, sides.start.reshape(-1, 3), places, gap, passing)
@@ -107,7 +107,7 @@ def check_rounded(
     near = finite(points, 2)
     faces = as_faces(triangles, len(near))
     row = np.asarray(chain)
-    walk = walk_along(as_outline(loops), near, row, np.asarray([0, len(row)] if first is None else first))
+    walk = walk_along(as_loops(loops), near, row, np.asarray([0, len(row)] if first is None else first))
     places = common_places(walk)
     require_along_curve(walk, places)
     require_positive(places, faces)

@@ -6,7 +6,7 @@ import base64
 import re
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 from urllib.parse import unquote
@@ -15,7 +15,7 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import FileFormatError, InputError, StrokeError
-from plyfold.gallery import CURVES
+from plyfold.gallery import CURVES, OUTLINES
 from plyfold.io.reading import Contents, read_contents
 from plyfold.outline.curve import Outline, Repair
 from plyfold.sketch.pictures import PNG_START, png_document, svg_document
@@ -71,11 +71,8 @@ def opened(content: bytes, headers: Mapping[str, str]) -> dict[str, Any]:
     """Return the answer to the question what a file holds."""
     name = unquote(headers.get("X-File-Name", "")) or "drawing"
     whole, *shapes = _shapes(name, content)
-    return {
-        "version": VERSION,
-        **_shape_data(whole._replace(name=Path(name).stem[:_LONGEST_NAME])),
-        "shapes": list(map(_shape_data, shapes)),
-    }
+    whole = whole._replace(name=Path(name).stem[:_LONGEST_NAME])
+    return {"version": VERSION, **_opened_data(whole, shapes)}
 
 
 class _Shape(NamedTuple):
@@ -84,6 +81,10 @@ class _Shape(NamedTuple):
     name: str
     document: Document
     repairs: tuple[Repair, ...] = ()
+
+
+def _opened_data(whole: _Shape, shapes: Sequence[_Shape]) -> dict[str, Any]:
+    return {**_shape_data(whole), "shapes": list(map(_shape_data, shapes))}
 
 
 def _shape_data(shape: _Shape) -> dict[str, Any]:
@@ -103,7 +104,7 @@ def _shapes(name: str, content: bytes) -> list[_Shape]:
 
 
 def gallery() -> dict[str, Any]:
-    """Return the named curves, ready for JSON."""
+    """Return the named curves and outlines, ready for JSON."""
     curves = [
         {
             "name": curve.name,
@@ -112,9 +113,9 @@ def gallery() -> dict[str, Any]:
             "turning_number": curve.turning_number,
             "immersions": str(curve.immersions),
             "embeddable": str(curve.embeddable),
-            "points": curve.curve.points.tolist(),
+            "document": document_data(_document_of(curve.outline)),
         }
-        for curve in CURVES.values()
+        for curve in (*CURVES.values(), *OUTLINES.values())
     ]
     return {"version": VERSION, "curves": curves}
 
@@ -135,20 +136,20 @@ def start(file: str | None) -> dict[str, Any]:
     limits = {"bytes": MOST_BYTES, "points": MOST_POINTS}
     if file is None:
         return {"version": VERSION, "document": None, "name": None, "limits": limits}
-    document = document_data(_started_with(file))
-    return {"version": VERSION, "document": document, "name": _title(file), "limits": limits}
+    whole, *shapes = _started_with(file)
+    return {"version": VERSION, "limits": limits, **_opened_data(whole._replace(name=_title(file)), shapes)}
 
 
-def _started_with(file: str) -> Document:
+def _started_with(file: str) -> list[_Shape]:
     if file.startswith("gallery:"):
         from plyfold.gallery import named_curve
 
-        return _document_of(named_curve(file.removeprefix("gallery:")).outline)
+        return [_shape_of("", named_curve(file.removeprefix("gallery:")).outline)]
     if file == "-":
-        return open_file("standard input", sys.stdin.buffer.read(MOST_BYTES + 1))
+        return _shapes("standard input", sys.stdin.buffer.read(MOST_BYTES + 1))
     try:
         with Path(file).open("rb") as opened_file:
-            return open_file(Path(file).name, opened_file.read(MOST_BYTES + 1))
+            return _shapes(Path(file).name, opened_file.read(MOST_BYTES + 1))
     except OSError as error:
         raise FileFormatError(f"{file} cannot be read ({error.strerror})", hint="check the path") from error
 

@@ -166,10 +166,12 @@ export async function openFile(page, file) {
   const response = await fetch("/api/v2/open", { method: "POST", headers, body: file }).catch(() => null);
   const answer = await response?.json();
   if (!answer || answer.error) return tell(page, answer?.error.sentence ?? SILENT);
-  const { document, shapes } = answer;
-  if (shapes.length > 1) return page.chooseShape(answer);
-  return document.strokes.length || !document.image ? openShape(page, answer) : usePicture(page, document.image);
+  const { document: { strokes, image } } = answer;
+  return strokes.length || !image ? openShapes(page, answer) : usePicture(page, image);
 }
+
+/** Open what was found in a file; where there are several shapes, the one that is chosen. */
+export const openShapes = (page, found) => (found.shapes.length > 1 ? page.chooseShape(found) : openShape(page, found));
 
 /** Open what a file holds, or a part of it, and say what was left out or changed. */
 export async function openShape(page, { name, document, repairs }) {

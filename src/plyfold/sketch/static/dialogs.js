@@ -5,7 +5,7 @@ import { ACTIONS } from "./actions.js";
 import { SILENT } from "./answers.js";
 import { button, actionsIn } from "./buttons.js";
 import { openDrawing, openKept, openShape, tell } from "./commands.js";
-import { allPoints, loop } from "./document.js";
+import { allPoints } from "./document.js";
 import { save } from "./keeping.js";
 import { CURSOR_KEYS } from "./keyboard.js";
 import { shownKey } from "./keys.js";
@@ -82,9 +82,9 @@ function card(document_, title, detail, onOpen) {
 export async function showGallery(page) {
   const { curves } = await fetch("/api/v2/gallery").then((response) => response.json()).catch(() => ({}));
   if (!curves) return tell(page, `${SILENT}: start plyfold sketch again.`);
-  const cards = curves.map(({ name, title, points, crossings, immersions }) => {
+  const cards = curves.map(({ name, title, document: drawing, crossings, immersions }) => {
     const detail = `${name}: ${crossings} crossing${crossings === "1" ? "" : "s"}, ${immersions === "0" ? "no disk" : `${immersions} immersion${immersions === "1" ? "" : "s"}`}`;
-    return card(loop(points), title, detail, () => openDrawing(page, loop(points), name));
+    return card(drawing, title, detail, () => openDrawing(page, drawing, name));
   });
   return show("Curves to begin with", make("div", { className: "cards" }, ...cards));
 }

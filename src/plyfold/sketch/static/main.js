@@ -4,9 +4,9 @@ import { actionNamed } from "./actions.js";
 import { followAnswers } from "./answers.js";
 import { button, fillButtons, listenToKeys } from "./buttons.js";
 import { createCanvas } from "./canvas.js";
-import { copy, finishPath, fit, openDrawing, openFile, tell } from "./commands.js";
+import { copy, finishPath, fit, openDrawing, openFile, openShapes, tell } from "./commands.js";
 import * as dialogs from "./dialogs.js";
-import { EMPTY, isEmpty, withImage } from "./document.js";
+import { isEmpty, withImage } from "./document.js";
 import { followGap } from "./gap.js";
 import { begin } from "./history.js";
 import { hoverOfSheet, sameHover } from "./hover.js";
@@ -68,8 +68,8 @@ async function restore() {
   if (hasDrawing(location.hash)) return openLink();
   if (sessionStorage.getItem("plyfold.started")) return undefined;
   sessionStorage.setItem("plyfold.started", "yes");
-  const { document: given, name } = await fetch("/api/v2/start").then((response) => response.json()).catch(() => ({}));
-  return given && openDrawing(page, { ...EMPTY, ...given }, name);
+  const given = await fetch("/api/v2/start").then((response) => response.json()).catch(() => ({}));
+  return given.document && openShapes(page, given);
 }
 
 /** Another page's drawing is shown too, but goes on under a name of its own when it is changed. */
