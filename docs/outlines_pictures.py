@@ -50,7 +50,7 @@ def linked(rings: pf.Outline) -> pf.Layering:
 def bridges() -> None:
     """Draw a cell with two holes and its bridges, and the cell cut open along them."""
     square = [(0, 0), (9, 0), (9, 6), (0, 6)]
-    holes = [[(1.8, 2.6), (2.4, 4), (3.6, 3.4), (3, 1.6)], [(5, 3.6), (6.5, 4.6), (7.4, 3.2), (6, 2)]]
+    holes = [[(1.8, 2.6), (2.4, 4), (3.6, 3.4), (3, 1.6)], [(5, 2.6), (6.5, 3.8), (7.4, 2.4), (6, 1.2)]]
     arrangement = pf.arrange([square, *holes])
     frame, cut = Frame(arrangement.outline.points), bridge_lines(arrangement)
     with panels("outlines-bridges", 1, 2, (7.5, 2.7)) as axes:
