@@ -122,10 +122,15 @@ class Immersion:
         return f"<Immersion: {sheets} over {cells}>"
 
     def _repr_svg_(self) -> str | None:
-        # The disk layout; what is no disk has none.
+        # The disk layout; what is no disk has none, and is shown as it lies over the drawing.
         from plyfold.draw.svg import layout_svg
 
         return layout_svg(self) if self.is_disk else None
+
+    def _repr_png_(self) -> bytes | None:
+        from plyfold.draw.notebook import immersion_png
+
+        return None if self.is_disk or self.arrangement.outline is None else immersion_png(self)
 
     @property
     def n_sheets(self) -> int:
