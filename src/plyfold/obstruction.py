@@ -9,8 +9,8 @@ from typing import Any
 
 __all__ = ["IMMERSION_REASONS", "Obstruction", "Unknown"]
 
-# What keeps a curve from bounding an immersed disk; other reasons keep an immersed disk from being layered.
-IMMERSION_REASONS = ("turning number", "negative winding", "cusp", "no grouping")
+# What keeps an outline from bounding an immersed surface; other reasons keep an immersed one from being layered.
+IMMERSION_REASONS = ("turning number", "negative winding", "cusp", "no grouping", "no gluing", "pieces")
 
 # Longer sentences are cut where an obstruction is shown in a line.
 _SHORT = 110
@@ -26,9 +26,9 @@ class Obstruction:
     Parameters
     ----------
     reason : str
-        One of ``"turning number"``, ``"negative winding"``, ``"cusp"``, ``"no grouping"`` (no immersion),
-        ``"reversed pair"``, ``"cyclic order"``, ``"fixed orders"``, ``"casing"``, ``"no embedding"`` (no layering),
-        ``"paper's procedure"`` (it failed, which proves nothing).
+        One of ``"turning number"``, ``"negative winding"``, ``"cusp"``, ``"no grouping"``, ``"no gluing"``,
+        ``"pieces"`` (no immersion), ``"reversed pair"``, ``"cyclic order"``, ``"fixed orders"``, ``"casing"``,
+        ``"no embedding"`` (no layering), ``"paper's procedure"`` (it failed, which proves nothing).
     sentence : str
         The same for a person, in one sentence.
     where : tuple of (x, y)

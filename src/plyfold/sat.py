@@ -180,7 +180,11 @@ def search_in_time(clauses: Clauses, clock: Clock, search: Callable[[StoppableSo
 
 
 def minimal_core(
-    demands: Sequence[Clauses], given: Clauses = (), clock: Clock = NO_LIMIT, effort: int | None = None
+    demands: Sequence[Clauses],
+    given: Clauses = (),
+    clock: Clock = NO_LIMIT,
+    effort: int | None = None,
+    most: int | None = None,
 ) -> list[int]:
     """Return the indices of demands that contradict each other and the given clauses, none of which can be left out.
 
@@ -195,22 +199,24 @@ def minimal_core(
     clock : Clock, optional
     effort : int, optional
         Conflicts after which the solver gives up when it is asked whether one demand less is a contradiction too.
+    most : int, optional
+        Of more demands than this none is tried to be left out, once the solver has said which it needed.
     """
     given = list(given)
     first = 1 + max(abs(x) for clauses in [*demands, given] for clause in clauses for x in clause)
     core = list(range(first, first + len(demands)))
     selected = ([*clause, -selector] for selector, demand in enumerate(demands, first) for clause in demand)
     with suppress(TimeoutError):
-        core = search_in_time(chain(given, selected), clock, partial(_reduced, core, effort))
+        core = search_in_time(chain(given, selected), clock, partial(_reduced, core, effort, most))
     return [selector - first for selector in core]
 
 
-def _reduced(core: list[int], effort: int | None, solver: StoppableSolver) -> list[int]:
+def _reduced(core: list[int], effort: int | None, most: int | None, solver: StoppableSolver) -> list[int]:
     """Leave out selectors one after the other, as long as the others contradict each other, until the solver stops."""
     with suppress(TimeoutError):
         if solver.solve(core) is False:
             core = sorted(solver.get_core() or [])
-        for selector in list(core):
+        for selector in list(core) if most is None or len(core) <= most else ():
             rest = [other for other in core if other != selector]
             if effort is not None:
                 solver.conf_budget(effort)

@@ -9,8 +9,12 @@ import pytest
 import plyfold as pf
 from codes import code_of
 from nightly.outlines import judge_immersions, random_outline
+from plyfold import compiled
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.errors import CurveError, GeneralPositionError, InputError
+from plyfold.immersion import outlines
+from plyfold.immersion.cutting import irreducible_kernels
+from plyfold.immersion.peeling import outline_seams, peel
 from plyfold.immersion.solve import nth_immersion
 from reference.outline_gluings import fits, key_of, one_of_each_class, surfaces
 from reference.outlines import outline_map
@@ -29,6 +33,11 @@ LIDS = [
     [(0, -80), (130, -60), (120, 100), (-10, 70)],
 ]
 """Curves over that one: far around it, or across it."""
+LIMACON = [(3, 0), (1, 3), (-2, 0), (1, -3), (3, 0.5), (1, 1), (0.5, 0), (1, -1)]
+CUSP_IN_THE_WRONG_PLACE = [(15, -16), (-1, 17), (2, -12), (11, 0), (8, -18), (16, 16), (7, -6), (7, -20)]
+"""Point 4 as a cusp leaves no disk, though the number of turns is right."""
+ONE_PART = [*([(x - i, y - i) for x, y in FRAME] for i in range(3)), TRIANGLE, HOLE]
+"""The hole may be in any of four sheets."""
 SMALLEST_THREE = ([3, 2, 1, 0, 5, 4, 9, 8, 7, 6, 11, 10], [1, 1, 0, 0, 1, 0, 1, 1, 0, 0, 1, 0], 15)
 """A curve that bounds a disk with a handle in three ways."""
 
@@ -78,8 +87,7 @@ class TestAgainstReferences:
 
     def test_the_first_immersion_belongs_to_the_drawing_whatever_its_first_point(self):
         """So that of a disk with handles, and of one with a cusp."""
-        limacon = [(3, 0), (1, 3), (-2, 0), (1, -3), (3, 0.5), (1, 1), (0.5, 0), (1, -1)]
-        for points, cusps in ((HANDLE, {}), (limacon, {6: 1})):
+        for points, cusps in ((HANDLE, {}), (LIMACON, {6: 1})):
             drawn = set()
             for start in range(len(points)):
                 turned = {(vertex - start) % len(points): index for vertex, index in cusps.items()}
@@ -243,3 +251,56 @@ class TestObstructions:
         many = [loop for i in range(6) for loop in moved(TWO_OVER_TWO_HOLES, 0.01 * i, 0.013 * i)]
         assert pf.count_immersions(many, time_limit=0).reason == "time limit"
         assert pf.find_immersion(many, time_limit=0).reason == "time limit"
+
+    def test_cells_inside_curls_are_at_their_cusps(self):
+        """A word without grouping, of a curve with cusps: its obstruction names borders and places of the drawing."""
+        seen = 0
+        for code in census(5):
+            for border in range(0, border_count(code), 2):
+                arranged = with_cusp(code, border, 1)
+                found = pf.find_immersion(arranged)
+                if not found and found.reason == "no grouping":
+                    seen += 1
+                    assert set(found.value) <= set(range(arranged.n_borders))
+        assert seen > 10
+        drawn = pf.Curve(CUSP_IN_THE_WRONG_PLACE, cusps={4: 1})
+        found = pf.find_immersion(drawn)
+        assert (found.reason, len(found.where)) == ("no grouping", len(found.value))
+        assert CUSP_IN_THE_WRONG_PLACE[4] in found.where
+
+    def test_words_and_kernels_say_what_they_are_there_for(self):
+        cusped = pf.Curve(LIMACON, cusps={6: 1})
+        assert pf.bounds_disk(cusped)
+        for ask in (pf.blank_word, irreducible_kernels):
+            with pytest.raises(InputError, match="without cusps") as caught:
+                ask(cusped)
+            assert caught.value.where == (LIMACON[6],)
+            with pytest.raises(InputError, match="one curve"):
+                ask([TRIANGLE, HOLE])
+        with pytest.raises(InputError, match="disks so far"):
+            irreducible_kernels(HANDLE)
+
+    def test_what_is_too_much_to_list_is_not_sampled(self, monkeypatch):
+        monkeypatch.setattr(outlines, "_MOST_LISTED", 3)
+        assert pf.sample_immersion([FRAME, TRIANGLE, HOLE], 1)
+        for ask in (pf.sample_immersion, nth_immersion):
+            with pytest.raises(InputError, match="more than 3 immersions"):
+                ask(ONE_PART, 1)
+
+
+@pytest.mark.parametrize("way", ["plain Python", "machine code"])
+def test_both_ways_of_loops_peel_alike(way, monkeypatch):
+    if way == "machine code":
+        pytest.importorskip("numba")
+    monkeypatch.setattr(compiled, "_machine_code_pays", lambda steps: way == "machine code")
+    for loops in (TWO_OVER_TWO_HOLES, NEST, HANDLE, [HANDLE, LIDS[2]]):
+        seams = outline_seams(pf.arrange(loops))
+        known = peel(seams)
+        once = peel(seams, {int(seams.choices[-1]): 0})
+        for found in (known, once):
+            pairs = np.flatnonzero(found.upper >= 0)
+            seam = np.repeat(np.arange(len(seams.size)), seams.size)[pairs]
+            back = seams.start[seam] + found.port[seams.start[seam] + found.upper[pairs]]
+            assert back.tolist() == pairs.tolist()
+        assert not known.is_contradiction
+        assert set(np.flatnonzero(known.upper >= 0)) <= set(np.flatnonzero(once.upper >= 0)) or once.is_contradiction

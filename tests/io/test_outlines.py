@@ -281,6 +281,15 @@ def test_open_paths_are_left_out_with_a_word(read):
     assert said(outline) == ["open line left out at (0, 0), size 50", "open line left out at (5, -5), size 5"]
 
 
+def test_texts_and_pictures_are_left_out_with_a_word(read):
+    inside = f'<text x="3" y="4">hello</text><image href="x.png" width="3" height="4"/><path id="p" d="{d(SQUARE)}"/>'
+    content = svg(f'<g transform="translate(10 20)">{inside}</g><path id="far" d="{d(FAR)}"/>')
+    outline = read("text.svg", content)
+    assert outline.n_loops == 2
+    assert said(outline) == ["text left out at (13, -24)", "picture left out at (10, -20)"]
+    assert said(read("text.svg", content, id="far")) == []
+
+
 @pytest.mark.parametrize("attributes", ['fill-rule="evenodd"', 'style="fill-rule: evenodd"'])
 @pytest.mark.parametrize("where", ["path", "svg"])
 def test_even_odd_loops_are_turned_by_their_depth(read, attributes, where):

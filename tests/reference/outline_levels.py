@@ -9,7 +9,7 @@ from itertools import permutations
 
 from reference.gluings import Row
 from reference.outline_gluings import Phi, dual_tree, edge_order, families, family, sheets_by_cell
-from reference.outlines import OutlineCode, OutlineMap, outline_map, with_cusps
+from reference.outlines import OutlineCode, OutlineMap, outline_map
 
 Levels = tuple[int, ...]
 
@@ -107,22 +107,3 @@ def order_keeper(found: OutlineMap, phi: dict[int, Phi]) -> Callable[[int, dict[
         return images == sorted(images)
 
     return keeps
-
-
-# ---- where cusps would help ------------------------------------------------------------------------------------------
-
-
-def sums(total: int, count: int) -> Iterator[tuple[int, ...]]:
-    """All rows of so many numbers from 0 up with a given sum."""
-    if count == 0:
-        yield from [()] if total == 0 else []
-        return
-    for first in range(total + 1):
-        yield from ((first, *rest) for rest in sums(total - first, count - 1))
-
-
-def cusps_that_lift(code: OutlineCode, total: int) -> list[tuple[int, ...]]:
-    """The indices of one cusp more on each border, 0 on most, with a given sum, with which there are levels."""
-    borders = range(outline_map(code).n_borders)
-    marked = {m: with_cusps(code, [(b, m[b]) for b in borders if m[b]]) for m in sums(total, len(borders))}
-    return [m for m, cusped in marked.items() if level_solutions(cusped)]

@@ -11,7 +11,7 @@ from reference.loops import level_solutions as levels_by_borders
 from reference.loops import loop_borders
 from reference.outline_drawings import outline_code
 from reference.outline_gluings import count_by_labels, key_of, pieces, surfaces
-from reference.outline_levels import cusps_that_lift, layerings, level_solutions, levels_by_gluings
+from reference.outline_levels import layerings, level_solutions, levels_by_gluings
 from reference.outlines import of_gauss, outline_map, to_gauss, with_curls, with_cusps
 from reference.planar_maps import border_count, gauss_code, nonnegative_curves, windings
 from reference.random_curves import random_polygon, without_repeats
@@ -114,13 +114,6 @@ class TestKnownAnswers:
         assert [len(surfaces(with_cusps(code, [(border, 1)]))) for border in range(2)] == [0, 1]
         assert len(level_solutions(with_cusps(code, [(1, 1)]))) == 2
         assert not surfaces(code)
-
-    def test_cusps_that_would_help_a_limacon(self):
-        code = of_gauss(LIMACON)
-        assert cusps_that_lift(code, 0) == []
-        assert cusps_that_lift(code, 1) == [(0, 1)]
-        assert cusps_that_lift(code, 2) == []
-        assert cusps_that_lift(of_gauss(gauss_code([], [], 1)), 0) == [(0,)]
 
     def test_loops_inside_others(self):
         assert len(level_solutions(outline_code([BIG, INSIDE]))) == 2

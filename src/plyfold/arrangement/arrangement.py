@@ -81,14 +81,14 @@ class Arrangement:
         their left in which it runs. The first foot is at the leftmost vertex of a group of loops, the second one
         straight to the left of it. Borders and bridges together connect the boundary of every bounded cell.
     outline : Outline
-        The loops as they were used, oriented and in general position; None if only the code is known.
+        The loops as used, oriented and in general position; None if only the code is known.
     crossings : (k, 2) float
         Positions, rounded to double precision; (0, 2) if only the code is known.
     visit_edge : (visits,) int
         Edge of the outline on which each visit lies, counted over all loops; a cusp lies on the edge that starts there.
         Empty if only the code is known.
     marks : (m, 2) float
-        Positions of the marks in the order of their visits, rounded; (0, 2) if only the code is known.
+        Positions of the marks in order, rounded; (0, 2) if only the code is known.
     reversed : bool
         True if the input was turned round: all winding numbers were 0 or negative, or a single curve with winding
         numbers of both signs had a negative turning number.
@@ -205,7 +205,10 @@ class Arrangement:
         )
 
     def gauss_code(self) -> tuple[list[int], list[bool], int]:
-        """Return ``(partner, ccw, outer)`` of one curve as plain lists, ready for :meth:`from_gauss`."""
+        """Return ``(partner, ccw, outer)`` of one curve as plain lists, ready for :meth:`from_gauss`.
+
+        Raises :class:`~plyfold.errors.InputError` for several curves and for cusps, which codes have not.
+        """
         require_one_loop(self, "a Gauss code")
         if self.cusp_index.any():
             raise InputError("a Gauss code has no cusps", self.marks, hint="take the code of the outline without them")
@@ -377,8 +380,8 @@ class Arrangement:
     def cell_outline(self, cell: int) -> Floats:
         """Return the boundary polygon of a cell, shape (m, 2), counter-clockwise for bounded cells.
 
-        A cell that touches itself at a crossing passes through that point twice. Raises
-        :class:`~plyfold.errors.PlyfoldError` if other loops lie in the cell: see :meth:`cell_outlines`.
+        It passes twice through a crossing where the cell touches itself. Raises PlyfoldError if other loops lie in the
+        cell: see :meth:`cell_outlines`.
         """
         outlines = self.cell_outlines(cell)
         if len(outlines) > 1:
@@ -551,10 +554,9 @@ def watched_arrangement(curve: OutlineLike, general_position: Literal["perturb",
     if are_several(curve) and len(several := cast("Sequence[CurveLike]", curve)) == 1:
         return watched_arrangement(several[0], general_position, watch)
     outline = as_outline(curve)
-    if isinstance(outline, Curve):
-        return _of_curve(outline, general_position, watch)
     if outline.n_loops == 1:
-        return _of_curve(outline.curves[0], general_position, watch)
+        curve = outline if isinstance(outline, Curve) else outline.curves[0]
+        return _of_curve(curve, general_position, watch)
     arranged = _of_loops(outline, False, watch)
     return arranged if arranged.winding.max() > 0 else _of_loops(outline.reversed(), True, watch)
 

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from plyfold.arrays import Bools, Ints
 from plyfold.compiled import run_loop
 from plyfold.errors import GaussCodeError
-from plyfold.graphs import components, spanning_tree
+from plyfold.graphs import components
 from plyfold.ragged import count_each, starts_of
 
 __all__ = [
@@ -237,12 +237,19 @@ def _along_each_loop(ccw: Bools, first_visit: Ints, after: Ints) -> Ints:
 
 def _heights(nodes: int, links: Ints, rise: Ints) -> Ints:
     """Return a height for each node, 0 for the first: along each link it grows by its rise."""
-    parent, edge, order = spanning_tree(nodes, *links.T)
-    height = [0] * nodes
-    for node in order[1:].tolist():
-        link = edge[node]
-        height[node] = height[parent[node]] + int(rise[link] if links[link, 1] == node else -rise[link])
-    return np.array(height)
+    some = np.unique(links[:, 0] * nodes + links[:, 1], return_index=True)[1]
+    beside: list[list[tuple[int, int]]] = [[] for _ in range(nodes)]
+    for (start, end), up in zip(links[some].tolist(), rise[some].tolist(), strict=True):
+        beside[start].append((end, up))
+        beside[end].append((start, -up))
+    height, waiting = {0: 0}, [0]
+    while waiting:
+        node = waiting.pop()
+        for other, up in beside[node]:
+            if other not in height:
+                height[other] = height[node] + up
+                waiting.append(other)
+    return np.array([height[node] for node in range(nodes)])
 
 
 def left_windings(ccw: Bools, outer: int) -> Ints:

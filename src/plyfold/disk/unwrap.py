@@ -259,7 +259,7 @@ class UnwoundDisk:
         """
         drawn = self.immersion.arrangement.curve
         assert drawn is not None
-        check_immersed_disk(drawn.points, self.plane, self.faces, self.boundary)
+        check_immersed_disk(drawn.points, self.plane, self.faces, self.boundary, drawn.cusps[0])
         circle = self.disk[self.boundary]
         check_immersed_disk(circle, self.disk, self.faces, self.boundary)
         if not runs_once_round(circle):
@@ -340,7 +340,7 @@ def unwrap(
     """
     if isinstance(surface, Lifted):
         return surface.unwrap()
-    immersion = require_disk(surface) if isinstance(surface, Immersion) else chosen_immersion(surface, None)
+    immersion = surface if isinstance(surface, Immersion) else chosen_immersion(surface, None)
     return _unwound_immersion(immersion, triangles, max_area)
 
 
@@ -402,6 +402,7 @@ def map_disk(
 
 
 def _unwound_immersion(immersion: Immersion, triangles: int, max_area: float | None) -> UnwoundDisk:
+    require_disk(immersion)
     if immersion.arrangement.curve is None:
         raise PlyfoldError("a disk needs a drawing, and this is a Gauss code alone")
     refuse_sizes(immersion.arrangement.curve.points, triangles, max_area)

@@ -13,9 +13,9 @@ import shapely
 
 from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrays import Floats, Ints
-from plyfold.errors import PlyfoldError, PrecisionError
-from plyfold.mesh.cells import chain_of
-from plyfold.outline.given import CurveLike
+from plyfold.errors import PrecisionError
+from plyfold.mesh.refine import chain_of, drawn_outline
+from plyfold.outline.given import OutlineLike
 from plyfold.ragged import count_each
 
 if TYPE_CHECKING:
@@ -42,20 +42,20 @@ class Covered(NamedTuple):
     winding: int
 
 
-def coverage(curve: CurveLike) -> list[Covered]:
-    """Return the cells that a closed curve winds round, with their winding numbers.
+def coverage(curve: OutlineLike) -> list[Covered]:
+    """Return the cells that a closed curve or an outline winds round, with their winding numbers.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
-        Any closed curve, whether it bounds a disk or not.
+    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; Outline, or a list of curves
+        Any closed curves, whether they bound a surface or not.
 
     Returns
     -------
     list of Covered
         Pairs (polygon, winding), in the order of the arrangement's cells; those with winding number 0 are left out.
-        The polygons are valid and do not overlap; one that touches itself at a crossing has a hole that touches its
-        outline there. Crossings are rounded to double precision.
+        The polygons are valid and do not overlap. They have holes where loops lie in a cell; one that touches itself at
+        a crossing has a hole that touches its outline there. Crossings are rounded to double precision.
 
         The signs are those of the direction in which the turning number is not negative: of the points as given, or,
         if ``arrange(curve).reversed``, of the curve turned round. In the other direction they are the opposite.
@@ -80,62 +80,76 @@ def coverage(curve: CurveLike) -> list[Covered]:
     """
     drawn = arrange(curve)
     wound = np.flatnonzero(drawn.winding).tolist()
-    polygons = outlined(drawn, [drawn.cells[cell] for cell in wound])
+    polygons = outlined(drawn, wound)
     return [Covered(*pair) for pair in zip(polygons, drawn.winding[wound].tolist(), strict=True)]
 
 
 # ---- polygons from the borders around them ---------------------------------------------------------------------------
 
 
-def outlined(arrangement: Arrangement, rings: Sequence[Sequence[int]]) -> list[Polygon]:
-    """Return the polygons with the given borders around them.
+def outlined(arrangement: Arrangement, cells: Sequence[int]) -> list[Polygon]:
+    """Return the polygons of some bounded cells.
 
     Parameters
     ----------
     arrangement : Arrangement
         With a drawing.
-    rings : sequence of sequences of int
-        For each polygon the darts around it, in order, with the polygon on their left.
+    cells : sequence of int
 
     Returns
     -------
     list of shapely.Polygon
-        Valid, counter-clockwise. Where the darts pass through a crossing twice, the polygon has a hole that touches
-        its outline there.
+        Valid, counter-clockwise. Where other loops lie in a cell, the polygon has holes; where its boundary passes
+        through a crossing twice, a hole that touches its outline there.
 
     Raises
     ------
     PrecisionError
         If a polygon is no longer valid with its crossings rounded to doubles.
     """
-    loops, owner = _without_pinches(arrangement, rings)
+    loops, owner = _without_pinches(arrangement, cells)
     coordinates, start = _coordinates(arrangement, loops)
     lines = shapely.linearrings(coordinates, indices=np.repeat(np.arange(len(loops)), np.diff(start)))
     hole = _signed_areas(coordinates, start) < 0
-    polygons = np.full(len(rings), None, dtype=object)
+    polygons = np.full(len(cells), None, dtype=object)
     polygons[owner[~hole]] = shapely.polygons(lines[~hole])
     for ring in np.unique(owner[hole]).tolist():
         own = slice(*np.searchsorted(owner, [ring, ring + 1]))
         if polygons[ring]:
             polygons[ring] = shapely.Polygon(polygons[ring].exterior, lines[own][hole[own]])
-    _refuse_invalid(polygons, coordinates[start[np.searchsorted(owner, np.arange(len(rings)))]])
+    _refuse_invalid(polygons, coordinates[start[np.searchsorted(owner, np.arange(len(cells)))]])
     return list(polygons)
 
 
-def _without_pinches(arrangement: Arrangement, rings: Sequence[Sequence[int]]) -> tuple[list[Sequence[int]], Ints]:
-    """Split rings that pass through a crossing twice; return the loops, and the ring that each comes from."""
-    size = np.array([len(ring) for ring in rings], dtype=np.int64)
-    owner = np.repeat(np.arange(len(rings)), size)
-    crossing = _start_crossing(arrangement, np.fromiter(chain.from_iterable(rings), dtype=np.int64, count=size.sum()))
-    key = np.sort(owner * (arrangement.n_crossings + 1) + crossing)
-    pinched = set((key[1:][np.diff(key) == 0] // (arrangement.n_crossings + 1)).tolist())
+def _without_pinches(arrangement: Arrangement, cells: Sequence[int]) -> tuple[list[Sequence[int]], Ints]:
+    """Return the boundary cycles of cells, split where they pass through a crossing twice, and their cells' places."""
+    cycles, owner = _cycles(arrangement, cells)
+    number = np.repeat(np.arange(len(cycles)), [len(cycle) for cycle in cycles])
+    crossing = _start_crossing(arrangement, np.fromiter(chain.from_iterable(cycles), np.int64, len(number)))
+    most = arrangement.n_crossings + len(arrangement.partner) + 1
+    key = np.sort(number * most + crossing)
+    pinched = set((key[1:][np.diff(key) == 0] // most).tolist())
     loops: list[Sequence[int]] = []
     owners: list[int] = []
-    for number, ring in enumerate(rings):
-        parts = _simple_loops(arrangement, ring) if number in pinched else [ring]
+    for cycle, ring in enumerate(cycles):
+        parts = _simple_loops(arrangement, ring) if cycle in pinched else [ring]
         loops += parts
-        owners += [number] * len(parts)
+        owners += [owner[cycle]] * len(parts)
     return loops, np.array(owners, dtype=np.int64)
+
+
+def _cycles(arrangement: Arrangement, cells: Sequence[int]) -> tuple[list[Sequence[int]], list[int]]:
+    """Return the darts along each boundary cycle of some cells, and the place of its cell among them."""
+    if arrangement.n_loops == 1:
+        return [arrangement.cells[cell] for cell in cells], list(range(len(cells)))
+    cycles, owner = [], []
+    darts, start = arrangement.cell_darts.tolist(), arrangement.cycle_start.tolist()
+    bounds = np.searchsorted(arrangement.cycle_start, arrangement.cell_start)
+    for place, cell in enumerate(cells):
+        for cycle in range(bounds[cell], bounds[cell + 1]):
+            cycles.append(darts[start[cycle] : start[cycle + 1]])
+            owner.append(place)
+    return cycles, owner
 
 
 def _simple_loops(arrangement: Arrangement, ring: Sequence[int]) -> list[Sequence[int]]:
@@ -155,29 +169,40 @@ def _simple_loops(arrangement: Arrangement, ring: Sequence[int]) -> list[Sequenc
 
 
 def _start_crossing(arrangement: Arrangement, dart: Ints) -> Ints:
-    """Return the crossing at which each dart starts."""
-    if arrangement.n_crossings == 0:
-        return np.zeros(len(dart), dtype=np.int64)
-    return np.asarray(arrangement.crossing_of_visit[(dart // 2 + dart % 2) % arrangement.n_borders])
+    """Return the crossing at which each dart starts; for a mark a number of its own, and for no visit at all 0."""
+    border, backward = np.divmod(dart, 2)
+    visit = arrangement.start_visit[np.where(backward == 1, arrangement.next_border[border], border)]
+    crossing = np.append(arrangement.crossing_of_visit, 0)[visit]
+    return np.asarray(np.where(crossing < 0, arrangement.n_crossings + visit, crossing))
 
 
 def _coordinates(arrangement: Arrangement, loops: Sequence[Sequence[int]]) -> tuple[Floats, Ints]:
     """Return the points of all loops after each other, and where each loop starts (and the last one ends)."""
-    curve = arrangement.curve
-    if curve is None:
-        raise PlyfoldError("polygons need a drawing, and this arrangement is a Gauss code alone")
-    visits = len(arrangement.visit_edge)
-    points = np.concatenate([curve.points, arrangement.crossings])[chain_of(arrangement)[0]]
+    outline = drawn_outline(arrangement)
+    points, chain_border, first_piece = chain_of(arrangement)
     dart = np.array(list(chain.from_iterable(loops)), dtype=np.int64)
     border, backward = dart // 2, dart % 2
-    begin = arrangement.visit_edge + np.arange(1, visits + 1) if visits else np.zeros(1, dtype=np.int64)
-    length = (np.roll(begin, -1) - begin - 1) % len(points) + 1
-    count = length[border]
+    begin = _first_pieces(arrangement, chain_border, first_piece)
+    count = np.bincount(chain_border, minlength=arrangement.n_borders)[border]
     first = begin[border] + backward * count
     last = np.cumsum(count)
     position = np.repeat(first, count) + np.repeat(1 - 2 * backward, count) * count_each(count)
+    loop = np.repeat(arrangement.loop_of_border[border], count)
+    low, length = first_piece[loop], np.diff(first_piece)[loop]
     darts_before = np.cumsum([0, *map(len, loops)])
-    return points[position % len(points)], np.concatenate([[0], last])[darts_before]
+    places = np.concatenate([outline.points, arrangement.crossings])[points]
+    return places[low + (position - low) % length], np.concatenate([[0], last])[darts_before]
+
+
+def _first_pieces(arrangement: Arrangement, chain_border: Ints, first_piece: Ints) -> Ints:
+    """Return the first piece of the chain that is on each border."""
+    before = np.arange(-1, len(chain_border) - 1)
+    before[first_piece[:-1]] = first_piece[1:] - 1
+    begin = np.empty(arrangement.n_borders, dtype=np.int64)
+    begin[chain_border[first_piece[:-1]]] = first_piece[:-1]
+    change = np.flatnonzero(chain_border != chain_border[before])
+    begin[chain_border[change]] = change
+    return begin
 
 
 def _signed_areas(coordinates: Floats, start: Ints) -> Floats:

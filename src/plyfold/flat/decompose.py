@@ -1,4 +1,4 @@
-"""Few simple polygons that cover an immersed disk once: its triangles, put together as long as they do not overlap."""
+"""Few polygons that cover an immersed surface once: its triangles, put together as long as they do not overlap."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import PrecisionError
 from plyfold.flat.delaunay import delaunay_triangles
-from plyfold.flat.sweep import sweep_triangles
-from plyfold.flat.triangulate import chosen_immersion
-from plyfold.graphs import spanning_tree
+from plyfold.flat.triangulate import chosen_immersion, glued_by_points
+from plyfold.graphs import components, spanning_tree
 from plyfold.halfedges import ends_of, glued_pairs
 from plyfold.immersion.immersion import Immersion
-from plyfold.outline.given import CurveLike
+from plyfold.mesh.refine import drawn_outline
+from plyfold.outline.given import OutlineLike
 from plyfold.predicates import orient
 
 if TYPE_CHECKING:
@@ -31,30 +31,31 @@ __all__ = ["decompose"]
 _AT_ONCE = 1000
 
 
-def decompose(curve: CurveLike, immersion: Immersion | None = None) -> list[Polygon]:
-    """Cut the disk that a curve bounds, along straight chords, into few polygons that do not overlap themselves.
+def decompose(curve: OutlineLike, immersion: Immersion | None = None) -> list[Polygon]:
+    """Cut the surface that an outline bounds, along straight chords, into few polygons that do not overlap themselves.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
-        It may cross itself.
+    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; Outline, or a list of curves
+        It may cross itself, and have holes and cusps.
     immersion : Immersion, optional
-        The disk to cut, if the curve bounds several; by default the first one.
+        The surface to cut, if the outline bounds several; by default the first one.
 
     Returns
     -------
     list of shapely.Polygon
-        Simple polygons without holes, counter-clockwise, whose corners are points of the curve. Together they cover
-        each place as often as the curve winds round it. A curve without overlaps gives one polygon.
+        Polygons, counter-clockwise, whose corners are points of the outline; those of a disk are simple and have no
+        holes. Together they cover each place as often as the outline winds round it. A curve without overlaps gives one
+        polygon.
 
     Raises
     ------
     NotImmersibleError
-        If the curve bounds no immersed disk; ``error.obstruction`` says why.
+        If the outline bounds no immersed surface; ``error.obstruction`` says why.
     PrecisionError
         If :func:`triangulate` cannot make its triangles; it names the place.
     InputError
-        If the immersion is one of another curve.
+        If the immersion is one of another outline, or two sides of triangles join the same two cusps.
 
     Notes
     -----
@@ -73,10 +74,11 @@ def decompose(curve: CurveLike, immersion: Immersion | None = None) -> list[Poly
     """
     chosen = chosen_immersion(curve, immersion)
     drawn = chosen.arrangement
-    assert drawn.curve is not None
-    points = drawn.curve.points
+    points = drawn_outline(drawn).points
     # Round triangles overlap fewer others than long ones.
-    faces = delaunay_triangles(points, sweep_triangles(chosen))
+    faces = delaunay_triangles(points, glued_by_points(chosen))
+    if not chosen.is_disk or drawn.cusp_index.any():
+        return _pieces_of_surface(points, faces, np.concatenate(drawn_outline(drawn).cusps) > 0)
     conflicts = _crossing_sides(drawn, faces)
     tree = _tree(faces)
     while True:
@@ -100,6 +102,34 @@ def _outlined(points: Floats, faces: Ints, piece: Ints) -> npt.NDArray[np.object
     return polygons
 
 
+def _pieces_of_surface(points: Floats, faces: Ints, is_cusp: Bools) -> list[Polygon]:
+    """Return the pieces of a surface with holes or cusps: all triangles that overlap are found at once."""
+    conflicts: list[set[int]] = [set() for _ in faces]
+    for triangle, others in _overlaps(points, faces, [np.arange(len(faces))], is_cusp).items():
+        conflicts[triangle] |= others
+    piece = _pieces(conflicts, *_forest(faces))
+    polygons = [
+        shapely.coverage_union_all(shapely.polygons(points[faces[piece == number]]))
+        for number in range(piece.max() + 1)
+    ]
+    return [polygon for union in polygons for polygon in shapely.get_parts(shapely.orient_polygons(union)).tolist()]
+
+
+def _forest(faces: Ints) -> tuple[list[int], list[int]]:
+    """Return the same as :func:`_tree` for triangles that may fall apart into pieces; roots hang on −1."""
+    first, second = glued_pairs(faces).T // 3
+    part = components(len(faces), first, second)
+    order, parent = [], np.full(len(faces), -1)
+    for number in range(int(part.max()) + 1):
+        members = np.flatnonzero(part == number)
+        inside = part[first] == number
+        links = (np.searchsorted(members, side[inside]) for side in (first, second))
+        above, _, own_order = spanning_tree(len(members), *links)
+        order += members[own_order].tolist()
+        parent[members[own_order[1:]]] = members[above[own_order[1:]]]
+    return order, parent.tolist()
+
+
 def _crossing_sides(drawn: Arrangement, faces: Ints) -> list[set[int]]:
     """Return for each triangle those that overlap it because edges of the curve cross that are sides of the two."""
     n = len(faces) + 2
@@ -120,22 +150,40 @@ def _tree(faces: Ints) -> tuple[list[int], list[int]]:
     return order.tolist(), parent.tolist()
 
 
-def _overlaps(points: Floats, faces: Ints, groups: list[Ints]) -> dict[int, set[int]]:
+def _overlaps(points: Floats, faces: Ints, groups: list[Ints], is_cusp: Bools | None = None) -> dict[int, set[int]]:
     """Return for each triangle of some groups those of its group that overlap or touch it.
 
-    Triangles with a common corner do neither: they are parts of its fan, which is less than a full turn.
+    Triangles with a common corner do neither: they are parts of its fan, which is less than a full turn. Only at a cusp
+    the fan is more than that.
     """
     overlaps: dict[int, set[int]] = {}
     for members in groups:
         for first, second in _overlapping_boxes(points[faces[members]]):
             i, j = members[first], members[second]
-            strange = (faces[i].T[:, None] != faces[j].T).all(axis=(0, 1))
-            i, j = i[strange], j[strange]
-            meet = ~_apart(points[faces[i]], points[faces[j]])
+            common = faces[i].T[:, None] == faces[j].T
+            strange = np.flatnonzero(~common.any(axis=(0, 1)))
+            meet = strange[~_apart(points[faces[i[strange]]], points[faces[j[strange]]])]
+            if is_cusp is not None:
+                at_cusp = (common.sum(axis=(0, 1)) == 1) & (common & is_cusp[faces[i].T][:, None]).any(axis=(0, 1))
+                around = np.flatnonzero(at_cusp)
+                meet = np.append(meet, around[_meet_at_corner(points, faces[i[around]], faces[j[around]])])
             for one, other in zip(i[meet].tolist(), j[meet].tolist(), strict=True):
                 overlaps.setdefault(one, set()).add(other)
                 overlaps.setdefault(other, set()).add(one)
     return overlaps
+
+
+def _meet_at_corner(points: Floats, one: Ints, other: Ints) -> Bools:
+    """Tell which pairs of triangles that have one corner in common have a direction from there in common."""
+    row, corner, beyond = np.nonzero(one[:, :, None] == other[:, None, :])
+    centre = points[one[row, corner]]
+    a, b, c, d = (
+        points[triangle[row, (at + step) % 3]] for triangle, at in ((one, corner), (other, beyond)) for step in (1, 2)
+    )
+    meet = np.zeros(len(one), dtype=bool)
+    for ray, first, last in ((a, c, d), (b, c, d), (c, a, b), (d, a, b)):
+        meet |= (orient(centre, first, ray) >= 0) & (orient(centre, ray, last) >= 0)
+    return meet
 
 
 def _neighbourhoods(piece: Ints, wanted: Ints, parent: list[int]) -> list[Ints]:
@@ -179,7 +227,9 @@ def _pieces(conflicts: list[set[int]], order: list[int], parent: list[int]) -> I
     """Return the piece of each triangle; a piece joins that of the triangle it hangs on unless they conflict."""
     piece = list(range(len(order)))
     members = [[triangle] for triangle in piece]
-    for triangle in reversed(order[1:]):
+    for triangle in reversed(order):
+        if parent[triangle] < 0:
+            continue
         small, large = sorted((piece[triangle], piece[parent[triangle]]), key=lambda p: len(members[p]))
         if all(piece[other] != large for member in members[small] for other in conflicts[member]):
             for member in members[small]:

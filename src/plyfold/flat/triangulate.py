@@ -1,4 +1,4 @@
-"""Triangles on the curve's own points that make an immersed disk, as Shor and Van Wyk's program finds them."""
+"""Triangles on an outline's own points that make an immersed surface; for disks as Shor and Van Wyk's program does."""
 
 from __future__ import annotations
 
@@ -8,66 +8,71 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrays import Floats, Ints
-from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError, PlyfoldError
+from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError
 from plyfold.flat.delaunay import delaunay_triangles, flip_edges
 from plyfold.flat.sweep import sweep_triangles
-from plyfold.immersion.immersion import Immersion, require_disk, require_immersion
+from plyfold.halfedges import ends_of
+from plyfold.immersion.immersion import Immersion, require_immersion
 from plyfold.immersion.solve import find_immersion
 from plyfold.mesh.cells import refuse_max_area
-from plyfold.outline.curve import Curve
-from plyfold.outline.given import CurveLike, as_curve
+from plyfold.mesh.refine import drawn_outline
+from plyfold.outline.curve import Outline
+from plyfold.outline.given import OutlineLike, as_outline
 from plyfold.predicates import orient
+from plyfold.ragged import count_each
 
-__all__ = ["chosen_immersion", "triangulate"]
-
-
-@overload
-def triangulate(curve: CurveLike, immersion: Immersion | None = None, refine: None = None) -> Ints: ...
+__all__ = ["chosen_immersion", "glued_by_points", "triangulate"]
 
 
 @overload
-def triangulate(curve: CurveLike, immersion: Immersion | None = None, *, refine: float) -> tuple[Floats, Ints]: ...
+def triangulate(curve: OutlineLike, immersion: Immersion | None = None, refine: None = None) -> Ints: ...
+
+
+@overload
+def triangulate(curve: OutlineLike, immersion: Immersion | None = None, *, refine: float) -> tuple[Floats, Ints]: ...
 
 
 def triangulate(
-    curve: CurveLike, immersion: Immersion | None = None, refine: float | None = None
+    curve: OutlineLike, immersion: Immersion | None = None, refine: float | None = None
 ) -> Ints | tuple[Floats, Ints]:
-    """Cut the disk that a curve bounds into n − 2 triangles on the curve's own n points.
+    """Cut the disk that a curve bounds into n − 2 triangles on the curve's own n points, or the surface of any outline.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement
-        It may cross itself.
+    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; Outline, or a list of curves
+        It may cross itself, have holes, and cusps, round which triangles wind as often as they say.
     immersion : Immersion, optional
-        The disk to triangulate, if the curve bounds several; by default the first one.
+        The surface to triangulate, if the outline bounds several; by default the first one.
     refine : float, optional
-        Largest area of a triangle, in square units of the drawing. Points are then added inside the disk, none on its
-        boundary.
+        Largest area of a triangle, in square units of the drawing. Points are then added inside the surface, none on
+        its boundary.
 
     Returns
     -------
-    faces : (n − 2, 3) int
-        Rows of three points of the curve, by their number in the array that was given, counter-clockwise (exactly, and
-        strictly). Glued along their common sides they are a disk, immersed in the plane, with the curve as its
-        boundary. A curve that runs clockwise keeps its numbers; the triangles are counter-clockwise all the same.
+    faces : (n − 2χ, 3) int
+        Rows of three points of the outline, by their number in the arrays that were given, one after the other,
+        counter-clockwise (exactly, and strictly); χ is the Euler characteristic, 1 for a disk. Glued along their common
+        sides they are a surface, immersed in the plane, with the outline as its boundary. A curve that runs clockwise
+        keeps its numbers; the triangles are counter-clockwise all the same.
     points, faces : (m, 2) float and (m' , 3) int
-        With ``refine``; the first n points are the curve's.
+        With ``refine``; the first n points are the outline's.
 
     Raises
     ------
     NotImmersibleError
-        If the curve bounds no immersed disk; ``error.obstruction`` says why.
+        If the outline bounds no immersed surface; ``error.obstruction`` says why.
     MemoryLimitError
         If the gluing of the sheets would not fit into memory.
     InputError
-        If ``refine`` is no positive number or makes too many triangles, or the immersion is one of another curve.
+        If ``refine`` is no positive number or makes too many triangles, or the immersion is one of another outline;
+        with ``refine``, also if two sides of triangles join the same two cusps.
     GeneralPositionError
         If strands touch, and a triangle of the separated strands has no area on the points as they were given.
 
     Notes
     -----
     The same input and output as programs after Shor and Van Wyk [SW92]_ have, which take O(n³). Here a line sweeps
-    over the disk: what it meets of the disk is intervals between two edges, however the sheets lie over each other, and
+    over the surface: what it meets of that is intervals between two edges, however the sheets lie over each other, and
     only at corners where an interval is split does it have to be found, by a walk through the sheets. All signs are
     exact. O((n + k) log n) and some steps for each strand that is walked over; 60,000 points with 18,000 crossings take
     a hundredth of a second with numba, a quarter of a second without. That such triangles exist is proved in [SW92]_
@@ -102,71 +107,103 @@ def triangulate(
     return faces if isinstance(curve, Arrangement) else _faces_as_given(curve, faces, chosen.arrangement)
 
 
-def chosen_immersion(curve: CurveLike, immersion: Immersion | None) -> Immersion:
-    """Return the immersion asked for, or the curve's first; raise an error if there is none."""
+def chosen_immersion(curve: OutlineLike, immersion: Immersion | None) -> Immersion:
+    """Return the immersion asked for, or the outline's first; raise an error if there is none."""
     if immersion is None:
         drawing = arrange(curve)
-        if drawing.curve is None:
-            raise PlyfoldError("triangles need a drawing, and this arrangement is a Gauss code alone")
+        drawn_outline(drawing)
         found = find_immersion(drawing)
         if not isinstance(found, Immersion):
             raise NotImmersibleError(found)
         return found
     drawn = require_immersion(immersion).arrangement
-    if not (_same(drawn, curve) if isinstance(curve, Arrangement) else _draws(drawn, as_curve(curve).points)):
+    if not (_same(drawn, curve) if isinstance(curve, Arrangement) else _draws(drawn, as_outline(curve))):
         raise InputError("the immersion belongs to another curve", hint="make it from the same arrangement")
-    return require_disk(immersion)
+    return immersion
 
 
-def _faces_as_given(curve: CurveLike, faces: Ints, drawn: Arrangement) -> Ints:
+def _faces_as_given(curve: OutlineLike, faces: Ints, drawn: Arrangement) -> Ints:
     """Give the points the numbers that the caller knows, and refuse triangles without area on his points."""
-    assert drawn.curve is not None
-    given = as_curve(curve)
-    if not np.array_equal(drawn.curve.points[_input_order(drawn)], given.points):
+    given = as_outline(curve)
+    if not np.array_equal(drawn_outline(drawn).points[_input_order(drawn)], given.points):
         flat = faces[orient(*given.points[faces].swapaxes(0, 1)) <= 0]
         if len(flat):
             raise GeneralPositionError(
                 "strands touch, and where they were separated a triangle has no area on the points as given",
                 where=given.points[flat[0]],
-                hint="take the moved points: a = arrange(curve), then triangulate(a) and a.curve.points",
+                hint="take the moved points: a = arrange(curve), then triangulate(a) and a.outline.points",
             )
-    return faces if isinstance(curve, Curve) else given.rows[faces]
+    return faces if isinstance(curve, Outline) else given.rows[faces]
 
 
 def _same(drawn: Arrangement, other: Arrangement) -> bool:
     """Tell whether two arrangements are of the same points."""
-    if drawn.curve is None or other.curve is None:
+    if drawn.outline is None or other.outline is None:
         return drawn is other
-    return drawn.reversed == other.reversed and np.array_equal(drawn.curve.points, other.curve.points)
+    return drawn.reversed == other.reversed and _alike(drawn.outline, other.outline, other.outline.points)
 
 
-def _draws(drawn: Arrangement, points: Floats) -> bool:
-    """Tell whether an arrangement is that of the given points, but for those moved into general position."""
-    if drawn.curve is None or len(drawn.curve) != len(points):
+def _draws(drawn: Arrangement, given: Outline) -> bool:
+    """Tell whether an arrangement is that of the given outline, but for points moved into general position."""
+    if drawn.outline is None:
         return False
-    moved = {repair.where for repair in drawn.curve.repairs}
-    differing = (drawn.curve.points[_input_order(drawn)] != points).any(axis=1)
-    return all((x, y) in moved for x, y in points[differing].tolist())
+    used = drawn.outline.reversed() if drawn.reversed else drawn.outline
+    moved = {repair.where for repair in drawn.outline.repairs}
+    where = [(x, y) in moved for x, y in given.points.tolist()] if moved else np.zeros(len(given), dtype=bool)
+    expected = (
+        np.where(np.array(where)[:, None], used.points, given.points) if len(used) == len(given) else given.points
+    )
+    return _alike(used, given, expected)
+
+
+def _alike(used: Outline, given: Outline, points: Floats) -> bool:
+    """Tell whether an outline has given points, and the loops and cusps of another one."""
+    return (
+        np.array_equal(used.points, points)
+        and np.array_equal(used.first_point, given.first_point)
+        and np.array_equal(np.concatenate(used.cusps), np.concatenate(given.cusps))
+    )
 
 
 def _input_order(drawn: Arrangement) -> Ints:
-    """Return the number that each point of the arrangement's curve has in the input."""
-    assert drawn.curve is not None
-    n = len(drawn.curve.points)
-    return -np.arange(n) % n if drawn.reversed else np.arange(n)
+    """Return the number that each point of the arrangement's outline has in the input."""
+    outline = drawn_outline(drawn)
+    length = np.diff(outline.first_point)
+    place = count_each(length)
+    return np.repeat(outline.first_point[:-1], length) + (
+        -place % np.repeat(length, length) if drawn.reversed else place
+    )
 
 
 def _refined(immersion: Immersion, max_area: float) -> tuple[Floats, Ints]:
     """Triangulate with added points."""
     drawn = immersion.arrangement
-    assert drawn.curve is not None
     if isinstance(max_area, bool) or not isinstance(max_area, int | float | np.number):
         raise InputError(f"the largest area of a triangle must be a number, not {max_area!r}")
-    refuse_max_area(drawn.curve.points, max_area)
-    number, points = _input_order(drawn), drawn.curve.points
+    points, number = drawn_outline(drawn).points, _input_order(drawn)
+    refuse_max_area(points, max_area)
     # Flips alone would take quadratic time where triangles are long.
-    round_triangles = delaunay_triangles(points, sweep_triangles(immersion))
+    round_triangles = delaunay_triangles(points, glued_by_points(immersion))
     return _split_large(points[number], number[round_triangles], max_area)
+
+
+def glued_by_points(immersion: Immersion) -> Ints:
+    """Return triangles of which the points tell the gluing; refuse those of which two sides join the same points.
+
+    They are on the same line then, and leave their ends in the same direction: at both there is a cusp.
+    """
+    faces = sweep_triangles(immersion)
+    outline = drawn_outline(immersion.arrangement)
+    if np.count_nonzero(np.concatenate(outline.cusps)) > 1:
+        start, end = ends_of(faces)
+        key, times = np.unique(start * len(outline) + end, return_counts=True)
+        if len(double := key[times > 1]):
+            raise InputError(
+                "two sides of triangles join the same two cusps",
+                where=outline.points[list(divmod(int(double[0]), len(outline)))],
+                hint="put a vertex on an edge near one of them",
+            )
+    return faces
 
 
 def _split_large(points: Floats, faces: Ints, max_area: float) -> tuple[Floats, Ints]:

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from string import ascii_lowercase
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange, require_one_loop
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
 from plyfold.immersion.dual_tree import grow_dual_tree
 from plyfold.immersion.grouping import Grouping, Groupings, find_groupings, list_groupings
-from plyfold.immersion.obstructions import is_visibly_no_disk
+from plyfold.immersion.obstructions import is_visibly_no_disk, require_curve_without_cusps
 from plyfold.immersion.word import Word, write_word
 
 __all__ = ["BlankWord", "Letter", "blank_word"]
@@ -144,7 +144,7 @@ def blank_word(curve: CurveLike) -> BlankWord:
     (empty)
     """
     arranged = arrange(curve)
-    require_one_loop(arranged, "Blank's word")
+    require_curve_without_cusps(arranged, "Blank's word")
     return BlankWord(arranged, write_word(grow_dual_tree(arranged)))
 
 

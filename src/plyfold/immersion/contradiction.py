@@ -11,17 +11,19 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.clock import NO_LIMIT, Clock
 from plyfold.immersion.corners import feet
-from plyfold.immersion.gluings import open_whole
+from plyfold.immersion.gluings import OpenPart, open_around, open_parts
 from plyfold.immersion.obstructions import obstruction
-from plyfold.immersion.peeling import OutlineSeams, outline_seams, peel, reasons
+from plyfold.immersion.peeling import OutlineSeams, Peeled, outline_seams, peel, reasons
 from plyfold.immersion.search_map import SearchMap, search_map_of
 from plyfold.obstruction import Obstruction
-from plyfold.sat import minimal_core
+from plyfold.sat import minimal_core, solve
 
 __all__ = ["no_gluing"]
 
 # Conflicts after which the solver may give up when it is asked whether one crossing less is a contradiction too.
 _EFFORT = 5000
+# Above this many crossings, the contradiction that an obstruction names is not made minimal.
+_MINIMISE_UP_TO = 300
 
 
 def no_gluing(arranged: Arrangement, clock: Clock = NO_LIMIT) -> Obstruction:
@@ -41,13 +43,25 @@ def no_gluing(arranged: Arrangement, clock: Clock = NO_LIMIT) -> Obstruction:
 def _contradicting(seams: OutlineSeams, clock: Clock) -> Ints:
     """Return crossings and feet that contradict each other, given the names of the sheets alone."""
     known = peel(seams)
-    concerned = reasons(seams, known) if known.is_contradiction else np.arange(len(seams.around))
+    first = [known.failed] if known.is_contradiction else _contradicting_where_open(seams, known, clock)
+    concerned = reasons(seams, known, first)
     named = peel(replace(seams, around=seams.around[:0], bottom=seams.bottom[:0]))
-    whole = open_whole(seams, named)
-    fresh = count(whole.n_variables + 1)
-    given = list(whole.of_seams(fresh))
-    demands = [list(whole.of_meeting(number, fresh)) for number in concerned.tolist()]
-    return np.asarray(concerned[minimal_core(demands, given, clock, _EFFORT)])
+    return np.array(_core(open_around(seams, named, concerned), clock))
+
+
+def _contradicting_where_open(seams: OutlineSeams, known: Peeled, clock: Clock) -> list[int]:
+    """Return crossings and feet that contradict each other, given all that is known."""
+    part = next(part for part in open_parts(seams, known) if solve(part.clauses(), clock) is None)
+    return _core(part, clock)
+
+
+def _core(part: OpenPart, clock: Clock) -> list[int]:
+    """Return crossings and feet of a part whose conditions contradict each other, as few as possible."""
+    fresh = count(part.n_variables + 1)
+    given = list(part.of_seams(fresh))
+    demands = [list(part.of_meeting(number, fresh)) for number in part.meetings.tolist()]
+    core: list[int] = part.meetings[minimal_core(demands, given, clock, _EFFORT, _MINIMISE_UP_TO)].tolist()
+    return core
 
 
 def _visits(search_map: SearchMap, meetings: Ints) -> Ints:

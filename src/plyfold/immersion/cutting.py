@@ -17,9 +17,9 @@ from bisect import bisect_right
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement, CurveLike
-from plyfold.errors import NotImmersibleError
-from plyfold.immersion.immersion import Immersion
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
+from plyfold.immersion.immersion import require_disk, require_immersion
+from plyfold.immersion.obstructions import require_curve_without_cusps
 from plyfold.immersion.solve import find_immersion
 
 __all__ = ["irreducible_kernels"]
@@ -42,6 +42,8 @@ def irreducible_kernels(curve: CurveLike) -> list[Arrangement]:
     ------
     NotImmersibleError
         If the curve bounds no disk.
+    InputError
+        If it bounds a disk with handles, has cusps, or is several.
 
     Examples
     --------
@@ -49,9 +51,9 @@ def irreducible_kernels(curve: CurveLike) -> list[Arrangement]:
     >>> irreducible_kernels(ramp)
     []
     """
-    found = find_immersion(curve)
-    if not isinstance(found, Immersion):
-        raise NotImmersibleError(found)
+    arranged = arrange(curve)
+    require_curve_without_cusps(arranged, "cutting into kernels")
+    found = require_disk(require_immersion(find_immersion(arranged)))
     kernels, waiting = [], [found.arrangement]
     while waiting:
         piece = waiting.pop()

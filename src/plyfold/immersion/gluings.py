@@ -23,7 +23,7 @@ from plyfold.graphs import components
 from plyfold.immersion.corners import NO_SEAM
 from plyfold.immersion.peeling import OutlineSeams, Peeled
 
-__all__ = ["OpenPart", "open_parts", "open_whole"]
+__all__ = ["OpenPart", "open_around", "open_parts", "open_whole"]
 
 # The variable that is always true.
 _TRUE = 1
@@ -230,9 +230,18 @@ def _implied(ways: Ways, plain: Ways) -> Iterator[list[int]]:
 
 def open_whole(seams: OutlineSeams, known: Peeled) -> OpenPart:
     """Return all that is open, as one part."""
-    open_seams = np.unique(np.repeat(np.arange(len(seams.size)), seams.size)[known.upper < 0])
+    open_seams = _open_seams(seams, known)
     concerned = np.isin(seams.around, open_seams).any(axis=1)
     return OpenPart(seams, known, open_seams, np.flatnonzero(concerned))
+
+
+def open_around(seams: OutlineSeams, known: Peeled, meetings: Ints) -> OpenPart:
+    """Return what is open around some crossings and feet, whatever there is elsewhere."""
+    return OpenPart(seams, known, np.intersect1d(_open_seams(seams, known), seams.around[meetings]), meetings)
+
+
+def _open_seams(seams: OutlineSeams, known: Peeled) -> Ints:
+    return np.unique(np.repeat(np.arange(len(seams.size)), seams.size)[known.upper < 0])
 
 
 def open_parts(seams: OutlineSeams, known: Peeled) -> list[OpenPart]:

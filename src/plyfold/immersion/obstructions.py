@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrangement.arrangement import Arrangement, require_one_loop
 from plyfold.arrays import Ints
+from plyfold.errors import InputError
 from plyfold.graphs import components
 from plyfold.immersion.immersion import loop_characteristics
 from plyfold.immersion.shorter_lobes import place_of_turning
@@ -20,8 +21,18 @@ __all__ = [
     "may_bound_disk",
     "negative_winding",
     "obstruction",
+    "require_curve_without_cusps",
     "visible_obstruction",
 ]
+
+
+def require_curve_without_cusps(arranged: Arrangement, what: str) -> None:
+    """Refuse an outline of several loops, or with cusps, for what is there for one curve without cusps alone."""
+    require_one_loop(arranged, what)
+    if arranged.cusp_index.any():
+        where = tuple((x, y) for x, y in arranged.marks.tolist())
+        hint = "find_immersion, immersions and count_immersions take cusps"
+        raise InputError(f"{what} is there for curves without cusps alone", where, hint=hint)
 
 
 def may_bound_disk(arranged: Arrangement) -> bool:

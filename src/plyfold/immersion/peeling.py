@@ -14,7 +14,7 @@ contradiction. Often they follow from fewer choices, or from none.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -193,14 +193,15 @@ def _ends(seams: OutlineSeams) -> tuple[Ints, Ints]:
     return at, place
 
 
-def reasons(seams: OutlineSeams, known: Peeled) -> Ints:
-    """Return crossings and feet that contradict each other, given what peeling found until it failed.
+def reasons(seams: OutlineSeams, known: Peeled, meetings: Iterable[int]) -> Ints:
+    """Return all crossings and feet from which it follows what is known around some of them, those included.
 
-    From where it failed, back over all pairs from which something follows, to those known from the start.
+    The way leads back over all pairs from which something follows, to those known from the start.
     """
     state = *_given(seams, seams.own), Found(known.upper, known.port, known.because, np.array([known.failed]))
-    waiting = _pairs_at(seams, known, known.failed)
-    seen, found = set(waiting), {known.failed}
+    found = set(meetings)
+    waiting = [pair for at in found for pair in _pairs_at(seams, known, at)]
+    seen = set(waiting)
     while waiting:
         pair = waiting.pop()
         because = int(known.because[pair])

@@ -51,8 +51,8 @@ def find_immersion(
         One curve that turns once, apart from its cusps, bounds a disk; one that turns 1 − 2g times, a disk with g
         handles. Several bound one surface, perhaps in several pieces. Each has the surface on its left, so outer
         boundaries run counter-clockwise and holes clockwise.
-    connected : bool, default False
-        Demand a surface in one piece.
+    connected : bool, optional
+        Demand a surface in one piece; by default, several will do.
     time_limit : float, optional
         Seconds after which to give up; none by default.
 
@@ -123,8 +123,8 @@ def immersions(curve: OutlineLike, connected: bool = False) -> Iterator[Immersio
     Parameters
     ----------
     curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of curves
-    connected : bool, default False
-        List those in one piece alone.
+    connected : bool, optional
+        List those in one piece alone; by default, all.
 
     Yields
     ------
@@ -166,8 +166,8 @@ def count_immersions(curve: OutlineLike, connected: bool = False, time_limit: fl
     Parameters
     ----------
     curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of curves
-    connected : bool, default False
-        Count those in one piece alone.
+    connected : bool, optional
+        Count those in one piece alone; by default, all.
     time_limit : float, optional
         Seconds after which to give up; none by default.
 

@@ -171,8 +171,11 @@ def read_each(
 
     Parameters
     ----------
-    path, id, tolerance, uv
-        As for :func:`read`.
+    path : str or Path
+    id : str, optional
+    tolerance : float, optional
+    uv : bool, optional
+        All as for :func:`read`.
 
     Returns
     -------

@@ -109,7 +109,7 @@ def outline_of_shapes(shapes: Sequence[Shape]) -> Outline:
         return _joined(lines, repairs)
     repairs += [_open_line(line) for line in lines if not line.closed]
     if len(loops) == 1:
-        return Curve(loops[0].points, repairs, loops[0].cusps)
+        return Curve(loops[0].points, repairs, loops[0].cusps or None)
     return _outline_of_loops(loops, repairs)
 
 

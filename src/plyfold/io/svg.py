@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pyexpat import ErrorString, ExpatError, ParserCreate
 from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
-from svgelements import SVG, Arc, Close, CubicBezier, Length, Move, QuadraticBezier
+from svgelements import SVG, Arc, Close, CubicBezier, Image, Length, Move, QuadraticBezier, Text
 from svgelements import Shape as ShapeElement
 
 from plyfold.arrays import Floats
@@ -38,12 +38,16 @@ _SHAPE_HINT = "draw one closed path, polygon, polyline, rect, circle or ellipse"
 
 @dataclass(frozen=True, eq=False)
 class DrawnShape:
-    """A shape of an SVG: its pieces, by which rule it is filled, and its cusps, at the nodes of the pieces."""
+    """A shape of an SVG: its pieces, by which rule it is filled, and its cusps, at the nodes of the pieces.
+
+    The first shape of a document has the record of what was left out of it.
+    """
 
     pieces: tuple[DrawnPath, ...]
     name: str
     even_odd: bool
     cusps: tuple[CuspMark, ...]
+    repairs: tuple[Repair, ...] = ()
 
 
 def shapes_in_svg(data: bytes, id: str | None = None) -> list[DrawnShape]:
@@ -127,7 +131,10 @@ def _flattened(shape: DrawnShape, tolerance: float, alone: bool) -> Shape:
         Line(piece.flattened(tolerance), piece.closed, cusps=marks)
         for piece, marks in zip(shape.pieces, cusps, strict=True)
     ]
-    return _painted(lines, shape.name) if shape.even_odd and not alone else Shape(tuple(lines), shape.name)
+    if shape.even_odd and not alone:
+        lines, turned = _painted(lines)
+        return Shape(tuple(lines), shape.name, (*shape.repairs, *turned))
+    return Shape(tuple(lines), shape.name, shape.repairs)
 
 
 def _cusps_at_vertices(shape: DrawnShape, tolerance: float) -> list[dict[int, int]]:
@@ -142,8 +149,8 @@ def _cusps_at_vertices(shape: DrawnShape, tolerance: float) -> list[dict[int, in
     return found
 
 
-def _painted(lines: list[Line], name: str) -> Shape:
-    """Return the lines of a shape that is filled by even and odd, with directions where these can be told."""
+def _painted(lines: list[Line]) -> tuple[list[Line], list[Repair]]:
+    """Return the lines of a shape that is filled by even and odd with the directions that can be told, and a record."""
     loops = [number for number, line in enumerate(lines) if line.closed]
     points = [as_points(lines[number].points) for number in loops]
     repairs = []
@@ -154,7 +161,7 @@ def _painted(lines: list[Line], name: str) -> Shape:
             repairs.append(Repair("direction kept (even-odd loops that meet)", (x, y), 0.0))
         elif sense(along) == -direction:
             repairs.append(Repair("loop turned round (even-odd)", (x, y), 0.0))
-    return Shape(tuple(lines), name, tuple(repairs))
+    return lines, repairs
 
 
 def _checked_size(points: Floats) -> float:
@@ -185,29 +192,40 @@ def _drawn_shapes(data: bytes, id: str | None) -> list[DrawnShape]:
     document = _safe_document(data)
     try:
         elements = _elements_by_id(document)
-        shapes = [_drawn_shape(element) for element in elements.get(id, [])]
+        chosen = elements.get(id, [])
+        shapes = [_drawn_shape(element) for element in chosen if isinstance(element, ShapeElement)]
+        others = tuple(_left_out(element) for element in chosen if not isinstance(element, ShapeElement))
     except FileFormatError:
         raise
     except Exception as error:  # svgelements lets through whatever a bad number or attribute runs into
         reason = str(error) or "a number or a command is not understood"
         hint = "check the path data, transforms and lengths of its shapes"
         raise FileFormatError(f"broken SVG: {reason}", hint=hint) from error
-    if id is not None and not elements.get(id):
-        names = _listed(name for name, found in elements.items() if name and found)
-        raise FileFormatError(f"no shape in it has the id {id!r}", hint=f"ids with shapes: {names or 'none'}")
-    return [shape for shape in shapes if shape.pieces]
+    if id is not None and not shapes:
+        named = [name for name, found in elements.items() if any(isinstance(part, ShapeElement) for part in found)]
+        hint = f"ids with shapes: {_listed(filter(None, named)) or 'none'}"
+        raise FileFormatError(f"no shape in it has the id {id!r}", hint=hint)
+    drawn = [shape for shape in shapes if shape.pieces]
+    return [replace(drawn[0], repairs=others), *drawn[1:]] if drawn else []
 
 
 def _elements_by_id(document: bytes) -> dict[str | None, list[Any]]:
-    """Return the shapes within each element that has an id, and under None all that are drawn."""
+    """Return what is drawn within each element that has an id, and under None all: shapes, texts and pictures."""
     drawing = SVG.parse(io.BytesIO(document), reify=False, on_error="raise")
-    return {name: _shapes_within(element) for name, element in [(None, drawing), *drawing.objects.items()]}
+    return {name: _drawn_within(element) for name, element in [(None, drawing), *drawing.objects.items()]}
 
 
-def _shapes_within(element: Any) -> list[Any]:
-    if isinstance(element, ShapeElement):
+def _drawn_within(element: Any) -> list[Any]:
+    kinds = (ShapeElement, Text, Image)
+    if isinstance(element, kinds):
         return [element]
-    return list(element.select(lambda part: isinstance(part, ShapeElement))) if hasattr(element, "select") else []
+    return list(element.select(lambda part: isinstance(part, kinds))) if hasattr(element, "select") else []
+
+
+def _left_out(element: Any) -> Repair:
+    """Return the record of a text or a picture, which have no outline here."""
+    x, y = element.transform.point_in_matrix_space((float(element.x or 0), float(element.y or 0)))
+    return Repair("text left out" if isinstance(element, Text) else "picture left out", (float(x), 0.0 - float(y)), 0.0)
 
 
 def _drawn_shape(element: Any) -> DrawnShape:

@@ -170,7 +170,7 @@ def _blocks(text: str) -> tuple[_Columns, list[list[_Row]]]:
         else:
             first_line, count = first_line or number, count or len(fields)
             _refuse_other_length(len(fields), number, count, first_line)
-            blocks[-1].append(_row(content, known, number))
+            blocks[-1].append(_row(content, fields, known, number))
         header_allowed = False
     return known, [block for block in blocks if block]
 
@@ -201,14 +201,14 @@ def _refuse_other_length(length: int, line: int, columns: int, first_line: int) 
         raise FileFormatError(f"line {line}: {length} numbers, where line {first_line} has {columns}", hint=hint)
 
 
-def _row(content: str, known: _Columns, line: int) -> _Row:
-    fields = _SEPARATOR.split(content)
+def _row(content: str, fields: list[str], known: _Columns, line: int) -> _Row:
     named = [column for column in known if column is not None]
     if not named:
-        return _Row(_point(content, line), "", 0, line)
-    plain = ",".join(field for column, field in enumerate(fields) if column not in named)
+        return _Row(_point(content, fields, line), "", 0, line)
+    plain = [field for column, field in enumerate(fields) if column not in named]
     loop = "" if known.loop is None else fields[known.loop]
-    return _Row(_point(plain, line), loop, 0 if known.cusp is None else _index(fields[known.cusp], line), line)
+    cusp = 0 if known.cusp is None else _index(fields[known.cusp], line)
+    return _Row(_point(",".join(plain), plain, line), loop, cusp, line)
 
 
 def _index(field: str, line: int) -> int:
@@ -218,9 +218,8 @@ def _index(field: str, line: int) -> int:
     return int(field)
 
 
-def _point(content: str, line: int) -> tuple[float, ...]:
+def _point(content: str, fields: list[str], line: int) -> tuple[float, ...]:
     """Return x and y, and a third number if there is one: the curve says that it leaves that out."""
-    fields, separators = _SEPARATOR.split(content), _SEPARATOR.findall(content)
     for place, field in enumerate(fields):
         if not _is_number(field) or (place < 2 and not math.isfinite(float(field))):
             hint = "write one point per line: x, y"
@@ -229,6 +228,7 @@ def _point(content: str, line: int) -> tuple[float, ...]:
     if len(fields) not in (2, 3):
         raise FileFormatError(f"line {line}: {len(fields)} numbers where x and y were expected", hint=hint)
     # Three numbers may be two with decimal commas: 1;2,5 or 1, 2,5.
+    separators = _SEPARATOR.findall(content) if len(fields) > 2 else []
     if len({(separator.strip(), separator.strip() == separator) for separator in separators}) > 1:
         raise FileFormatError(f"line {line}: its numbers are separated in different ways", hint=hint)
     return tuple(map(float, fields))

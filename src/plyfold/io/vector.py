@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
 from plyfold.errors import FileFormatError
 from plyfold.io.cusp_notation import cusps_of_loops
@@ -21,7 +22,7 @@ __all__ = ["shapes_in_geojson", "shapes_in_wkt"]
 
 _HINT = "give LineStrings, Polygons, or MultiLineStrings and MultiPolygons"
 # Another geometry on a line of its own; in a collection there would be a comma.
-_NEXT_GEOMETRY = re.compile(r"(?<=\))\s*\n\s*(?=[A-Za-z])")
+_NEXT_GEOMETRY = re.compile(r"\)\s*\n\s*(?=[A-Za-z])")
 
 
 def shapes_in_wkt(text: str) -> list[Shape]:
@@ -56,7 +57,9 @@ def shapes_in_wkt(text: str) -> list[Shape]:
     if text.upper().count("COLLECTION") > 1:  # the parser would recurse as deep as they are nested
         raise FileFormatError("it holds a collection in a collection", hint=_HINT)
     plain = re.sub(r"^\s*SRID=\d+;", "", text, flags=re.IGNORECASE).strip()
-    return [shape for part in _NEXT_GEOMETRY.split(plain) for shape in _shapes_of_geometry(_geometry(part))]
+    return [
+        shape for part in _NEXT_GEOMETRY.sub(")\0", plain).split("\0") for shape in _shapes_of_geometry(_geometry(part))
+    ]
 
 
 def _geometry(text: str) -> BaseGeometry:
@@ -73,19 +76,25 @@ def _geometry(text: str) -> BaseGeometry:
 
 
 def _shapes_of_geometry(geometry: BaseGeometry) -> list[Shape]:
-    import shapely
-    from shapely.geometry import mapping
-
+    shapes = _with_lines_first(_shapes_of_parts(geometry))
     said = left_out_coordinates(geometry)
-    shapes = shapes_in_geojson(_as_lists(mapping(shapely.force_2d(geometry))))
-    return [shape._replace(repairs=(*said, *shape.repairs)) for shape in shapes[:1]] + shapes[1:]
+    return [shapes[0]._replace(repairs=(*said, *shapes[0].repairs)), *shapes[1:]]
 
 
-def _as_lists(value: Any) -> Any:
-    """Return what shapely gives as GeoJSON, with lists in place of its tuples."""
-    if isinstance(value, dict):
-        return {name: _as_lists(part) for name, part in value.items()}
-    return [_as_lists(part) for part in value] if isinstance(value, list | tuple) else value
+def _shapes_of_parts(geometry: BaseGeometry) -> list[Shape]:
+    """Return the shape of a geometry, or those of the parts of a collection."""
+    from shapely import get_coordinates
+
+    parts = list(getattr(geometry, "geoms", [geometry]))
+    match geometry.geom_type:
+        case "GeometryCollection":
+            return [shape for part in parts for shape in _shapes_of_parts(part)]
+        case "Polygon" | "MultiPolygon":
+            rings = [[part.exterior, *part.interiors] for part in parts]
+            return [Shape(tuple(_rings([list(map(get_coordinates, polygon)) for polygon in rings])))]
+        case "Point" | "MultiPoint":
+            return [Shape((), "", _points_left_out(get_coordinates(geometry)))]
+    return [shape_of_strokes(map(get_coordinates, parts))]
 
 
 def shapes_in_geojson(value: dict[str, Any]) -> list[Shape]:
@@ -122,13 +131,19 @@ def shapes_in_geojson(value: dict[str, Any]) -> list[Shape]:
         shapes = _shapes(value)
     except RecursionError as error:
         raise _error("it is nested too deep") from error
+    if not shapes:
+        raise _error(f"the {_kind(value)} holds nothing")
+    return _with_lines_first(shapes)
+
+
+def _with_lines_first(shapes: list[Shape]) -> list[Shape]:
+    """Return the shapes that have lines; what is said of the others is said of the first of them."""
     repairs = [repair for shape in shapes if not shape.loops for repair in shape.repairs]
     drawn = [shape for shape in shapes if shape.loops]
-    if drawn:
-        return [drawn[0]._replace(repairs=(*repairs, *drawn[0].repairs)), *drawn[1:]]
-    if shapes:
+    if not drawn:
         raise _error("it holds points alone")
-    raise _error(f"the {_kind(value)} holds nothing")
+    first, *others = drawn
+    return [first._replace(repairs=(*repairs, *first.repairs)), *others]
 
 
 def _shapes(value: dict[str, Any], name: str = "", cusps: object = None) -> list[Shape]:
@@ -157,9 +172,11 @@ def _kind(value: dict[str, Any]) -> str:
 
 def _shape(kind: str, coordinates: object, name: str, cusps: object) -> Shape:
     if kind in ("Point", "MultiPoint"):
-        return Shape((), name, _points_left_out(kind, coordinates))
+        positions = _positions([coordinates] if kind == "Point" else coordinates)
+        return Shape((), name, _points_left_out(positions))
     if kind in ("Polygon", "MultiPolygon"):
-        rings = _rings([coordinates] if kind == "Polygon" else _list(coordinates))
+        polygons = [coordinates] if kind == "Polygon" else _list(coordinates)
+        rings = _rings([list(map(_positions, _list(polygon))) for polygon in polygons])
         lengths = [len(_list(ring.points)) for ring in rings]
         marks = cusps_of_loops(cusps, lengths)
         return Shape(tuple(ring._replace(cusps=marked) for ring, marked in zip(rings, marks, strict=True)), name)
@@ -172,16 +189,14 @@ def _shape(kind: str, coordinates: object, name: str, cusps: object) -> Shape:
     raise _error(f"its type {kind!r} is no line or polygon")
 
 
-def _rings(polygons: Sequence[object]) -> list[Line]:
+def _rings(polygons: Sequence[Sequence[Any]]) -> list[Line]:
     """Return the rings of polygons: of each first its shell, then its holes."""
-    rings = [(number, ring) for polygon in polygons for number, ring in enumerate(_list(polygon))]
-    if not rings:
+    if not any(polygons):
         raise _error("a polygon has no ring")
-    return [Line(_positions(ring), direction=-1 if number else 1) for number, ring in rings]
+    return [Line(ring, direction=-1 if number else 1) for polygon in polygons for number, ring in enumerate(polygon)]
 
 
-def _points_left_out(kind: str, coordinates: object) -> tuple[Repair, ...]:
-    positions = _positions([coordinates] if kind == "Point" else coordinates)
+def _points_left_out(positions: npt.ArrayLike) -> tuple[Repair, ...]:
     points, _ = as_planar_points(positions)
     return tuple(Repair("point left out", (x, y), 0.0) for x, y in points.tolist())
 

@@ -154,8 +154,20 @@ def as_outline(value: object) -> Outline:
     if hasattr(value, "outline"):
         return _outline_of_owner(value.outline)
     if are_several(value):
-        return outline_of_curves(as_curves(cast("Sequence[object]", value)))
+        return _outline_of_several(cast("Sequence[object]", value))
     return Curve(cast("npt.ArrayLike", value))
+
+
+def _outline_of_several(values: Sequence[object]) -> Outline:
+    """Return curves as one outline; arrays go in as they are, for it knows their rows."""
+    if len(values) == 1:
+        return as_curves(values)[0]
+    loops = []
+    for number, value in enumerate(values):
+        is_array = isinstance(value, list | tuple | np.ndarray) and not are_several(value)
+        with naming_the_curve(number, len(values)):
+            loops.append(cast("npt.ArrayLike", value) if is_array else as_curve(value))
+    return Outline(loops)
 
 
 def outline_of_curves(curves: Sequence[Curve]) -> Outline:

@@ -18,7 +18,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import chain
+from itertools import chain, pairwise
 from typing import TypeAlias
 
 import numpy as np
@@ -223,9 +223,9 @@ class LevelClauses:
         self._require_memory()
         highest = self.equations.highest
         border, i = np.repeat(np.arange(len(highest)), highest), count_each(highest)
-        rows = np.stack([-self.at_most(border, i), self.at_most(border, i + 1)], axis=1)
+        rows = clauses_of([[-self.at_most(border, i), self.at_most(border, i + 1)]])
         # The second clause says nothing; it makes the solver's models name every variable.
-        return [[_TRUE], [self.n_variables, -self.n_variables], *_without_constants(rows)[1]]
+        return [[_TRUE], [self.n_variables, -self.n_variables], *rows]
 
     @cached_property
     def of_crossings(self) -> list[list[list[int]]]:
@@ -303,22 +303,17 @@ class LevelClauses:
 
 def _by_demand(number: int, demand: Ints, rows: Ints) -> list[list[list[int]]]:
     """Return the clauses of each of so many demands, given the demand of each row of literals."""
-    which, clauses = _without_constants(rows)
-    demands: list[list[list[int]]] = [[] for _ in range(number)]
-    for place, clause in zip(demand[which].tolist(), clauses, strict=True):
-        demands[place].append(clause)
-    return demands
+    is_open = ~(rows == _TRUE).any(axis=1)
+    order = np.flatnonzero(is_open)[np.argsort(demand[is_open], kind="stable")]
+    clauses: list[list[int]] = rows[order].tolist()
+    start = np.searchsorted(demand[order], np.arange(number + 1)).tolist()
+    return [clauses[low:high] for low, high in pairwise(start)]
 
 
 def clauses_of(rows: Sequence[Sequence[Ints]]) -> list[list[int]]:
-    """Return the clauses of rows of literals, which are arrays as long as each other, without what is always so."""
-    return list(chain.from_iterable(_without_constants(np.stack(row, axis=1))[1] for row in rows))
-
-
-def _without_constants(rows: Ints) -> tuple[Ints, list[list[int]]]:
-    """Return which clauses do not hold anyway, and those without literals that are always false."""
-    which = np.flatnonzero(~(rows == _TRUE).any(axis=1))
-    return which, [list({x for x in row if x != -_TRUE}) for row in rows[which].tolist()]
+    """Return the clauses of rows of literals, which are arrays as long as each other, but those that hold anyway."""
+    stacked = (np.stack(row, axis=1) for row in rows)
+    return [clause for row in stacked for clause in row[~(row == _TRUE).any(axis=1)].tolist()]
 
 
 def solve_levels(clauses: LevelClauses, clock: Clock, more: Clauses = ()) -> Ints | None:
