@@ -33,6 +33,7 @@ __all__ = [
     "mark_weight",
     "middle_and_size",
     "natural_stretch",
+    "outer_ring_first",
 ]
 
 T = TypeVar("T", bound=np.generic)
@@ -110,14 +111,23 @@ def natural_stretch(vertices: Floats) -> float:
     return max(1.0, 0.25 * width / height) if height > 0 else 1.0
 
 
-def label_circle(arrangement: Arrangement, cell: int, tolerance: float = 0.005) -> tuple[float, float, float]:
+def outer_ring_first(arrangement: Arrangement, cell: int) -> Sequence[Floats]:
+    """Return the boundary polygons of a bounded cell: the outer one, and then its holes."""
+    rings = arrangement.cell_outlines(cell)
+    return rings if len(rings) == 1 else sorted(rings, key=lambda ring: -float(np.ptp(ring, axis=0).max()))
+
+
+def label_circle(
+    arrangement: Arrangement, cell: int, tolerance: float = 0.005, rings: Sequence[Floats] | None = None
+) -> tuple[float, float, float]:
     """Return the middle and radius of a large circle inside a bounded cell: the room for its label.
 
     It is the largest inscribed circle to a tolerance, in parts of the cell's size; 0.02 takes a third of the time.
+    ``rings`` are those of :func:`outer_ring_first`, where they are known.
     """
-    outlines = arrangement.cell_outlines(cell)
-    middle, size = middle_and_size(np.concatenate(outlines))
-    shell, *holes = sorted(((outline - middle) / size for outline in outlines), key=_spread, reverse=True)
+    rings = outer_ring_first(arrangement, cell) if rings is None else rings
+    middle, size = middle_and_size(rings[0])
+    shell, *holes = ((ring - middle) / size for ring in rings)
     polygon = shapely.Polygon(shell, holes)
     try:
         radius = shapely.maximum_inscribed_circle(polygon, tolerance=tolerance)
@@ -125,10 +135,6 @@ def label_circle(arrangement: Arrangement, cell: int, tolerance: float = 0.005) 
         return (*arrangement.cell_point(cell), 0.0)
     x, y = middle + size * np.array(radius.coords[0])
     return float(x), float(y), size * float(radius.length)
-
-
-def _spread(points: Floats) -> float:
-    return float(np.ptp(points, axis=0).max())
 
 
 def border_middle(points: Floats) -> tuple[Floats, Floats]:

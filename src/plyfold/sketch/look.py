@@ -11,8 +11,7 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.gauss import GaussCode
-from plyfold.arrays import Floats
-from plyfold.draw.placement import closed, label_circle
+from plyfold.draw.placement import closed, label_circle, outer_ring_first
 from plyfold.immersion.blank_word import blank_word
 from plyfold.immersion.immersion import Immersion
 from plyfold.obstruction import Obstruction, Unknown
@@ -100,8 +99,8 @@ def _border(drawn: Arrangement, border: int) -> list[list[float]]:
 
 
 def _cell(drawn: Arrangement, cell: int) -> dict[str, Any]:
-    x, y, radius = label_circle(drawn, cell, _LABEL_TOLERANCE)
-    outline, *holes = sorted(drawn.cell_outlines(cell), key=_area, reverse=True)
+    outline, *holes = rings = outer_ring_first(drawn, cell)
+    x, y, radius = label_circle(drawn, cell, _LABEL_TOLERANCE, rings)
     return {
         "cell": cell,
         "winding": int(drawn.winding[cell]),
@@ -111,12 +110,6 @@ def _cell(drawn: Arrangement, cell: int) -> dict[str, Any]:
         "radius": radius,
         "borders": sorted({dart // 2 for dart in drawn.cells[cell]}),
     }
-
-
-def _area(polygon: Floats) -> float:
-    """Return the signed area: of the boundaries of a bounded cell, the outer one alone runs counter-clockwise."""
-    x, y = (polygon - polygon[0]).T
-    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
 
 
 def _code(drawn: Arrangement) -> str:
