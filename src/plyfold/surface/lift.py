@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import chain
@@ -17,7 +18,14 @@ from plyfold.arrays import Floats, Ints, freeze
 from plyfold.certify import check_surface
 from plyfold.clock import UNWATCHED, Clock, Progress, Watch
 from plyfold.disk.unwrap import UnwoundDisk, unwound_mesh
-from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
+from plyfold.errors import (
+    InputError,
+    NotEmbeddableError,
+    NotImmersibleError,
+    PlyfoldError,
+    PrecisionError,
+    TimeLimitError,
+)
 from plyfold.immersion.immersion import Immersion, require_disk
 from plyfold.immersion.solve import find_immersion, watched_immersions
 from plyfold.io.mesh.saving import refuse_ending, save_model
@@ -26,7 +34,14 @@ from plyfold.layering.embedding import find_embedding
 from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
 from plyfold.layering.orders.search import first_layering
-from plyfold.mesh.cells import DEFAULT_TRIANGLES, area_of_edge, refuse_broken, refuse_sizes, triangulate_cells
+from plyfold.mesh.cells import (
+    DEFAULT_TRIANGLES,
+    CellTriangulation,
+    area_of_edge,
+    refuse_broken,
+    refuse_sizes,
+    triangulate_cells,
+)
 from plyfold.mesh.refine import drawn_outline
 from plyfold.obstruction import IMMERSION_REASONS, Obstruction, Unknown
 from plyfold.options import refuse_unless_flag, refuse_unless_number
@@ -36,7 +51,7 @@ from plyfold.surface.chords import split_chords
 from plyfold.surface.files import Colouring, model_of_surface
 from plyfold.surface.glue import cusps_of, intersection_curves, stack_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, flat_weight, refuse_stiffness, smooth_heights
-from plyfold.surface.stairs import heights_of_stairs, with_steps
+from plyfold.surface.stairs import Steps, heights_of_stairs, with_cusps_apart, with_steps
 from plyfold.surface.thicken import Solid, thicken
 from plyfold.wording import counted
 
@@ -346,10 +361,8 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     weight = flat_weight(flat)
     cells = triangulate_cells(drawn, max_area, triangles, watch)
     # Chords between sheets that pass through each other would cut the steps.
-    steps = with_steps(cells, cusps_of(drawn) if isinstance(layering, Layering) else drawn.visit_edge[:0])
-    if steps.cells is not cells:
-        cells = steps.cells
-        refuse_broken(drawn, cells)
+    steps = _steps(cells, drawn) if isinstance(layering, Layering) else Steps.none(cells)
+    cells = steps.cells
     if isinstance(layering, IntersectingLayering):
         cells = split_chords(cells, layering.intersections[:, 0])
         refuse_broken(drawn, cells)
@@ -370,6 +383,19 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         passing=mesh.passing,
         intersections=curves,
     )
+
+
+def _steps(cells: CellTriangulation, drawn: Arrangement) -> Steps:
+    """Return the cells with steps at cusps, or as they are where double precision has no room for steps."""
+    cusps = cusps_of(drawn)
+    with suppress(PrecisionError):
+        steps = with_steps(cells, cusps)
+        if steps.cells is not cells:
+            refuse_broken(drawn, steps.cells)
+        return steps
+    apart = with_cusps_apart(cells, cusps)
+    refuse_broken(drawn, apart)
+    return Steps.none(apart)
 
 
 def _refuse_wrong_kinds(allow_intersections: object, stiffness: object, pins: object, flat: object) -> None:
