@@ -16,7 +16,7 @@ from plyfold.colours import CUSP, winding_colour
 from plyfold.draw.figures import overview
 from plyfold.draw.over_under import over_under
 from plyfold.draw.over_under_files import over_under_svg, over_under_tikz
-from plyfold.draw.placement import Frame, arrows, border_line, label_circle
+from plyfold.draw.placement import Frame, arrows, border_line, border_middle, label_circle
 from plyfold.draw.viewer import page
 from plyfold.errors import InputError
 
@@ -269,3 +269,12 @@ def test_what_is_no_disk_has_no_disk_layout():
         draw.plot_layout(ring)
     titles = [ax.get_title() for ax in overview(ring).axes]
     assert titles == ["The outline, its winding numbers and borders", "The surface laid flat"]
+
+
+def test_a_border_without_length_has_a_middle():
+    """A bridge stands at the leftmost point of a loop, and that can be a cusp."""
+    arrangement = pf.arrange(pf.gallery.OUTLINES["torus-front"].outline)
+    lines = [border_line(arrangement, border) for border in range(arrangement.n_borders)]
+    (point,) = (line for line in lines if (line == line[0]).all())
+    middle, ahead = border_middle(point)
+    assert (middle.tolist(), ahead.tolist()) == (point[0].tolist(), [0, 0])
