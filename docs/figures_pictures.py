@@ -3,46 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import replace
-from io import BytesIO
-from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from PIL import Image
+from panels import IMAGES, panels, titled
 
 import plyfold as pf
 from plyfold import draw
 from plyfold.colours import INK, OBSTRUCTION, PAPER, mix, sheet_colour
 from plyfold.disk.motion import Motion
-from plyfold.draw.canvas import blank, line, polygon, write
+from plyfold.draw.canvas import line, polygon, write
 from plyfold.draw.placement import Frame
 from plyfold.gallery import CURVES
-from plyfold.io.saving import save_bytes
 from plyfold.offers.kinks import find_kink
 from plyfold.paper.collapsed import edge_collapsed_graph, linear_spanning_subtrees
 
-IMAGES = Path(__file__).parent / "images"
 DRAWING = (-90.0, 90.0)
 PIXELS = 360
-
-
-@contextmanager
-def panels(number: int, rows: int, columns: int, size: tuple[float, float]) -> Iterator[Iterator[Axes]]:
-    """Give the panels of a figure one by one, row by row, and save it in the end."""
-    figure = Figure(figsize=size, layout="constrained")
-    yield iter([blank(ax) for ax in figure.subplots(rows, columns, squeeze=False).ravel()])
-    drawn, small = BytesIO(), BytesIO()
-    figure.savefig(drawn, dpi=125, facecolor="white")
-    Image.open(drawn).convert("RGB").quantize(256).save(small, "png", optimize=True)
-    save_bytes(IMAGES / f"figure-{number:02}.png", small.getvalue(), force=True)
-
-
-def titled(ax: Axes, title: str) -> None:
-    """Put a title over a panel."""
-    ax.set_title(title, fontsize=10, color=INK)
 
 
 def arranged(name: str) -> pf.Arrangement:
@@ -71,13 +49,13 @@ def on_the_way(surface: pf.Surface, times: Sequence[float], panels: Iterator[Axe
 
 def figure_1() -> None:
     """Draw a curve and the surface over it from several directions."""
-    with panels(1, 1, 4, (12, 3.2)) as axes:
+    with panels("figure-01", 1, 4, (12, 3.2)) as axes:
         views(axes, "knotted-ribbon", [(-72, 52), (10, 35), (150, 25)], colours="cloth")
 
 
 def figure_2() -> None:
     """Draw a disk that slides over itself in the plane, and one that is turned over."""
-    with panels(2, 2, 4, (11, 5.4)) as axes:
+    with panels("figure-02", 2, 4, (11, 5.4)) as axes:
         on_the_way(pf.lift(CURVES["horseshoe"].curve), (0.0, 0.4, 0.75, 1.0), axes, "cloth")
         angle = 0.05 + 2 * np.pi * np.arange(120) / 120
         x, y = np.cos(angle), np.sin(angle)
@@ -88,7 +66,7 @@ def figure_2() -> None:
 
 def figure_3() -> None:
     """Draw a curve with two immersions, whole and in the middle."""
-    with panels(3, 2, 3, (10, 7.0)) as axes:
+    with panels("figure-03", 2, 3, (10, 7.0)) as axes:
         immersions = list(pf.immersions(CURVES["milnor"].curve))
         for title, half in (("the curve", None), ("its middle, enlarged", 0.15)):
             for number, ax in enumerate((next(axes), next(axes), next(axes))):
@@ -111,7 +89,7 @@ def enlarge(ax: Axes, half: float) -> None:
 
 def figure_4() -> None:
     """Draw how a disk becomes a ribbon with two loops, and the surface over it."""
-    with panels(4, 1, 5, (13.5, 3.0)) as axes:
+    with panels("figure-04", 1, 5, (13.5, 3.0)) as axes:
         surface = pf.lift(CURVES["two-loops"].curve)
         on_the_way(surface, (0.0, 0.35, 0.7, 1.0), axes, "sheets")
         draw.plot_surface(surface, next(axes), colours="sheets", pixels=PIXELS)
@@ -122,7 +100,7 @@ def figure_4() -> None:
 
 def figure_5() -> None:
     """Draw a curve with its borders in colours, its crossings and winding numbers."""
-    with panels(5, 1, 1, (4.6, 4.6)) as axes:
+    with panels("figure-05", 1, 1, (4.6, 4.6)) as axes:
         arrangement, ax = arranged("horseshoe"), next(axes)
         draw.plot_arrangement(arrangement, ax, borders=True)
         frame = Frame(arrangement.curve.points)
@@ -132,7 +110,7 @@ def figure_5() -> None:
 
 def figure_6() -> None:
     """Draw an immersion, the disk it comes from, the disk layout, and the sheets one by one."""
-    with panels(6, 1, 4, (13, 3.6)) as axes:
+    with panels("figure-06", 1, 4, (13, 3.6)) as axes:
         surface = pf.lift(CURVES["exit-ramp"].curve)
         immersion = surface.layering.immersion
         titled(draw.plot_immersion(immersion, next(axes)), "the immersion")
@@ -158,7 +136,7 @@ def sheets_apart(immersion: pf.Immersion, ax: Axes) -> None:
 
 def figure_7() -> None:
     """Draw the lists of the paper's procedure, and the disk layout as more and more cells are grouped."""
-    with panels(7, 2, 3, (11, 7.4)) as axes:
+    with panels("figure-07", 2, 3, (11, 7.4)) as axes:
         immersion = pf.find_embedding(CURVES["smallest-unliftable"].curve).immersion
         arrangement = immersion.arrangement
         draw.plot_arrangement(arrangement, next(axes), borders=True)
@@ -187,7 +165,7 @@ def spaced(numbers: Sequence[int]) -> str:
 
 def figure_8() -> None:
     """Write the sums over diagonal cells around a crossing of a curve that bounds no disk, and of one that does."""
-    with panels(8, 1, 2, (9, 4.4)) as axes:
+    with panels("figure-08", 1, 2, (9, 4.4)) as axes:
         for name, title in (("figure-eight", "|1| + |−1| ≠ 0 + 0"), ("horseshoe", "2 + 0 = 1 + 1")):
             arrangement, ax = arranged(name), next(axes)
             draw.plot_arrangement(arrangement, ax)
@@ -199,7 +177,7 @@ def figure_8() -> None:
 
 def figure_9() -> None:
     """Mark what keeps curves from bounding a disk: a cell, or the crossing where a lobe is one too many."""
-    with panels(9, 1, 4, (13, 3.7)) as axes:
+    with panels("figure-09", 1, 4, (13, 3.7)) as axes:
         for name in ("figure-eight", "kinked-circle", "limacon", "doubled-circle"):
             arrangement = arranged(name)
             obstruction, kink = pf.find_immersion(arrangement), find_kink(arrangement)
@@ -230,7 +208,7 @@ def unliftable_and_liftable() -> tuple[pf.Immersion, pf.Immersion]:
 
 def figure_10() -> None:
     """Draw how the arcs of a cell collapse, in two immersions."""
-    with panels(10, 2, 3, (10.5, 7)) as axes:
+    with panels("figure-10", 2, 3, (10.5, 7)) as axes:
         for immersion in unliftable_and_liftable():
             cell = deepest(immersion)
             draw.plot_marked_cell(immersion.arrangement, cell, next(axes))
@@ -241,7 +219,7 @@ def figure_10() -> None:
 
 def figure_11() -> None:
     """Draw a graph that is a path, with levels, and one that is a star."""
-    with panels(11, 1, 2, (7, 3.5)) as axes:
+    with panels("figure-11", 1, 2, (7, 3.5)) as axes:
         star, path = unliftable_and_liftable()
         graph(path, deepest(path), next(axes), pf.find_layering(path))
         graph(star, deepest(star), next(axes))
@@ -252,7 +230,7 @@ def figure_12() -> None:
     star, path = unliftable_and_liftable()
     ramps = [pf.find_immersion(CURVES[name].curve) for name in ("exit-ramp", "stacked-spiral")]
     columns = [*ramps, path, star]
-    with panels(12, 2, 4, (12, 6.2)) as axes:
+    with panels("figure-12", 2, 4, (12, 6.2)) as axes:
         for immersion in columns:
             draw.plot_marked_cell(immersion.arrangement, deepest(immersion), next(axes))
         for immersion in columns:
@@ -263,7 +241,7 @@ def figure_12() -> None:
 
 def figure_13() -> None:
     """Draw sketches and views of their surfaces."""
-    with panels(13, 4, 4, (10.5, 10)) as axes:
+    with panels("figure-13", 4, 4, (10.5, 10)) as axes:
         for name in ("pentagram", "stacked-spiral", "smallest-unliftable", "pretzel"):
             views(axes, name, [(-72, 52), (15, 30), (140, 20)], colours="sheets")
 

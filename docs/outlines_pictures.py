@@ -2,55 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from io import BytesIO
-from pathlib import Path
-
 import numpy as np
 import shapely
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from PIL import Image
+from panels import IMAGES, panels, titled
 
 import plyfold as pf
 from plyfold import draw
 from plyfold.arrays import Floats
 from plyfold.colours import INK, OBSTRUCTION, winding_colour
-from plyfold.draw.canvas import blank, dots, line, region
+from plyfold.draw.canvas import dots, line, region
 from plyfold.draw.depth_buffer import View
 from plyfold.draw.placement import Frame
 from plyfold.draw.render import Mesh, shade
 from plyfold.gallery import OUTLINES
-from plyfold.io.saving import save_bytes
 
-IMAGES = Path(__file__).parent / "images"
 PIXELS = 420
 # From 30° above the plane of the torus, as its front in the gallery is seen.
 ASKEW = View.of(-90.0, 30.0)
 RIGHT = np.array([1.0, 0.0])
 
 
-@contextmanager
-def panels(name: str, rows: int, columns: int, size: tuple[float, float]) -> Iterator[Iterator[Axes]]:
-    """Give the panels of a figure one by one, row by row, and save it in the end."""
-    figure = Figure(figsize=size, layout="constrained")
-    yield iter([blank(ax) for ax in figure.subplots(rows, columns, squeeze=False).ravel()])
-    drawn, small = BytesIO(), BytesIO()
-    figure.savefig(drawn, dpi=125, facecolor="white")
-    Image.open(drawn).convert("RGB").quantize(256).save(small, "png", optimize=True)
-    save_bytes(IMAGES / f"outlines-{name}.png", small.getvalue(), force=True)
-
-
-def titled(ax: Axes, title: str) -> None:
-    """Put a title over a panel."""
-    ax.set_title(title, fontsize=10, color=INK)
-
-
 def loops() -> None:
     """Draw a ring, letters and a handle: with their cells, and lifted."""
     names = ("ring", "letter-b", "letter-g", "ampersand", "disk-with-handle")
-    with panels("loops", 2, len(names), (13, 5.2)) as axes:
+    with panels("outlines-loops", 2, len(names), (13, 5.2)) as axes:
         for name in names:
             draw.plot_arrangement(OUTLINES[name].outline, next(axes))
         for name in names:
@@ -61,7 +36,7 @@ def links() -> None:
     """Draw all ways in which two rings can lie, from above, and one of those in which they are linked, lifted."""
     rings = OUTLINES["linked-rings"].outline
     layerings = sorted(pf.embeddings(rings), key=lambda each: each.changes)
-    with panels("links", 1, 5, (13, 2.6)) as axes:
+    with panels("outlines-links", 1, 5, (13, 2.6)) as axes:
         for layering in layerings:
             titled(draw.plot_casing(layering, next(axes)), "linked" if layering.changes else "one above the other")
         titled(draw.plot_surface(pf.lift(layerings[-1]), next(axes), pixels=PIXELS), "linked, lifted")
@@ -75,10 +50,10 @@ def linked(rings: pf.Outline) -> pf.Layering:
 def bridges() -> None:
     """Draw a cell with two holes and its bridges, and the cell cut open along them."""
     square = [(0, 0), (9, 0), (9, 6), (0, 6)]
-    holes = [[(1.8, 2.6), (2.4, 4), (3.6, 3.4), (3, 1.6)], [(5, 3.6), (6.5, 4.6), (7.4, 3.2), (6, 2)]]
+    holes = [[(1.8, 2.6), (2.4, 4), (3.6, 3.4), (3, 1.6)], [(5, 2.6), (6.5, 3.8), (7.4, 2.4), (6, 1.2)]]
     arrangement = pf.arrange([square, *holes])
     frame, cut = Frame(arrangement.outline.points), bridge_lines(arrangement)
-    with panels("bridges", 1, 2, (7.5, 2.7)) as axes:
+    with panels("outlines-bridges", 1, 2, (7.5, 2.7)) as axes:
         titled(draw.plot_arrangement(arrangement, ax := next(axes), borders=True), "a cell with holes, and its bridges")
         for bridge in cut:
             line(ax, frame(bridge), OBSTRUCTION, 1.8, linestyle=(0, (3, 2)), zorder=3)
@@ -103,7 +78,7 @@ def bridge_lines(arrangement: pf.Arrangement) -> list[Floats]:
 
 def cusps() -> None:
     """Draw cusps of index 1 and 2: with their cells, drawn out as curls, their layers, and lifted."""
-    with panels("cusps", 2, 4, (13, 6.4)) as axes:
+    with panels("outlines-cusps", 2, 4, (13, 6.4)) as axes:
         for index in (1, 2):
             spiral = wound(index)
             titled(draw.plot_arrangement(spiral, next(axes)), f"a cusp of index {index}")
@@ -141,7 +116,7 @@ def torus() -> None:
     """Draw a torus and what its front looks like: its outline, an end of the hole enlarged, and the lifted surface."""
     front = OUTLINES["torus-front"].outline
     surface = pf.lift(torus_layering(front))
-    with panels("torus", 1, 5, (14, 2.9)) as axes:
+    with panels("outlines-torus", 1, 5, (14, 2.9)) as axes:
         image = shade(torus_mesh(), ASKEW, PIXELS)
         titled(ax := next(axes), "a torus, seen from 30° above")
         ax.imshow(image.colours, origin="lower", extent=image.extent, interpolation="antialiased")

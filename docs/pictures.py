@@ -7,11 +7,12 @@ from textwrap import fill
 
 from matplotlib.figure import Figure
 from outlines_pictures import linked, torus_layering
+from panels import save_small
 
 import plyfold as pf
 from plyfold.colours import OBSTRUCTION
 from plyfold.draw import plot_arrangement, plot_surface
-from plyfold.draw.figures import save, summary
+from plyfold.draw.figures import summary
 from plyfold.gallery import CURVES, OUTLINES, NamedOutline
 
 HERE = Path(__file__).parent
@@ -41,7 +42,7 @@ def gallery() -> None:
         else:
             reason = fill(f"No disk. {pf.find_embedding(named.outline)}".replace("No disk. No ", "No "), 26)
             lifted.text(0.5, 0.5, reason, ha="center", va="center", color=OBSTRUCTION, transform=lifted.transAxes)
-    save(figure, HERE / "images" / "gallery.png", force=True)
+    save_small(figure, "gallery", 160)
 
 
 def layered(named: NamedOutline) -> pf.Layering:

@@ -96,8 +96,14 @@ def test_several_are_no_single_curve(value, call):
         pf.Curve(value)
     assert call in str(caught.value)
     assert well_said(caught.value)
-    with pytest.raises(PlyfoldError):
-        pf.lift(value)
+
+
+def test_several_are_an_outline():
+    """But strokes are none, nor curves that overlap."""
+    for name in ("strokes", "curves"):
+        with pytest.raises(PlyfoldError):
+            pf.lift(SEVERAL[name][0])
+    assert len(pf.lift(SEVERAL["geometries"][0], triangles=50).outline.loops) == 2
 
 
 @pytest.mark.parametrize("curves", [["examples/ramp.svg"], [SQUARE, "examples/ramp.svg"]])
@@ -196,7 +202,7 @@ def limits():
         "on a line": lambda: pf.Curve([(0, 0), (1, 1), (2, 2)]),
         "gap": lambda: pf.Curve.from_strokes([[(0, 0), (4, 0)], [(0, 3), (0, 2)]]),
         "no stroke": lambda: pf.Curve.from_strokes([]),
-        "hole": lambda: pf.arrange(shapely.box(0, 0, 9, 9).difference(shapely.box(1, 1, 2, 2))),
+        "hole": lambda: pf.unwrap(shapely.box(0, 0, 9, 9).difference(shapely.box(1, 1, 2, 2))),
         "ending": lambda: pf.lift(SQUARE, triangles=50).export("out.xyz"),
         "time": lambda: pf.lift(pf.gallery.CURVES["milnor"].curve, time_limit=0),
         "pins": lambda: pf.lift(SQUARE, triangles=50, pins={(9, 9): 1.0}),

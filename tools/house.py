@@ -54,6 +54,7 @@ EXCEPTIONS = {
     ("plyfold.layering.layering", "plyfold.draw.over_under_files"): "_repr_svg_ of a layering",
     ("plyfold.outline.curve", "plyfold.draw.svg"): "_repr_svg_ of a curve",
     ("plyfold.obstruction", "plyfold.draw.notebook"): "_repr_png_ of an obstruction",
+    ("plyfold.immersion.immersion", "plyfold.draw.notebook"): "_repr_png_ of an immersion that is no disk",
     ("plyfold.disk.unwrap", "plyfold.draw.notebook"): "_repr_png_ of an unwound disk",
     ("plyfold.surface.thicken", "plyfold.draw.notebook"): "_repr_png_ of a solid",
     ("plyfold.surface.lift", "plyfold.draw.film"): "export to .gif and .mp4",
@@ -91,8 +92,6 @@ LATE = {
     ("plyfold.outline.direction", "shapely"): _SMALL,
     ("plyfold.outline.given", "shapely"): _SMALL,
     ("plyfold.sat", "pysat"): _STAGE,
-    ("plyfold.surface.energy", "scipy"): _STAGE,
-    ("plyfold.surface.glue", "scipy"): _STAGE,
     ("plyfold.surface.heights", "scipy"): _STAGE,
 }
 

@@ -6,12 +6,12 @@ from collections.abc import MutableSequence
 
 import numpy as np
 
-from plyfold.arrays import Ints
+from plyfold.arrays import Floats, Ints
 
 # Graphs with fewer nodes and edges are done in plain Python.
 _FEW = 500
 
-__all__ = ["components", "representative", "shortest_path", "spanning_tree"]
+__all__ = ["components", "representative", "shortest_path", "spanning_tree", "ways_from"]
 
 
 def components(n: int, start: Ints, end: Ints) -> Ints:
@@ -83,6 +83,25 @@ def shortest_path(n: int, edges: Ints, start: int, end: int) -> list[int]:
     while path[-1] != start:
         path.append(int(before[path[-1]]))
     return path[::-1]
+
+
+def ways_from(sources: Ints, n: int, edges: Ints, length: Floats, limit: float) -> Floats:
+    """Return how far each of n nodes is from the nearest source, along edges of given lengths; infinite beyond a limit.
+
+    Examples
+    --------
+    >>> ways_from(np.array([1]), 4, np.array([(0, 1), (1, 2), (2, 3), (1, 2)]), np.array([2.0, 3.0, 4.0, 5.0]), 6.0)
+    array([ 2.,  0.,  3., inf])
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import dijkstra
+
+    start, end = edges.min(axis=1), edges.max(axis=1)
+    # Of several edges between two nodes the shortest counts; a matrix would add them up.
+    order = np.lexsort((length, end, start))
+    first = order[np.append(True, (np.diff(start[order]) != 0) | (np.diff(end[order]) != 0))[: len(order)]]
+    ways = coo_array((length[first], (start[first], end[first])), shape=(n, n)).tocsr()
+    return np.asarray(dijkstra(ways, directed=False, indices=sources, min_only=True, limit=limit))
 
 
 def representative(joined: MutableSequence[int] | Ints, member: int) -> int:

@@ -3,7 +3,7 @@
 import pytest
 
 import plyfold as pf
-from coarse import CURVES
+from coarse import CURVES, OUTLINES
 from plyfold import draw
 
 RAMP = CURVES["exit-ramp"].curve
@@ -27,6 +27,10 @@ VALUES = {
     "negative": lambda: pf.find_immersion(CURVES["kinked-circle"].curve),
     "layering": lambda: next(filter(None, (_no_layering(i) for i in pf.immersions(CURVES["bennequin"].curve)))),
     "casing": lambda: pf.embed_cased(RAMP, [True, False, True, False]),
+    "ring": lambda: pf.find_embedding(OUTLINES["ring"].outline).immersion,
+    "loops": lambda: OUTLINES["letter-g"].outline,
+    "layered loops": lambda: pf.find_embedding(OUTLINES["linked-rings"].outline),
+    "outline of the gallery": lambda: OUTLINES["torus-front"],
     "disk": lambda: pf.unwrap(RAMP, triangles=200),
     "solid": lambda: pf.lift(RAMP, triangles=200).thicken(0.1),
     "word": lambda: pf.blank_word(CURVES["milnor"].curve),

@@ -1,5 +1,6 @@
 """Pictures of outlines with several loops, holes and cusps."""
 
+import base64
 import re
 from collections import Counter
 from xml.etree import ElementTree
@@ -10,14 +11,15 @@ import shapely
 from matplotlib.colors import to_hex
 
 import plyfold as pf
+from coarse import OUTLINES as GALLERY
 from painted import painted
 from plyfold import draw
 from plyfold.colours import CUSP, winding_colour
 from plyfold.draw.figures import overview
 from plyfold.draw.over_under import over_under
 from plyfold.draw.over_under_files import over_under_svg, over_under_tikz
-from plyfold.draw.placement import Frame, arrows, border_line, border_middle, label_circle
-from plyfold.draw.viewer import page
+from plyfold.draw.placement import Frame, arrows, border_line, label_circle
+from plyfold.draw.viewer import mesh_data, page
 from plyfold.errors import InputError
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -37,7 +39,9 @@ def limacon(index=1):
 RING = pf.Outline([circle(0, 0, 2), circle(0.3, 0, 1, sense=-1)])
 TWO_RINGS = pf.Outline([circle(x, y, r, s) for x, y in ((0, 0), (2.6, 0.2)) for r, s in ((2, 1), (1.4, -1))])
 NESTED = pf.Outline([*RING.loops, circle(0.3, 0, 0.7), circle(0.3, 0, 0.4, sense=-1)])
+# Of the torus's front, the foot of a bridge is at a cusp.
 OUTLINES = {"ring": RING, "two rings": TWO_RINGS, "nested": NESTED, "limaçon": limacon()}
+OUTLINES["front of a torus"] = GALLERY["torus-front"].outline
 EVERY = pytest.mark.parametrize("outline", OUTLINES.values(), ids=OUTLINES.keys())
 
 
@@ -250,6 +254,11 @@ def test_a_surface_has_its_loops_and_cusps_in_the_picture_and_on_the_page(outlin
         assert near.covers(shapely.MultiPoint(loop))
     signs = [text.get_text() for text in ax.texts]
     assert signs == [str(index) for index in np.concatenate(outline.cusps).tolist() if index]
+    data = mesh_data(surface)
+    cusps = np.frombuffer(base64.b64decode(data["cusps"]), "<u4")
+    assert surface.boundary[cusps].tolist() == cusps.tolist()
+    assert surface.vertices[cusps, :2].tolist() == outline.points[np.concatenate(outline.cusps) > 0].tolist()
+    assert len(data["frames"]) == (10 if surface.layering.immersion.is_disk else 0)
     html = page(surface)
     assert all(f"<dt>{name}</dt>" in html for name in ("triangles", "layers"))
 
@@ -263,18 +272,16 @@ def test_an_obstruction_is_shown_on_all_loops():
     assert sum(len(line.get_xydata()) == 61 for line in ax.lines) == 2
 
 
+@EVERY
+def test_every_border_is_numbered(outline):
+    arrangement = pf.arrange(outline)
+    shown = Counter(text.get_text() for text in draw.plot_arrangement(arrangement, borders=True).texts)
+    assert all(shown[str(border)] for border in range(arrangement.n_borders))
+
+
 def test_what_is_no_disk_has_no_disk_layout():
     ring = pf.find_embedding(RING).immersion
     with pytest.raises(InputError, match="disk"):
         draw.plot_layout(ring)
     titles = [ax.get_title() for ax in overview(ring).axes]
     assert titles == ["The outline, its winding numbers and borders", "The surface laid flat"]
-
-
-def test_a_border_without_length_has_a_middle():
-    """A bridge stands at the leftmost point of a loop, and that can be a cusp."""
-    arrangement = pf.arrange(pf.gallery.OUTLINES["torus-front"].outline)
-    lines = [border_line(arrangement, border) for border in range(arrangement.n_borders)]
-    (point,) = (line for line in lines if (line == line[0]).all())
-    middle, ahead = border_middle(point)
-    assert (middle.tolist(), ahead.tolist()) == (point[0].tolist(), [0, 0])

@@ -24,6 +24,7 @@ def small_surface(scale=1.0, shift=0.0):
         faces=np.array([(0, 1, 2), (0, 2, 3)]),
         sheet=np.array([0, 1]),
         boundary=np.array([0, 1, 2, 3]),
+        cusps=np.empty(0, dtype=int),
         gap=1.0,
         intersections=(),
         layering=SimpleNamespace(

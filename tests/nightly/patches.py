@@ -77,10 +77,20 @@ def judge_depths(patch: Patch, arranged: pf.Arrangement) -> pf.Layering:
 
 
 def judge_lift(found: pf.Layering) -> None:
-    """The lifted surface has no two triangles that meet."""
+    """The lifted surface has no two triangles that meet, and seen from above it has the outline and its cusps."""
     surface = pf.lift(found, triangles=100)
     surface.check()
     assert not meeting_pairs(surface.vertices, surface.faces)
+    outline, seen = found.immersion.arrangement.outline, pf.Outline.from_mesh(surface.vertices, surface.faces)
+    assert seen.n_loops == outline.n_loops
+    assert set(map(tuple, outline.points.tolist())) <= set(map(tuple, seen.points.tolist()))
+    assert places_of_cusps(seen) == places_of_cusps(outline)
+
+
+def places_of_cusps(outline: pf.Outline) -> list[tuple[float, ...]]:
+    """The points that are cusps, with their indices."""
+    index = np.concatenate(outline.cusps)
+    return sorted((x, y, m) for (x, y), m in zip(outline.points.tolist(), index.tolist(), strict=True) if m)
 
 
 def depth_levels(patch: Patch, arranged: pf.Arrangement) -> np.ndarray:

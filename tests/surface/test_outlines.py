@@ -7,9 +7,10 @@ import pytest
 
 import plyfold as pf
 from plyfold.certify import check_surface_mesh
+from plyfold.draw.viewer import mesh_data
 from plyfold.errors import InputError
 from plyfold.mesh.cells import triangulate_cells
-from plyfold.surface.stairs import with_steps
+from plyfold.surface.stairs import with_cusps_apart, with_steps
 from reference.triangles import meeting_pairs
 
 SQUARE = [(0, 0), (9, 0), (9, 9), (0, 9)]
@@ -200,3 +201,17 @@ def test_stair_of_several_turns(turns):
     surface = pf.lift(curve, triangles=1000)
     surface.check()
     assert np.ptp(surface.vertices[:, 2]) > (turns - 0.5) * surface.gap
+
+
+def test_page_of_what_is_no_disk_has_no_way_from_the_disk():
+    data = mesh_data(pf.lift([SQUARE, HOLE], triangles=100))
+    assert data["frames"] == []
+    assert len(mesh_data(pf.lift(limacon(), triangles=100))["frames"]) > 1
+
+
+def test_edges_between_cusps_are_split():
+    square = triangulate_cells(pf.arrange([(0, 0), (2, 0), (2, 2), (0, 2)]), triangles=0)
+    apart = with_cusps_apart(square, np.array([0, 1, 2]))
+    ends = np.stack([apart.triangles, np.roll(apart.triangles, -1, axis=1)], axis=2).reshape(-1, 2)
+    assert not (ends < 3).all(axis=1).any()
+    assert with_cusps_apart(square, np.array([0])) is square

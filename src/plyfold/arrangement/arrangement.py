@@ -14,6 +14,7 @@ import numpy.typing as npt
 from plyfold.arrangement.general_position import in_general_position
 from plyfold.arrangement.leftmost import leftmost_crossing
 from plyfold.arrangement.maps import (
+    CellWalk,
     Code,
     Map,
     cell_of_each_dart,
@@ -166,7 +167,8 @@ class Arrangement:
         """
         used, turning, turned_round = oriented(*checked_code(partner, ccw, outer))
         marks = cusps_on_borders(used.code, cusps or {}, turned_round)
-        arranged = cls._of_map(with_marks(used, marks), (turning,), None, reversed=turned_round)
+        marked = with_marks(used, marks)
+        arranged = cls._of_map(marked, walked_round(marked), (turning,), None, reversed=turned_round)
         cells = 2 + arranged.n_crossings
         if arranged.n_cells != cells:
             raise GaussCodeError(
@@ -176,10 +178,11 @@ class Arrangement:
         return arranged
 
     @classmethod
-    def _of_map(cls, drawn: Map, turning: tuple[int, ...], outline: Outline | None, **more: Any) -> Arrangement:
-        """Return the arrangement of loops whose cells are still to be walked round."""
-        code = drawn.code
-        following, *boundaries = walked_round(drawn)
+    def _of_map(
+        cls, drawn: Map, walked: CellWalk, turning: tuple[int, ...], outline: Outline | None, **more: Any
+    ) -> Arrangement:
+        """Return the arrangement of loops whose cells have been walked round."""
+        code, (following, *boundaries) = drawn.code, walked
         cell_of_dart = cell_of_each_dart(*boundaries)
         winding = np.empty(len(boundaries[0]) - 1, dtype=np.int64)
         winding[cell_of_dart[0::2]] = code.left
@@ -565,8 +568,8 @@ def require_one_loop(arranged: Arrangement, what: str = "this") -> None:
     """Refuse an arrangement of several closed curves for what is there for one curve alone."""
     if arranged.n_loops > 1:
         raise InputError(
-            f"{what} is there for one curve alone so far, and here are {arranged.n_loops} together",
-            hint="find_embedding, embeddings, count_embeddings and embed_cased take them",
+            f"{what} is there for one closed curve alone, and the outline has {arranged.n_loops} loops",
+            hint="give one of its loops",
         )
 
 
@@ -581,7 +584,8 @@ def _of_curve(curve: Curve, general_position: Literal["perturb", "raise"], watch
     marks = cusps_of_outline(separated, edge)
     crossings = point[np.arange(len(point)) < used.code.partner]
     settled = {"exact_signs": visits.exact_signs, "reversed": turned_round}
-    return Arrangement._of_map(with_marks(drawn, marks), (turning,), separated, crossings=crossings, **settled)
+    marked = with_marks(drawn, marks)
+    return Arrangement._of_map(marked, walked_round(marked), (turning,), separated, crossings=crossings, **settled)
 
 
 def _of_loops(outline: Outline, turned_round: bool, watch: Watch) -> Arrangement:
@@ -592,11 +596,13 @@ def _of_loops(outline: Outline, turned_round: bool, watch: Watch) -> Arrangement
     none = np.zeros(len(visits.partner), dtype=np.int64)
     code = Code(visits.partner, visits.ccw, found.first_visit, left, visits.edge, none)
     plain = Map(code, found.outside, found.bridges)
-    inner = in_bounded_cells(plain)
+    walked = walked_round(plain)
+    inner = in_bounded_cells(plain, walked)
     feet = [mark for number in inner for mark in found.feet[number]]
     is_left = found.bridges[inner] % 2 == 0
     drawn = with_marks(plain, cusps_of_outline(outline, visits.edge), feet, is_left)
     crossings = visits.point[np.arange(len(visits.point)) < visits.partner]
     turning = tuple(map(polygon_turning_number, outline.loops))
     settled = {"exact_signs": visits.exact_signs, "reversed": turned_round}
-    return Arrangement._of_map(drawn, turning, outline, crossings=crossings, **settled)
+    walk = walked if drawn is plain else walked_round(drawn)
+    return Arrangement._of_map(drawn, walk, turning, outline, crossings=crossings, **settled)

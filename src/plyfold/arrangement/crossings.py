@@ -19,6 +19,8 @@ __all__ = ["Contacts", "Visits", "edge_ends", "find_contacts", "near_pairs", "or
 Bytes: TypeAlias = npt.NDArray[np.uint8]
 _Number = TypeVar("_Number", np.float64, np.uint8)
 
+_NONE = np.empty(0, dtype=np.int64)
+
 # Consecutive edges are looked at in groups of this size, unless a group meets more others than this on average.
 _GROUP = 8
 _CROWD = 24
@@ -77,7 +79,7 @@ class Visits:
     exact_signs: int
 
 
-def find_contacts(points: Floats, watch: Watch = UNWATCHED) -> Contacts:
+def find_contacts(points: Floats, watch: Watch = UNWATCHED, absent: Ints = _NONE) -> Contacts:
     """Find all pairs of edges of a closed polyline that cross or touch.
 
     Parameters
@@ -85,6 +87,8 @@ def find_contacts(points: Floats, watch: Watch = UNWATCHED) -> Contacts:
     points : (n, 2) float
         Vertices; edge i runs from point i to point i + 1, the last one back to point 0.
     watch : Watch, optional
+    absent : (a,) int, optional
+        Edges that are left out.
 
     Returns
     -------
@@ -94,7 +98,7 @@ def find_contacts(points: Floats, watch: Watch = UNWATCHED) -> Contacts:
     # Neighbours need no look: where one runs back over the other, the edge beyond touches too.
     ends = edge_ends(points)
     parts = []
-    for first, second in near_pairs(points):
+    for first, second in near_pairs(points, absent):
         watch.step()
         parts.append(_meetings(ends, first, second))
     touches = np.concatenate([part.touches for part in parts])
@@ -246,13 +250,15 @@ class _Groups:
     heading: Bytes
 
 
-def near_pairs(points: Floats) -> Iterator[tuple[Ints, Ints]]:
+def near_pairs(points: Floats, absent: Ints = _NONE) -> Iterator[tuple[Ints, Ints]]:
     """Yield, portion by portion, the pairs of edges that may cross or touch.
 
     Parameters
     ----------
     points : (n, 2) float
         Vertices of a closed polyline; edge i runs from point i to point i + 1.
+    absent : (a,) int, optional
+        Edges that are left out.
 
     Yields
     ------
@@ -264,10 +270,10 @@ def near_pairs(points: Floats) -> Iterator[tuple[Ints, Ints]]:
     -----
     O(n log n) plus the number of pairs. Memory for a portion does not grow with their number.
     """
-    groups = _grouped(points, _GROUP)
+    groups = _grouped(points, _GROUP, absent)
     pairs = _few_pairs(groups)
     if pairs is None:  # long edges: a box round several of them holds too much
-        groups = _grouped(points, 1)
+        groups = _grouped(points, 1, absent)
         portions = _group_pairs(groups)
     else:
         portions = _portions(pairs)
@@ -275,7 +281,7 @@ def near_pairs(points: Floats) -> Iterator[tuple[Ints, Ints]]:
         yield _edge_pairs(groups, first, second, len(points))
 
 
-def _grouped(points: Floats, size: int) -> _Groups:
+def _grouped(points: Floats, size: int, absent: Ints) -> _Groups:
     x, y = points.T
     # Rounding the sums keeps their order, or makes them equal.
     start = np.array([x, y, x + y, x - y])
@@ -283,8 +289,9 @@ def _grouped(points: Floats, size: int) -> _Groups:
     ahead = np.packbits(np.concatenate([start < end, start > end]), axis=0)
     heading = np.bitwise_and.reduce(_in_groups(ahead, size, 255)[0], axis=0)
     lower, upper = np.minimum(start[:2], end[:2]), np.maximum(start[:2], end[:2])
-    edge_high = np.concatenate([upper, -lower])
-    low = _in_groups(np.concatenate([lower, -upper]), size, np.inf)
+    edge_low, edge_high = np.concatenate([lower, -upper]), np.concatenate([upper, -lower])
+    edge_low[:, absent], edge_high[:, absent] = np.inf, -np.inf
+    low = _in_groups(edge_low, size, np.inf)
     high = _in_groups(edge_high, size, -np.inf)
     return _Groups(low, edge_high, low.min(axis=1), high.max(axis=1), heading)
 
@@ -314,7 +321,10 @@ def _group_pairs(groups: _Groups) -> Iterator[tuple[Ints, Ints]]:
     from shapely import STRtree, linestrings
 
     # Diagonals have the same bounding boxes, and are made faster.
-    boxes = linestrings(np.array([groups.low[:2], groups.high[:2]]).transpose(2, 0, 1))
+    corners = np.array([groups.low[:2], groups.high[:2]])
+    # Those of absent edges alone meet nothing, wherever they are said to be.
+    corners[:, :, np.isinf(groups.low[0])] = 0
+    boxes = linestrings(corners.transpose(2, 0, 1))
     tree = STRtree(boxes)
     for start in range(0, len(boxes), _LOOKUPS):
         first, second = tree.query(boxes[start : start + _LOOKUPS])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from plyfold.arrays import Bools, Floats, Ints
 from plyfold.predicates import cross_sign
 
 __all__ = [
+    "CellWalk",
     "Code",
     "Map",
     "cell_of_each_dart",
@@ -27,6 +28,10 @@ __all__ = [
     "outer_dart",
     "walked_round",
 ]
+
+
+CellWalk: TypeAlias = tuple[Ints, Ints, Ints]
+"""The dart after each dart, where the boundary of each cell starts, and the darts cell by cell."""
 
 
 class Code(NamedTuple):
@@ -70,7 +75,7 @@ def oriented(partner: Ints, ccw: Bools, outer: int) -> tuple[Map, int, bool]:
     return Map(code, np.array([outer]), np.empty((0, 2), dtype=np.int64)), turning, turned_round
 
 
-def walked_round(drawn: Map) -> tuple[Ints, Ints, Ints]:
+def walked_round(drawn: Map) -> CellWalk:
     """Return the dart after each, and the boundaries of all cells: where each starts, and their darts."""
     following = next_darts(drawn.code.partner, drawn.code.ccw, drawn.code.first_visit)
     boundaries = cell_boundaries(following, int(drawn.outside[0]))
@@ -80,11 +85,9 @@ def walked_round(drawn: Map) -> tuple[Ints, Ints, Ints]:
     return following, *boundaries
 
 
-def in_bounded_cells(plain: Map) -> list[int]:
+def in_bounded_cells(plain: Map, walked: CellWalk) -> list[int]:
     """Return which of the pairs of darts with the same cell lie in a bounded one."""
-    if not len(plain.same_cell):
-        return []
-    inner: list[int] = np.flatnonzero(cell_of_each_dart(*walked_round(plain)[1:])[plain.same_cell[:, 0]]).tolist()
+    inner: list[int] = np.flatnonzero(cell_of_each_dart(*walked[1:])[plain.same_cell[:, 0]]).tolist()
     return inner
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement.crossings import Contacts, Visits, edge_ends, find_contacts, order_visits
+from plyfold.arrangement.crossings import Visits, edge_ends, find_contacts, order_visits
 from plyfold.arrangement.general_position import touching_places
 from plyfold.arrangement.marks import Mark
 from plyfold.arrays import Bools, Floats, Ints
@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from shapely import STRtree
 
 __all__ = ["Nest", "nest"]
+
+_EDGES_IN_BOX = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,10 +137,9 @@ def _one_after_the_other(loops: Sequence[Floats]) -> _Polyline:
 
 def _visits(polyline: _Polyline, watch: Watch) -> Visits:
     """Return the visits to all crossings along one loop after the other; refuse loops that touch."""
-    found = find_contacts(polyline.points, watch)
-    edges, touches = found.edges, _own_touches_left_out(polyline, found.touches)
-    real = ~polyline.is_jump[edges].any(axis=1)
-    contacts = Contacts(edges[real], found.from_right[real], touches, found.exact_signs)
+    found = find_contacts(polyline.points, watch, np.flatnonzero(polyline.is_jump))
+    touches = _own_touches_left_out(polyline, found.touches)
+    contacts = replace(found, touches=touches)
     visits = order_visits(polyline.points, contacts)
     if len(touches) or len(visits.triple):
         raise GeneralPositionError(
@@ -179,16 +180,31 @@ class _Plan:
         return edge_ends(self.polyline.points)
 
     @cached_property
+    def leftmost(self) -> float:
+        """The least x of all points."""
+        return float(self.polyline.points[:, 0].min())
+
+    @cached_property
     def first_border(self) -> Ints:
         """The first border of each loop."""
         return starts_of(np.maximum(np.diff(self.first_visit), 1))
 
     @cached_property
     def boxes(self) -> STRtree:
-        """The bounding boxes of all edges."""
+        """The bounding boxes of edges, so many at a time that follow each other: as lines from corner to corner."""
         from shapely import STRtree, linestrings
 
-        return STRtree(linestrings(self.ends))
+        starts = np.arange(0, len(self.ends), _EDGES_IN_BOX)
+        low = np.minimum.reduceat(self.ends.min(axis=1), starts)
+        high = np.maximum.reduceat(self.ends.max(axis=1), starts)
+        return STRtree(linestrings(np.stack([low, high], axis=1)))
+
+    def near(self, ray: Floats) -> Ints:
+        """Return the edges in all boxes that a ray along the x axis meets, given its ends."""
+        from shapely import linestrings
+
+        edges = self.boxes.query(linestrings(ray))[:, None] * _EDGES_IN_BOX + np.arange(_EDGES_IN_BOX)
+        return np.asarray(edges[edges < len(self.ends)])
 
     def border(self, edge: int, visits_passed: int) -> int:
         """Return the border at a place on an edge, given how many visits come before it, on earlier loops too."""
@@ -248,10 +264,8 @@ def _met_on_the_left(plan: _Plan, corner: int) -> int | None:
     The ray runs a little higher than the vertex, by less than any other difference in height. So it meets no vertices
     and no crossings.
     """
-    from shapely import linestrings
-
     x, height = plan.polyline.points[corner].tolist()
-    near = plan.boxes.query(linestrings([(plan.polyline.points[:, 0].min(), height), (x, height)]))
+    near = plan.near(np.array([(plan.leftmost, height), (x, height)]))
     low = plan.ends[near, :, 1] <= height
     met = near[(plan.group[near] != plan.group[corner]) & ~plan.polyline.is_jump[near] & (low[:, 0] != low[:, 1])]
     places = {edge: _place_and_slope(plan.ends[edge], height) for edge in _nearest(plan.ends[met], x, height, met)}

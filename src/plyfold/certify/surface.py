@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.certify.disk import surface_sides
+from plyfold.certify.disk import require_pieces, surface_sides
 from plyfold.certify.exact import Ints, as_faces, as_loops, finite
 from plyfold.certify.immersed import common_places, require_along_curve, require_immersed, walk_along, walked
 from plyfold.certify.layered import require_gap, require_layered, require_no_overlap
@@ -16,7 +16,7 @@ from plyfold.certify.places import require_positive
 __all__ = ["check_rounded", "check_surface"]
 
 
-def check_surface(  # noqa: PLR0913 - the parts of a mesh, and two options
+def check_surface(  # noqa: PLR0913 - the parts of a mesh, and what it shall be
     loops: npt.ArrayLike | Sequence[npt.ArrayLike],
     vertices: npt.ArrayLike,
     faces: npt.ArrayLike,
@@ -25,10 +25,11 @@ def check_surface(  # noqa: PLR0913 - the parts of a mesh, and two options
     *,
     passing: npt.ArrayLike = (),
     cusps: npt.ArrayLike | Sequence[npt.ArrayLike] | None = None,
+    pieces: Iterable[tuple[int, int]] | None = None,
 ) -> None:
     """Check that a mesh in space is an embedded surface that seen from above is immersed and bounded by the outline.
 
-    It is a disk if the outline is one curve that turns once. :func:`check_surface_mesh` tells what it is otherwise.
+    It is a disk if the outline is one curve that turns once, apart from its cusps.
 
     Parameters
     ----------
@@ -45,13 +46,15 @@ def check_surface(  # noqa: PLR0913 - the parts of a mesh, and two options
         Edges along which sheets may pass through each other, see :func:`check_layered`.
     cusps : array_like of int, shape (n,), or a sequence of such, optional
         How many full turns the angle at each point of each loop has more than one sees; none by default.
+    pieces : iterable of (int, int), optional
+        What the connected pieces must be, see :func:`check_surface_mesh`.
 
     Raises
     ------
     CertificateError
-        If :func:`check_immersed_surface` or :func:`check_layered` fails, the latter also where the vertices between
-        points of the curve are at the exact points of their edges: over one another, at the crossing of their two
-        edges.
+        If :func:`check_immersed_surface`, :func:`check_surface_mesh` or :func:`check_layered` fails, the latter also
+        where the vertices between points of the curve are at the exact points of their edges: over one another, at the
+        crossing of their two edges.
 
     Examples
     --------
@@ -62,6 +65,8 @@ def check_surface(  # noqa: PLR0913 - the parts of a mesh, and two options
     positions = finite(vertices, 3)
     sides = surface_sides(faces, len(positions))
     walk = walked(as_loops(loops, cusps), positions[:, :2], sides, boundary)
+    if pieces is not None:
+        require_pieces(sides, len(positions), pieces)
     places = common_places(walk)
     require_immersed(sides, walk, places)
     require_layered(positions, sides.start.reshape(-1, 3), places, gap, passing)

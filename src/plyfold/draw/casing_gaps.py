@@ -96,6 +96,8 @@ def _shortened(points: Floats, length: float) -> Floats:
     steps = np.hypot(*np.diff(points, axis=0).T)
     travelled = np.concatenate([[0.0], np.cumsum(steps)])
     cut = min(length, _MOST_OF_BORDER * travelled[-1])
+    if not cut:
+        return points
     edge = int(np.searchsorted(travelled, cut, side="right")) - 1
     share = (cut - travelled[edge]) / steps[edge]
     return np.concatenate([points[edge : edge + 1] + share * (points[edge + 1] - points[edge]), points[edge + 1 :]])

@@ -10,6 +10,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from plyfold.colours import INK, PAPER, rgb, sheet_colour
 from plyfold.draw.canvas import blank, line, new_axes
 from plyfold.draw.depth_buffer import View
+from plyfold.draw.immersion_plot import plot_immersion
 from plyfold.draw.obstruction_plot import plot_obstruction
 from plyfold.draw.placement import closed, middle_and_size
 from plyfold.draw.render import Mesh, shade
@@ -17,9 +18,10 @@ from plyfold.obstruction import Obstruction
 
 if TYPE_CHECKING:
     from plyfold.disk.unwrap import UnwoundDisk
+    from plyfold.immersion.immersion import Immersion
     from plyfold.surface.thicken import Solid
 
-__all__ = ["obstruction_png", "solid_png", "unwound_png"]
+__all__ = ["immersion_png", "obstruction_png", "solid_png", "unwound_png"]
 
 _SIZE = (4.0, 4.0)
 _PIXELS = 400
@@ -34,6 +36,13 @@ def obstruction_png(obstruction: Obstruction) -> bytes | None:
         return None
     axes = new_axes(_SIZE)
     plot_obstruction(subject, obstruction, axes)
+    return axes._repr_png_()
+
+
+def immersion_png(immersion: Immersion) -> bytes:
+    """Return an immersed surface as it lies over its drawing."""
+    axes = new_axes(_SIZE)
+    plot_immersion(immersion, axes)
     return axes._repr_png_()
 
 

@@ -140,13 +140,13 @@ def label_circle(
 def border_middle(points: Floats) -> tuple[Floats, Floats]:
     """Return a point about half-way along a polyline, in the middle of an edge, and the unit direction there.
 
-    A border from the foot of a bridge to a cusp at the same point has no length, and no direction: (0, 0).
+    A border between a cusp and the foot of a bridge at the same point has no length, and then it is to the right.
     """
     step = np.diff(points, axis=0)
     length = np.hypot(step[:, 0], step[:, 1])
     travelled = np.cumsum(length)
     edge = min(int(np.searchsorted(travelled, travelled[-1] / 2, side="right")), len(step) - 1)
-    return points[edge] + step[edge] / 2, step[edge] / (length[edge] or 1.0)
+    return points[edge] + step[edge] / 2, step[edge] / length[edge] if length[edge] else np.array([1.0, 0.0])
 
 
 def arrows(arrangement: Arrangement, most: int = 6) -> list[tuple[Floats, Floats]]:

@@ -111,6 +111,7 @@ def mesh_data(surface: Surface) -> dict[str, Any]:
         "level": _base64(level, "<u4"),
         "sheetCell": np.asarray(surface.layering.immersion.sheet_cell).tolist(),
         "boundary": _base64(surface.boundary, "<u4"),
+        "cusps": _base64(surface.cusps, "<u4"),
         "frames": [_base64((frame - centre[:2]) / scale, "<f4") for frame in _frames(surface)],
         "intersections": [_base64((polyline - centre) / scale, "<f4") for polyline in surface.intersections],
         "palette": {
@@ -119,6 +120,7 @@ def mesh_data(surface: Surface) -> dict[str, Any]:
             "ink": colours.INK,
             "lineOnDark": colours.LINE_ON_DARK,
             "pale": colours.PALE,
+            "cusp": colours.CUSP,
             "intersection": colours.OBSTRUCTION,
             "layers": [colours.layer_colour(i + 1, levels) for i in range(levels)],
             "sheets": [colours.sheet_colour(i) for i in range(3 * len(colours.SHEETS))],

@@ -122,10 +122,15 @@ class Immersion:
         return f"<Immersion: {sheets} over {cells}>"
 
     def _repr_svg_(self) -> str | None:
-        # The disk layout; what is no disk has none.
+        # The disk layout; what is no disk has none, and is shown as it lies over the drawing.
         from plyfold.draw.svg import layout_svg
 
         return layout_svg(self) if self.is_disk else None
+
+    def _repr_png_(self) -> bytes | None:
+        from plyfold.draw.notebook import immersion_png
+
+        return None if self.is_disk or self.arrangement.outline is None else immersion_png(self)
 
     @property
     def n_sheets(self) -> int:
@@ -257,8 +262,9 @@ def require_memory_for_gluing(arrangement: Arrangement, bytes_per_pair: int = _B
 def require_disk(immersion: Immersion) -> Immersion:
     """Return a disk as it is; refuse another surface by an InputError."""
     if not immersion.is_disk:
+        curves = counted(immersion.arrangement.n_loops, "boundary curve")
+        characteristic = immersion.euler_characteristic
         raise InputError(
-            f"this is there for disks so far, and the surface has {immersion.arrangement.n_loops} boundary curves and "
-            f"Euler characteristic {immersion.euler_characteristic}"
+            f"this is there for disks alone, and the surface has {curves} and Euler characteristic {characteristic}"
         )
     return immersion

@@ -172,7 +172,7 @@ class _WrittenNumbers:
         count = sum(int(repeat or 1) for repeat in re.findall(r"(\d*)[a-zA-Z]", kinds))
         words = self._words[self._next : self._next + count]
         if len(words) < count:
-            raise ValueError("it ends too early")
+            raise FileFormatError("it ends too early", hint=_HINT)
         self._next += count
         return [float(word) for word in words]
 

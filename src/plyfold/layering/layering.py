@@ -64,7 +64,7 @@ class Layering:
         return f"<Layering: {sheets} on up to {levels}>"
 
     def _repr_svg_(self) -> str | None:
-        # A Gauss code alone has no picture, several curves none yet.
+        # A Gauss code alone has no picture.
         from plyfold.draw.over_under_files import over_under_svg
 
         return over_under_svg(self, colours="sheets") if self.immersion.arrangement.outline else None

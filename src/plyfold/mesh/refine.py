@@ -396,6 +396,8 @@ def _visits_before_points(arrangement: Arrangement) -> tuple[Ints, Ints]:
 
 def _border_after(arrangement: Arrangement, passed: Ints, loop: Ints) -> Ints:
     """Return the borders of places on loops before which so many visits come, on earlier loops too."""
+    if arrangement.n_loops == 1:
+        return np.asarray((passed - 1) % arrangement.n_borders)
     first, last = arrangement.first_visit[loop], arrangement.first_visit[loop + 1]
     # Before its first visit a loop is on the border that its last visit begins; without visits it has one border.
     border: Ints = np.searchsorted(arrangement.loop_of_border, loop)

@@ -21,6 +21,7 @@ import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
+from plyfold.graphs import ways_from
 from plyfold.halfedges import ends_of
 from plyfold.matrices import diagonal_matrix, factorised, summed
 from plyfold.ragged import next_in_rows
@@ -167,14 +168,10 @@ def _softness(corners: Floats, mesh: LiftedMesh, length: float) -> Floats:
     on average: they would rather stand upright than bend in their width. So where triangles are narrower than usual,
     the bending length is as much shorter.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import dijkstra
-
     start, end = ends_of(mesh.faces)
     side = np.hypot(*(corners[start] - corners[end]).T)
-    ways = coo_array((side, (start, end)), shape=2 * (len(corners),)).tocsr()
     reach = length / _BENDING_AT_CUSPS
-    way = dijkstra(ways, directed=False, indices=mesh.cusps, min_only=True, limit=reach)
+    way = ways_from(mesh.cusps, len(corners), np.stack([start, end], axis=1), side, reach)
     way[mesh.cusps] = side.min()
     (ux, uy), (vx, vy) = (corners[mesh.faces[:, i]].T - corners[mesh.faces[:, 0]].T for i in (1, 2))
     area = ux * vy - uy * vx

@@ -11,12 +11,11 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.graphs import components
+from plyfold.graphs import components, ways_from
 from plyfold.halfedges import ends_of, following
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering
-from plyfold.matrices import summed
 from plyfold.mesh.cells import CellTriangulation
 from plyfold.mesh.sheets import SheetMesh, glue_copies
 from plyfold.ragged import count_each, pairs_in_each
@@ -214,18 +213,14 @@ def shares_of_gap(points: Floats, mesh: LiftedMesh, gap: float) -> Floats:
     """
     if not len(mesh.passing):
         return np.ones(len(mesh.stacked))
-    from scipy.sparse.csgraph import dijkstra
-
     here, there = _sides_of_pairs(mesh)
     rows = (here, there, mesh.stacked, _open_pairs(mesh.passing))
     keys = [np.sort(pairs, axis=1) @ [len(mesh.level), 1] for pairs in rows]
     known, node = np.unique(np.concatenate(keys), return_inverse=True)
     start, end, stacked, sources = np.split(node, np.cumsum(list(map(len, keys)))[:-1])
     length = np.hypot(*(points[mesh.planar_vertex[here[:, 0]]] - points[mesh.planar_vertex[there[:, 0]]]).T)
-    one_each = np.unique(start * len(known) + end, return_index=True)[1]
-    ways = summed(length[one_each], start[one_each], end[one_each], (len(known), len(known)))
     reach = _WAY_PER_HEIGHT * gap
-    way = dijkstra(ways, directed=False, indices=np.unique(sources), min_only=True, limit=reach)
+    way = ways_from(np.unique(sources), len(known), np.stack([start, end], axis=1), length, reach)
     return np.asarray(np.clip(way[stacked] / reach, _LEAST_SHARE, 1.0))
 
 

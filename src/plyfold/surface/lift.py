@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import chain
@@ -14,10 +15,17 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, watched_arrangement
 from plyfold.arrays import Floats, Ints, freeze
-from plyfold.certify import check_surface, check_surface_mesh
+from plyfold.certify import check_surface
 from plyfold.clock import UNWATCHED, Clock, Progress, Watch
 from plyfold.disk.unwrap import UnwoundDisk, unwound_mesh
-from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
+from plyfold.errors import (
+    InputError,
+    NotEmbeddableError,
+    NotImmersibleError,
+    PlyfoldError,
+    PrecisionError,
+    TimeLimitError,
+)
 from plyfold.immersion.immersion import Immersion, require_disk
 from plyfold.immersion.solve import find_immersion, watched_immersions
 from plyfold.io.mesh.saving import refuse_ending, save_model
@@ -26,7 +34,14 @@ from plyfold.layering.embedding import find_embedding
 from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
 from plyfold.layering.orders.search import first_layering
-from plyfold.mesh.cells import DEFAULT_TRIANGLES, area_of_edge, refuse_broken, refuse_sizes, triangulate_cells
+from plyfold.mesh.cells import (
+    DEFAULT_TRIANGLES,
+    CellTriangulation,
+    area_of_edge,
+    refuse_broken,
+    refuse_sizes,
+    triangulate_cells,
+)
 from plyfold.mesh.refine import drawn_outline
 from plyfold.obstruction import IMMERSION_REASONS, Obstruction, Unknown
 from plyfold.options import refuse_unless_flag, refuse_unless_number
@@ -36,7 +51,7 @@ from plyfold.surface.chords import split_chords
 from plyfold.surface.files import Colouring, model_of_surface
 from plyfold.surface.glue import cusps_of, intersection_curves, stack_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, flat_weight, refuse_stiffness, smooth_heights
-from plyfold.surface.stairs import heights_of_stairs, with_steps
+from plyfold.surface.stairs import Steps, heights_of_stairs, with_cusps_apart, with_steps
 from plyfold.surface.thicken import Solid, thicken
 from plyfold.wording import counted
 
@@ -134,10 +149,8 @@ class Surface:
         """
         gap, outline = 0.0 if len(self.passing) else self.gap, self.outline
         mesh = self.vertices, self.faces, self.boundary
-        check_surface(outline.loops, *mesh, gap, passing=self.passing, cusps=outline.cusps)
-        pieces = self.layering.immersion.pieces
-        kinds = [(len(piece.loops), piece.euler_characteristic) for piece in pieces]
-        check_surface_mesh(self.faces, len(self.vertices), kinds)
+        kinds = [(len(piece.loops), piece.euler_characteristic) for piece in self.layering.immersion.pieces]
+        check_surface(outline.loops, *mesh, gap, passing=self.passing, cusps=outline.cusps, pieces=kinds)
 
     def unwrap(self) -> UnwoundDisk:
         """Spread the cloth out as a round disk: one-to-one, the boundary by arc length, no triangle flipped.
@@ -268,12 +281,14 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     time_limit: float | None = None,
     progress: Progress | None = None,
 ) -> Surface:
-    """Lift a closed curve to a layered surface that does not cut itself: the whole way (§2 to §4 of [MGR11]_).
+    """Lift an outline to a layered surface that does not cut itself: the whole way (§2 to §4 of [MGR11]_).
 
     Parameters
     ----------
     curve : Curve, (n, 2) array_like, shapely geometry, Arrangement, Immersion, Layering or IntersectingLayering
-        Of a curve the first immersion that can be layered is lifted.
+        Of a curve that bounds a disk the first immersion that can be layered is lifted; of any other outline, such as
+        an :class:`~plyfold.Outline` or a list of curves, an embedding. Pieces that do not hang together keep the gap
+        too, where they lie over each other, and lie on the table where not. Round a cusp the surface is a spiral stair.
     allow_intersections : bool, optional
         If no immersion can be layered, lift the one that does with the shortest self-intersections, as far as is known
         (``surface.layering.optimal``), and report them.
@@ -291,7 +306,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     pins : mapping, optional
         Heights that are given, in units of the drawing: ``{sheet: z}`` holds a whole sheet level, ``{(x, y): z}`` a
         point where a single sheet lies, and ``{(x, y, sheet): z}`` one of several sheets. Without pins the lowest
-        vertex has the height 0.
+        vertex has the height 0, also that of pieces which lie over no other.
     flat : bool or float, optional
         Keep those parts level that nothing overlaps: they are so many times as stiff (at least 1), or 100 times if
         true. The way up and down is made where sheets overlap, as far as it can be.
@@ -300,8 +315,8 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         routine is still to come to its end. With ``allow_intersections``, half of the time is for the search.
     progress : callable, optional
         Called with the name of the stage and the fraction of it done: "finding the crossings", "finding an immersion",
-        "layering immersion 1", "looking for short intersections", "triangulating the cells", "gluing the sheets",
-        "smoothing heights".
+        "layering immersion 1" or "layering the sheets", "looking for short intersections", "triangulating the cells",
+        "gluing the sheets", "smoothing heights".
 
     Returns
     -------
@@ -310,7 +325,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     Raises
     ------
     NotImmersibleError
-        If the curve bounds no immersed disk; ``error.obstruction`` says why.
+        If the outline bounds no immersed surface; ``error.obstruction`` says why.
     NotEmbeddableError
         If none of its immersions can be layered; ``error.obstruction`` belongs to the first. Not with
         ``allow_intersections``.
@@ -321,7 +336,8 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         its parts that rounding can break have been checked.
     InputError
         If an option is of the wrong kind, ``gap`` or a size is not positive, or the triangles would be more than ten
-        million; if pins name no place of the surface, or leave less room than the gap somewhere.
+        million; if pins name no place of the surface, or leave less room than the gap somewhere; with
+        ``allow_intersections``, if sheets change places on the way round a ring.
 
     References
     ----------
@@ -344,10 +360,9 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     refuse_stiffness(stiffness)
     weight = flat_weight(flat)
     cells = triangulate_cells(drawn, max_area, triangles, watch)
-    steps = with_steps(cells, cusps_of(drawn))
-    if steps.cells is not cells:
-        cells = steps.cells
-        refuse_broken(drawn, cells)
+    # Chords between sheets that pass through each other would cut the steps.
+    steps = _steps(cells, drawn) if isinstance(layering, Layering) else Steps.none(cells)
+    cells = steps.cells
     if isinstance(layering, IntersectingLayering):
         cells = split_chords(cells, layering.intersections[:, 0])
         refuse_broken(drawn, cells)
@@ -368,6 +383,19 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         passing=mesh.passing,
         intersections=curves,
     )
+
+
+def _steps(cells: CellTriangulation, drawn: Arrangement) -> Steps:
+    """Return the cells with steps at cusps, or as they are where double precision has no room for steps."""
+    cusps = cusps_of(drawn)
+    with suppress(PrecisionError):
+        steps = with_steps(cells, cusps)
+        if steps.cells is not cells:
+            refuse_broken(drawn, steps.cells)
+        return steps
+    apart = with_cusps_apart(cells, cusps)
+    refuse_broken(drawn, apart)
+    return Steps.none(apart)
 
 
 def _refuse_wrong_kinds(allow_intersections: object, stiffness: object, pins: object, flat: object) -> None:

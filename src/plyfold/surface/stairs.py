@@ -20,7 +20,7 @@ from plyfold.surface.chords import halved, triangulation
 from plyfold.surface.glue import LiftedMesh
 from plyfold.surface.heights import highest_below, rows_upward
 
-__all__ = ["Steps", "heights_of_stairs", "with_steps"]
+__all__ = ["Steps", "heights_of_stairs", "with_cusps_apart", "with_steps"]
 
 # Points on the edges at a cusp, and how much shorter each is than the one before.
 _RINGS, _RATIO = 3, 4.0
@@ -43,6 +43,11 @@ class Steps:
 
     cells: CellTriangulation
     outer: Ints
+
+    @classmethod
+    def none(cls, cells: CellTriangulation) -> Steps:
+        """Return triangles as they are."""
+        return cls(cells, np.empty(0, dtype=np.int64))
 
 
 def with_steps(mesh: CellTriangulation, cusps: Ints) -> Steps:
@@ -73,12 +78,19 @@ def with_steps(mesh: CellTriangulation, cusps: Ints) -> Steps:
     >>> float(np.hypot(*points[1:].T).min())
     0.015625
     """
-    cusps = _with_room(mesh, cusps)
+    mesh, cusps = with_cusps_apart(mesh, cusps), _with_room(mesh, cusps)
     if not len(cusps):
-        return Steps(mesh, np.empty(0, dtype=np.int64))
+        return Steps.none(mesh)
     mesh = halved(mesh, _seen_from(mesh, cusps))
     mesh = halved(mesh, _half_edges_at(mesh, cusps))
     return _with_rings(halved(mesh, _seen_from(mesh, cusps)), cusps)
+
+
+def with_cusps_apart(mesh: CellTriangulation, cusps: Ints) -> CellTriangulation:
+    """Split the edges between two cusps: there, the two sides of a solid would have an edge in common."""
+    start, end = ends_of(mesh.triangles)
+    between = np.isin(start, cusps) & np.isin(end, cusps) & ((start < end) | (mesh.twin < 0))
+    return halved(mesh, np.flatnonzero(between))
 
 
 def _with_room(mesh: CellTriangulation, cusps: Ints) -> Ints:
@@ -87,7 +99,7 @@ def _with_room(mesh: CellTriangulation, cusps: Ints) -> Ints:
     short = np.abs(mesh.points[end] - mesh.points[start]).max(axis=1) < _SHORTEST * np.spacing(
         np.abs(mesh.points).max()
     )
-    return np.setdiff1d(cusps, [start[short], end[short]])
+    return np.setdiff1d(cusps, np.append(start[short], end[short]))
 
 
 def _seen_from(mesh: CellTriangulation, cusps: Ints) -> Ints:
@@ -144,7 +156,9 @@ def _narrower_angle(mesh: CellTriangulation, spokes: Ints) -> Floats:
     """Return the smaller of the angles on both sides of half-edges inside cells, at their starts; 0 of others."""
     angle, twin = np.zeros(len(spokes)), mesh.twin[spokes]
     inside = np.flatnonzero((twin >= 0) & ~np.isin(spokes, mesh.left) & ~np.isin(twin, mesh.left))
-    angle[inside] = np.minimum(*(_angle_at_start(mesh, side[inside]) for side in (spokes, following(twin))))
+    left, right = (_angle_at_start(mesh, side[inside]) for side in (spokes, following(twin)))
+    # What is turned to the left leaves an angle of less than half a turn on its right.
+    angle[inside] = np.minimum(np.minimum(left, right), np.pi - right)
     return angle
 
 

@@ -25,6 +25,7 @@ export function decode(data) {
     sheet: new Uint32Array(bytes(data.sheet)),
     level: new Uint32Array(bytes(data.level)),
     boundary: new Uint32Array(bytes(data.boundary)),
+    cusps: new Uint32Array(bytes(data.cusps)),
     intersections: data.intersections.map((polyline) => new Float32Array(bytes(polyline))),
     frames: data.frames.map((frame) => new Float32Array(bytes(frame))),
   };
@@ -142,6 +143,23 @@ export function edgePositions(geometry, corners) {
   const places = geometry.getAttribute("position").array;
   return corners.flatMap((corner) =>
     [corner, following(corner)].flatMap((end) => [places[3 * end], places[3 * end + 1], places[3 * end + 2]]));
+}
+
+/** A corner of the cloth at each cusp, on each layer that meets there. */
+export function cuspCorners(surface) {
+  const cusps = new Set(surface.cusps);
+  const corners = [...surface.faces.keys()].filter((corner) => cusps.has(surface.faces[corner]));
+  const name = (corner) => `${surface.faces[corner]} ${levelAt(surface, corner)}`;
+  return [...new Map(corners.map((corner) => [name(corner), corner])).values()];
+}
+
+/** Dots at some corners, as lines that are hardly longer than nothing: wide ones are round at their ends. */
+export function dotPositions(geometry, corners) {
+  const places = geometry.getAttribute("position").array;
+  return corners.flatMap((corner) => {
+    const [x, y, z] = places.subarray(3 * corner, 3 * corner + 3);
+    return [x, y, z, x, y, z + 1e-4];
+  });
 }
 
 /** Lines in space between pairs of points, so many pixels wide. */

@@ -2,7 +2,7 @@
 // surface later. Units in the scene: the drawing is about 2 across, centred at the origin, z up.
 
 import {
-  clothGeometry, clothMaterial, decode, edgePositions, extent, ground, keyLight, moveLines, moveTo, openEdges, paint,
+  clothGeometry, clothMaterial, cuspCorners, decode, dotPositions, edgePositions, extent, ground, keyLight, moveLines, moveTo, openEdges, paint,
   pairs, positionsAt, setOwnBack, softLights, sortTriangles, spaceLines,
 } from "cloth";
 import {
@@ -19,6 +19,8 @@ const SEE_THROUGH = 0.42;
 const APART = 1.1;
 const TOWER = 3.3;
 const FILLED = 0.9;
+// How many pixels wide the dots at cusps are.
+const DOT = 9;
 
 // One action: its name, its key, what it does, and whether it is on. Buttons and keys both come from this table.
 const ACTIONS = [
@@ -137,19 +139,21 @@ class Viewer {
     this.cloth = new Mesh(this.geometry, clothMaterial(this.surface.palette.back));
     this.cloth.castShadow = this.cloth.receiveShadow = true;
     this.setLines();
-    this.body = new Group().add(this.cloth, ...this.lines, this.passing);
+    this.body = new Group().add(this.cloth, ...this.lines, this.dots, this.passing);
     this.scene.add(this.body, ...softLights());
     this.move();
     this.paint();
   }
 
-  /** The drawing, the seams that are seen when layers are torn apart, and where sheets pass through each other. */
+  /** The drawing, the seams that are seen when layers are torn apart, cusps, and where sheets pass through each other. */
   setLines() {
     const { rim, seams } = openEdges(this.surface);
     this.edges = [rim, seams];
     const { palette, sheetCell } = this.surface;
     const width = 2.4 * Math.min(1, Math.sqrt(60 / sheetCell.length)); // finer where there is much to see
     this.lines = this.edges.map((corners) => spaceLines(edgePositions(this.geometry, corners), palette.ink, width));
+    this.cusps = cuspCorners(this.surface);
+    this.dots = spaceLines(dotPositions(this.geometry, this.cusps), palette.cusp, DOT);
     this.passing = intersectionLines(this.surface);
     this.setDark();
   }
@@ -161,6 +165,7 @@ class Viewer {
     const apart = explode * Math.min(APART, TOWER / this.surface.palette.layers.length);
     moveTo(this.geometry, this.surface, positionsAt(this.surface, morph), apart / this.scale);
     this.edges.forEach((corners, i) => moveLines(this.lines[i], edgePositions(this.geometry, corners)));
+    moveLines(this.dots, dotPositions(this.geometry, this.cusps));
     this.lines[1].visible = explode > 0 && this.edges[1].length > 0;
     this.passing.visible = morph === 2 && explode === 0 && this.surface.intersections.length > 0;
     this.sortedAlong = null;
@@ -371,12 +376,14 @@ class Viewer {
   }
 
   motionSlider() {
-    const slider = range({ min: 0, max: 2, value: 2, title: "From the round disk over the flat drawing to the lifted surface" });
+    const isDisk = this.surface.frames.length > 0;
+    const title = `From ${isDisk ? "the round disk over " : ""}the flat drawing to the lifted surface`;
+    const slider = range({ min: isDisk ? 0 : 1, max: 2, value: 2, title });
     slider.addEventListener("input", () => {
       this.set({ morph: slider.valueAsNumber });
       this.fit();
     });
-    return labelled("Disk to surface", slider);
+    return labelled(isDisk ? "Disk to surface" : "Flat to surface", slider);
   }
 
   explodeSlider() {
