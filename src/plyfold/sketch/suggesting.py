@@ -40,7 +40,7 @@ def suggested(question: Suggest) -> dict[str, Any]:
     >>> limacon = ((3, 0), (1, 3), (-2, 0), (1, -3), (3, 0.5), (1, 1), (0.5, 0), (1, -1))
     >>> answer = suggested(Suggest((Stroke(limacon, closed=True),)))
     >>> answer["cusps"], answer["sentence"]
-    ([{'where': [1.0, 1.0], 'index': 1}], '1 turn is too many: with a cusp as shown, it is a disk of cloth.')
+    ([{'where': [1.0, -1.0], 'index': 1}], '1 turn is too many: with a cusp as shown, it is a disk of cloth.')
     """
     began = perf_counter()
     found = suggest_cusps(arranged(question.strokes), time_limit=patient(_SECONDS_TO_SUGGEST))
