@@ -20,7 +20,17 @@ from plyfold.obstruction import Obstruction, Unknown
 from plyfold.offers.cusps import SuggestedCusps, suggest_cusps
 from plyfold.outline.curve import Outline
 
-__all__ = ["A_DISK", "Words", "describe", "in_words", "repair_lines", "surface_in_words", "verdict", "words"]
+__all__ = [
+    "A_DISK",
+    "Words",
+    "describe",
+    "in_words",
+    "offer_in_words",
+    "repair_lines",
+    "surface_in_words",
+    "verdict",
+    "words",
+]
 
 A_DISK = "a disk of cloth"
 """What one curve without cusps bounds, if it bounds a surface without handles."""
@@ -109,6 +119,20 @@ def _kind_of_piece(piece: Piece) -> tuple[str, str]:
         if count
     ]
     return "disk", f" with {' and '.join(parts)}" if parts else ""
+
+
+def offer_in_words(indices: Sequence[int], surface: str, where: str) -> str:
+    """Say what an outline that turns too often bounds with cusps of some indices.
+
+    Examples
+    --------
+    >>> offer_in_words([1], "a disk of cloth", "at its tip")
+    '1 turn is too many: with a cusp at its tip, it is a disk of cloth'
+    """
+    turns = sum(indices)
+    many = "1 turn is" if turns == 1 else f"{turns} turns are"
+    which = "a cusp" if len(indices) == 1 else "cusps"
+    return f"{many} too many: with {which} {where}, it is {surface}"
 
 
 def in_words(count: int) -> str:
@@ -298,10 +322,8 @@ def _offer_line(figures: dict[str, Any]) -> str:
     if "offer" not in figures:
         return ""
     cusps, surface = figures["offer"]["cusps"], figures["offer"]["surface"]
-    turns = sum(cusp["index"] for cusp in cusps)
-    many = "1 turn is" if turns == 1 else f"{turns} turns are"
-    which = "a cusp" if len(cusps) == 1 else "cusps"
-    return f"\n  {many} too many: with {which} {_listed_cusps(cusps)}, it is {surface} (--cusps auto)"
+    said = offer_in_words([cusp["index"] for cusp in cusps], surface, _listed_cusps(cusps))
+    return f"\n  {said} (--cusps auto)"
 
 
 def _layering_sentence(figures: dict[str, Any]) -> str:

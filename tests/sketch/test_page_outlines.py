@@ -120,7 +120,7 @@ def test_a_cusp_is_marked_by_clicks_and_refused_with_the_reason(sketch):
 
 def test_cusps_are_offered_marked_and_undone_and_go_with_the_link(sketch):
     limacon(sketch)
-    sketch.wait_for_function("() => document.getElementById('sentence').textContent.includes('cusp would help')")
+    sketch.wait_for_function("() => document.getElementById('sentence').textContent.includes('with a cusp as shown')")
     sketch.click("text=Mark the cusp")
     verdict(sketch, DISK)
     assert cusps(sketch) == [[1]]

@@ -5,10 +5,9 @@ from __future__ import annotations
 from time import perf_counter
 from typing import Any
 
-from plyfold.immersion.immersion import Immersion
-from plyfold.immersion.solve import find_immersion
+from plyfold.immersion.immersion import Piece
 from plyfold.offers.cusps import SuggestedCusps, suggest_cusps
-from plyfold.report import surface_in_words
+from plyfold.report import offer_in_words, surface_in_words
 from plyfold.sketch.drawings import arranged
 from plyfold.sketch.patience import patient
 from plyfold.sketch.schema import VERSION, Suggest
@@ -41,7 +40,7 @@ def suggested(question: Suggest) -> dict[str, Any]:
     >>> limacon = ((3, 0), (1, 3), (-2, 0), (1, -3), (3, 0.5), (1, 1), (0.5, 0), (1, -1))
     >>> answer = suggested(Suggest((Stroke(limacon, closed=True),)))
     >>> answer["cusps"], answer["sentence"]
-    ([{'where': [1.0, 1.0], 'index': 1}], 'A cusp would help here: with it, this is the outline of a disk of cloth.')
+    ([{'where': [1.0, -1.0], 'index': 1}], '1 turn is too many: with a cusp as shown, it is a disk of cloth.')
     """
     began = perf_counter()
     found = suggest_cusps(arranged(question.strokes), time_limit=patient(_SECONDS_TO_SUGGEST))
@@ -58,7 +57,6 @@ def _places(found: SuggestedCusps) -> list[dict[str, Any]]:
 
 
 def _sentence(found: SuggestedCusps) -> str:
-    immersion = find_immersion(found.outline)
-    assert isinstance(immersion, Immersion)
-    which, them = ("A cusp", "it") if len(found.cusps) == 1 else (f"{len(found.cusps)} cusps", "them")
-    return f"{which} would help here: with {them}, this is the outline of {surface_in_words(immersion.pieces)}."
+    loops = tuple(range(found.outline.n_loops))
+    surface = surface_in_words([Piece(loops, 2 - len(loops))])
+    return f"{offer_in_words([*found.cusps.values()], surface, 'as shown')}."
