@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -32,6 +32,7 @@ from plyfold.arrangement.planar_map import (
     windings_of_loops,
 )
 from plyfold.arrangement.polylines import inner_points, polygon_turning_number, total_winding
+from plyfold.arrangement.theorems import theorems_of
 from plyfold.arrays import Bools, Floats, Ints, freeze
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GaussCodeError, InputError, PlyfoldError
@@ -455,7 +456,7 @@ class Arrangement:
         PlyfoldError
             Naming the theorem that failed. That would be a mistake in plyfold.
         """
-        for theorem, holds in _theorems(self):
+        for theorem, holds in theorems_of(self):
             if not holds:
                 raise PlyfoldError(f"internal check failed: {theorem}")
 
@@ -476,30 +477,6 @@ class Arrangement:
         from plyfold.draw.svg import arrangement_svg
 
         return arrangement_svg(self)
-
-
-def _theorems(arranged: Arrangement) -> Iterator[tuple[str, bool]]:
-    left, right = arranged.winding[arranged.left_cell], arranged.winding[arranged.right_cell]
-    groups = 1 if arranged.n_loops == 1 else int(arranged.group_of_loop.max()) + 1
-    cells, darts, partner = arranged.n_crossings + groups + 1, np.arange(2 * arranged.n_borders), arranged.partner
-    yield "Euler: as many cells as crossings and groups of loops, and one more", arranged.n_cells == cells
-    yield "every dart belongs to one cell", _same(np.sort(arranged.cell_darts), darts)
-    cell_of_dart = arranged.cell_of_dart
-    yield "a dart and the next one have the same cell", _same(cell_of_dart, cell_of_dart[arranged.next_dart])
-    yield "the unbounded cell winds 0 times", arranged.winding[cell_of_dart[arranged.outer]] == 0
-    yield "left of a border winds once more than right of it", _same(left, right + 1)
-    yield "the partner's partner is the visit itself", _same(partner[partner], np.arange(len(partner)))
-    by_windings = arranged.turning_by_windings()
-    yield "turning number by crossings and by winding numbers agree", arranged.turning_number == by_windings
-    outline, numbers = arranged.outline, arranged.turning_numbers
-    exterior = tuple(map(polygon_turning_number, outline.loops)) if outline else numbers
-    yield "turning numbers by crossings and by angles agree", exterior == numbers
-    feet = cell_of_dart[arranged.bridges]
-    yield "both feet of a bridge stand in one cell", _same(feet[:, 0], feet[:, 1])
-
-
-def _same(first: npt.NDArray[np.int64], second: npt.NDArray[np.int64]) -> bool:
-    return bool((first == second).all())
 
 
 def arrange(curve: OutlineLike, general_position: Literal["perturb", "raise"] = "perturb") -> Arrangement:
