@@ -6,30 +6,15 @@ import numpy as np
 import pytest
 import shapely
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import plyfold as pf
 from plyfold.arrangement.noding import Noding, node_outline
-from plyfold.errors import CurveError
 from reference.fills import winding_by_ray
+from touching import touching_outlines
 
 
 def noded(*loops) -> Noding:
     return node_outline(pf.Outline([np.array(loop, dtype=np.float64) for loop in loops]))
-
-
-def touching_loops(size=4, most=9):
-    """One to three loops on a small grid; most of them touch."""
-    points = st.tuples(st.integers(0, size), st.integers(0, size))
-    return st.lists(st.lists(points, min_size=3, max_size=most), min_size=1, max_size=3).filter(are_loops)
-
-
-def are_loops(loops):
-    try:
-        pf.Outline(loops)
-    except CurveError:
-        return False
-    return True
 
 
 def euler_holds(found: Noding) -> bool:
@@ -40,9 +25,9 @@ def euler_holds(found: Noding) -> bool:
 
 
 @settings(max_examples=150, deadline=None)
-@given(touching_loops())
-def test_windings_differ_by_the_times_a_part_is_run(loops):
-    found = noded(*loops)
+@given(touching_outlines())
+def test_windings_differ_by_the_times_a_part_is_run(outline):
+    found = node_outline(outline)
     left, right = found.winding[found.face.reshape(-1, 2)].T
     assert (left - right == found.times).all()
     assert found.winding[0] == 0
@@ -53,19 +38,18 @@ def test_windings_differ_by_the_times_a_part_is_run(loops):
 
 
 @settings(max_examples=100, deadline=None)
-@given(touching_loops())
-def test_windings_are_those_of_rays(loops):
-    """A little right of a node and far less above it lies the face left of the last half-edge that runs rightwards."""
-    found = noded(*loops)
+@given(touching_outlines())
+def test_windings_are_those_of_rays(outline):
+    """A little right of a node and far less above it lies the face left of the last part that runs level or down."""
+    found = node_outline(outline)
     for node in np.unique(found.ends[:, 0]).tolist():
         if found.is_vertex[node]:
             parts = np.flatnonzero(found.ends[:, 0] == node)
-            # The direction of rank 0.5 or more points up or level.
             rising = found.points[found.ends[parts, 1], 1] - found.points[node, 1]
             level_or_down = parts[rising <= 0]
             if len(level_or_down):
                 part = level_or_down[np.argmax(found.line[level_or_down])]
-                expected = winding_by_ray(loops, *found.points[node].tolist())
+                expected = winding_by_ray(outline.loops, *found.points[node].tolist())
                 assert found.winding[found.face[2 * part]] == expected
 
 

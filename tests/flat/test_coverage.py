@@ -11,11 +11,12 @@ from hypothesis import strategies as st
 
 import plyfold as pf
 from coarse import CURVES
-from plyfold.errors import CurveError, PrecisionError
+from plyfold.errors import PrecisionError
 from plyfold.flat.coverage import coverage, directed_coverage
 from plyfold.flat.regions import refuse_invalid
 from reference import random_curves
 from reference.fills import cells_by_slabs
+from touching import touching_outlines
 
 
 def winding_number(points, place):
@@ -88,29 +89,12 @@ def test_nothing_to_cover_but_one_cell():
     assert (only.polygon.area, only.winding) == (0.5, 1)
 
 
-def grid_loops():
-    points = st.tuples(st.integers(0, 4), st.integers(0, 4))
-    return st.lists(st.lists(points, min_size=3, max_size=8), min_size=1, max_size=3)
-
-
-def outlines_that_touch():
-    return grid_loops().filter(are_loops).map(pf.Outline)
-
-
-def are_loops(loops):
-    try:
-        pf.Outline(loops)
-    except CurveError:
-        return False
-    return True
-
-
 def as_turned(cells, turned):
     return sorted((-winding if turned else winding, float(size)) for winding, size in cells)
 
 
 @settings(max_examples=150, deadline=None)
-@given(outlines_that_touch())
+@given(touching_outlines())
 def test_cells_of_drawings_that_touch(outline):
     found, turned = directed_coverage(outline)
     assert all(cell.polygon.is_valid for cell in found)
@@ -123,7 +107,7 @@ def test_cells_of_drawings_that_touch(outline):
 
 
 @settings(max_examples=100, deadline=None)
-@given(outlines_that_touch(), st.sampled_from([1 / 3, 0.1, 1e5 + 0.3]))
+@given(touching_outlines(), st.sampled_from([1 / 3, 0.1, 1e5 + 0.3]))
 def test_no_area_is_lost_where_contacts_are_nearly_broken(outline, scale):
     """Scaled by what is no power of two, crossings fall apart by less than rounding errors."""
     drawn = pf.Outline([loop * scale for loop in outline.loops])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -76,8 +76,11 @@ def _regions(noding: Noding, label: Ints) -> list[Region]:
     # Each region has one loop that is no hole.
     shell = np.flatnonzero(~is_hole)[np.argsort(region[~is_hole])]
     kept = ~shapely.is_missing(polygons)
-    refuse_invalid(polygons[kept], noding.points[_starts(noding)[half_edges[start[shell[kept]]]]])
-    return list(map(Region, polygons[kept], label[left[shell[kept]]].tolist()))
+    polygons, labels = polygons[kept], label[left[shell[kept]]]
+    # Regions with one label share no sides: if they are valid together, they are valid and do not overlap.
+    for one in np.unique(labels).tolist():
+        refuse_invalid(np.array([shapely.MultiPolygon(list(polygons[labels == one]))], dtype=object))
+    return list(map(Region, polygons, labels.tolist()))
 
 
 def _starts(noding: Noding) -> Ints:
@@ -195,8 +198,8 @@ def signed_areas(coordinates: Floats, start: Ints) -> Floats:
     return np.asarray(np.add.reduceat(x * y[following] - y * x[following], start[:-1]) / 2)
 
 
-def refuse_invalid(polygons: npt.NDArray[np.object_], corner: Floats | Sequence[Floats]) -> None:
-    """Raise PrecisionError if a polygon is missing or not valid; it has the given corner."""
+def refuse_invalid(polygons: npt.NDArray[np.object_], corner: Floats | None = None) -> None:
+    """Raise PrecisionError if a polygon is not valid, or missing; then its place is the given corner."""
     bad = np.flatnonzero(~shapely.is_valid(polygons))
     if len(bad) == 0:
         return
@@ -204,6 +207,6 @@ def refuse_invalid(polygons: npt.NDArray[np.object_], corner: Floats | Sequence[
     places = [(float(x), float(y)) for x, y in re.findall(r"\[(\S+) (\S+)\]", reasons)]
     raise PrecisionError(
         "strands are so close that rounding their crossings to double precision spoils a polygon there",
-        where=places or np.asarray(corner)[bad],
+        where=places or ([] if corner is None else corner[bad]),
         hint="move the strands apart there",
     )
