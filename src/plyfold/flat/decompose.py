@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, cast, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -12,14 +12,15 @@ import shapely
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Floats, Ints
-from plyfold.errors import PrecisionError
+from plyfold.errors import InputError, PrecisionError
 from plyfold.flat.delaunay import delaunay_triangles
+from plyfold.flat.layers import signed_layers
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.flat.triangulate import chosen_immersion
 from plyfold.graphs import spanning_tree
 from plyfold.halfedges import ends_of, glued_pairs
 from plyfold.immersion.immersion import Immersion
-from plyfold.outline.given import CurveLike
+from plyfold.outline.given import CurveLike, OutlineLike, as_outline
 from plyfold.predicates import orient
 
 if TYPE_CHECKING:
@@ -31,7 +32,21 @@ __all__ = ["decompose"]
 _AT_ONCE = 1000
 
 
-def decompose(curve: CurveLike, immersion: Immersion | None = None) -> list[Polygon]:
+@overload
+def decompose(
+    curve: CurveLike, immersion: Immersion | None = None, *, signed: Literal[False] = False
+) -> list[Polygon]: ...
+
+
+@overload
+def decompose(
+    curve: OutlineLike, immersion: None = None, *, signed: Literal[True]
+) -> tuple[list[Polygon], list[Polygon]]: ...
+
+
+def decompose(
+    curve: OutlineLike, immersion: Immersion | None = None, *, signed: bool = False
+) -> list[Polygon] | tuple[list[Polygon], list[Polygon]]:
     """Cut the disk that a curve bounds, along straight chords, into few polygons that do not overlap themselves.
 
     Parameters
@@ -40,12 +55,19 @@ def decompose(curve: CurveLike, immersion: Immersion | None = None) -> list[Poly
         It may cross itself.
     immersion : Immersion, optional
         The disk to cut, if the curve bounds several; by default the first one.
+    signed : bool, optional
+        Take any closed curves, whether they bound a disk or not, and however they touch, and return two lists. False by
+        default.
 
     Returns
     -------
-    list of shapely.Polygon
+    list of shapely.Polygon, or a pair of such lists
         Simple polygons without holes, counter-clockwise, whose corners are points of the curve. Together they cover
         each place as often as the curve winds round it. A curve without overlaps gives one polygon.
+
+        If ``signed``, the polygons that count once, and those that count −1 times: they add up to the winding numbers
+        of the points as given. They are the layers {w ≥ 1}, {w ≥ 2}, … and {w ≤ −1}, {w ≤ −2}, … without their holes,
+        and have crossings, rounded, among their corners.
 
     Raises
     ------
@@ -54,7 +76,7 @@ def decompose(curve: CurveLike, immersion: Immersion | None = None) -> list[Poly
     PrecisionError
         If :func:`triangulate` cannot make its triangles; it names the place.
     InputError
-        If the immersion is one of another curve.
+        If the immersion is one of another curve, or ``signed`` is asked of an immersion.
 
     Notes
     -----
@@ -70,8 +92,20 @@ def decompose(curve: CurveLike, immersion: Immersion | None = None) -> list[Poly
     >>> ramp = [(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)]
     >>> len(decompose(ramp))
     2
+    >>> eight = [(0, 0), (2, 2), (2, 0), (0, 2)]
+    >>> positive, negative = decompose(eight, signed=True)
+    >>> [part.area for part in positive], [part.area for part in negative]
+    ([1.0], [1.0])
     """
-    chosen = chosen_immersion(curve, immersion)
+    if signed:
+        if immersion is not None:
+            raise InputError("signed polygons are those of a curve, and of no immersion")
+        return signed_layers(as_outline(curve))
+    return _pieces_of_disk(chosen_immersion(cast("CurveLike", curve), immersion))
+
+
+def _pieces_of_disk(chosen: Immersion) -> list[Polygon]:
+    """Return the polygons of an immersed disk."""
     drawn = chosen.arrangement
     assert drawn.curve is not None
     points = drawn.curve.points
