@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -32,6 +32,10 @@ _SMALL_GRID = 2**9
 _ROUNDS = 20
 # A slope is a quotient of differences and their sum, each rounded.
 _SLOPE_ERROR = 2e-15
+
+
+_Rounded: TypeAlias = Callable[[Floats, Floats, Floats], Floats]
+"""Returns rounded crossings, given bounds of each and the ends of its two edges."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +97,7 @@ def node_outline(outline: Outline) -> Noding:
     (5, 6, [0, 1, 1])
     """
     points = outline.points
-    return _node_edges(points, points[outline.next_point], np.ones(len(points), dtype=np.int64))
+    return _node_edges(points, points[outline.next_point], np.ones(len(points), dtype=np.int64), _middles)
 
 
 def node_rounded(noding: Noding) -> Noding:
@@ -108,7 +112,8 @@ def node_rounded(noding: Noding) -> Noding:
     """
     for _ in range(_ROUNDS):
         start, end = noding.points[noding.ends].swapaxes(0, 1)
-        noding = _node_edges(start, end, noding.times)
+        # Between doubles next to each other there is no room for errors.
+        noding = _node_edges(start, end, noding.times, _nearest_doubles)
         if noding.is_vertex[noding.ends].all():
             return noding
     raise PrecisionError(
@@ -118,10 +123,10 @@ def node_rounded(noding: Noding) -> Noding:
     )
 
 
-def _node_edges(start: Floats, end: Floats, times: Ints) -> Noding:
-    """Return the graph of edges that are run some number of times."""
+def _node_edges(start: Floats, end: Floats, times: Ints, rounded: _Rounded) -> Noding:
+    """Return the graph of edges that are run some number of times, its crossings rounded as given."""
     lines = _distinct_edges(start, end, times)
-    graph = _cut_at_nodes(lines, _meetings(lines))
+    graph = _cut_at_nodes(lines, _meetings(lines), rounded)
     following, last_around = _around_nodes(graph)
     face = _faces(lines, graph, following, last_around)
     winding = _windings(face, graph.times)
@@ -326,9 +331,9 @@ class _Graph(NamedTuple):
     edge: Ints
 
 
-def _cut_at_nodes(lines: _Lines, meetings: _Meetings) -> _Graph:
+def _cut_at_nodes(lines: _Lines, meetings: _Meetings, rounded: _Rounded) -> _Graph:
     n, crossing = len(lines.low), meetings.crossing
-    node, points, column, is_vertex = _nodes(lines, crossing)
+    node, points, column, is_vertex = _nodes(lines, crossing, rounded)
     number = max(len(points), 1)
     edge = np.concatenate([np.arange(n), np.arange(n), meetings.edge, *crossing.T])
     at = np.concatenate(
@@ -345,7 +350,7 @@ def _cut_at_nodes(lines: _Lines, meetings: _Meetings) -> _Graph:
     return _Graph(points, column, is_vertex, ends, times[kept], lines.direction[on_edge], on_edge)
 
 
-def _nodes(lines: _Lines, crossing: Ints) -> tuple[Ints, Floats, Ints, Bools]:
+def _nodes(lines: _Lines, crossing: Ints, rounded: _Rounded) -> tuple[Ints, Floats, Ints, Bools]:
     """Return the node of each lower end, each higher end and each crossing.
 
     And the nodes' places, the ranks of their x, and which of them are vertices.
@@ -354,6 +359,7 @@ def _nodes(lines: _Lines, crossing: Ints) -> tuple[Ints, Floats, Ints, Bools]:
     quarters = np.stack([lines.low[crossing[:, 0]], lines.high[crossing[:, 0]]])
     quarters = np.concatenate([quarters, [lines.low[crossing[:, 1]], lines.high[crossing[:, 1]]]])
     low, high = _small_grid_crossings(quarters) if lines.is_small_grid else crossing_bounds(*quarters)
+    place = np.concatenate([given, low if lines.is_small_grid else rounded(low, high, quarters)])
     low, high = np.concatenate([given, low]), np.concatenate([given, high])
 
     def exact(axis: int) -> Callable[[Ints], list[Fraction]]:
@@ -361,7 +367,18 @@ def _nodes(lines: _Lines, crossing: Ints) -> tuple[Ints, Floats, Ints, Bools]:
 
     x, y = (exact_ranks(low[:, axis], high[:, axis], exact(axis)) for axis in (0, 1))
     _, first, node = np.unique(x * (y.max(initial=0) + 1) + y, return_index=True, return_inverse=True)
-    return node, (low + (high - low) / 2)[first], x[first], first < len(given)
+    return node, place[first], x[first], first < len(given)
+
+
+def _middles(low: Floats, high: Floats, ends: Floats) -> Floats:
+    """Return crossings between bounds of them, within a few rounding errors."""
+    return low + (high - low) / 2
+
+
+def _nearest_doubles(low: Floats, high: Floats, ends: Floats) -> Floats:
+    """Return crossings as the doubles next to them."""
+    columns = [list(map(float, exact_crossings(ends, axis))) for axis in (0, 1)] if len(low) else [[], []]
+    return np.array(columns).T
 
 
 def _small_grid_crossings(ends: Floats) -> tuple[Floats, Floats]:
