@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import plyfold as pf
 from coarse import CURVES
 from plyfold.errors import PrecisionError
+from plyfold.flat.coverage import _has_equal_points as has_equal_points
 from plyfold.flat.coverage import coverage, directed_coverage
 from plyfold.flat.regions import refuse_invalid
 from reference import random_curves
@@ -139,3 +140,12 @@ def test_a_polygon_that_is_spoiled_is_named():
     with pytest.raises(PrecisionError) as caught:
         refuse_invalid(np.array([bow], dtype=object), np.zeros((1, 2)))
     assert caught.value.where == ((0.5, 0.5),)
+
+
+def test_the_position_of_a_drawing_decides_about_the_order_of_its_cells_alone():
+    """Equal points are seen before crossings are looked for; without them cells come in the order of arrangements."""
+    general = random_curves.random_polygon(np.random.default_rng(3), 12)
+    assert not has_equal_points(np.array(general, dtype=np.float64))
+    assert has_equal_points(np.array([(0.5, 1), (2, 3), (0.5, 1)]))
+    drawn = pf.arrange(general)
+    assert [cell.winding for cell in coverage(general)] == [w for w in drawn.winding.tolist() if w]

@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 __all__ = ["Covered", "coverage", "directed_coverage", "outlined"]
 
 
+# Any odd number; the fraction of the golden ratio scatters bits well.
+_ODD = np.uint64(0x9E3779B97F4A7C15)
+
+
 class Covered(NamedTuple):
     """A cell, and how often the curve goes round it, counter-clockwise in the direction of its arrangement.
 
@@ -109,12 +113,20 @@ def directed_coverage(curve: OutlineLike) -> tuple[list[Covered], bool]:
 def _in_general_position(outline: Outline) -> Arrangement | Outline:
     """Return the arrangement of one curve, if it is in general position, and otherwise the outline as it is."""
     # Where points are equal there is no need to look for crossings, of which crowds have many.
-    if outline.n_loops > 1 or len(np.unique(outline.points @ (1, 1j))) < len(outline):
+    if outline.n_loops > 1 or _has_equal_points(outline.points):
         return outline
     try:
         return arrange(outline, general_position="raise")
     except GeneralPositionError:
         return outline
+
+
+def _has_equal_points(points: Floats) -> bool:
+    """Tell whether some points are equal; mostly none are, and then their hashes, sorted faster, tell it."""
+    x, y = np.ascontiguousarray(points).view(np.uint64).T
+    high = x * _ODD
+    hashes = np.sort(((high ^ (high >> np.uint64(32))) + y) * _ODD)
+    return bool((hashes[1:] == hashes[:-1]).any()) and len(np.unique(points, axis=0)) < len(points)
 
 
 def _cells_of_arrangement(drawn: Arrangement) -> list[Covered]:
