@@ -32,6 +32,7 @@ nightly: $(READY)  ## 100,000 random curves and lists of curves, and 10,000 fron
 	PYTHONPATH=tests $(BIN)/python -m nightly.disturbed
 	PYTHONPATH=tests $(BIN)/python -m nightly.scales
 	PYTHONPATH=tests $(BIN)/python -m nightly.outlines
+	PYTHONPATH=tests $(BIN)/python -m nightly.fills
 
 browser:  ## A browser for the tests of the pages, where there is none: Debian's Chromium, if this is root on Debian
 	@for program in chromium chromium-browser google-chrome; do \

@@ -40,11 +40,13 @@ def test_public_names():
         "count_immersions",
         "count_layerings",
         "coverage",
+        "coverage_mask",
         "decompose",
         "draw",
         "embed_cased",
         "embeddings",
         "errors",
+        "fill",
         "find_embedding",
         "find_immersion",
         "find_layering",
@@ -67,6 +69,7 @@ def test_public_names():
         "suggest_cusps",
         "triangulate",
         "unwrap",
+        "winding_at",
     ]
     assert all(hasattr(pf, name) for name in pf.__all__)
 

@@ -78,6 +78,7 @@ _STAGE = "its import is the stage that loads libraries, in which no other one's 
 LATE = {
     ("plyfold.arrangement.crossings", "shapely"): _SMALL,
     ("plyfold.arrangement.nesting", "shapely"): _SMALL,
+    ("plyfold.arrangement.noding", "shapely"): _SMALL,
     ("plyfold.arrangement.polylines", "shapely"): _SMALL,
     ("plyfold.disk.places", "scipy"): _STAGE,
     ("plyfold.disk.places", "shapely"): "the command line knows what files hold a disk before that stage",

@@ -16,6 +16,9 @@ from .disk.unwrap import unwrap as unwrap
 from .flat.coverage import Covered as Covered
 from .flat.coverage import coverage as coverage
 from .flat.decompose import decompose as decompose
+from .flat.fills import coverage_mask as coverage_mask
+from .flat.fills import fill as fill
+from .flat.fills import winding_at as winding_at
 from .flat.triangulate import triangulate as triangulate
 from .immersion.blank_word import BlankWord as BlankWord
 from .immersion.blank_word import blank_word as blank_word

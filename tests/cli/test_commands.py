@@ -354,6 +354,58 @@ def test_split_cells_of_a_curve_that_is_no_disk(eight, tmp_path):
     assert not (tmp_path / "pieces.wkt").exists()
 
 
+@pytest.fixture
+def touching(tmp_path):
+    """A square with a hole on a cut that is walked twice, and that touches itself in a point."""
+    points = [(0, 0), (9, 0), (9, 9), (4, 9), (4, 6), (6, 3), (3, 3), (4, 6), (4, 9), (0, 9)]
+    path = tmp_path / "touching.csv"
+    path.write_text("".join(f"{x},{y}\n" for x, y in points))
+    return path
+
+
+def test_split_cells_of_a_curve_that_touches_itself(touching, tmp_path, capsys):
+    path = tmp_path / "cells.wkt"
+    assert main(["split", str(touching), "--cells", "-o", str(path)]) == 0
+    cell = shapely.from_wkt(path.read_text())
+    assert (cell.area, len(cell.interiors)) == (81 - 4.5, 1)
+    refused = ["split", str(touching), "--cells", "--general-position", "raise", "-o", str(tmp_path / "none.wkt")]
+    assert main(refused) == 2
+    assert "not in general position" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "area"), [(["--fill", "nonzero"], 76.5), (["--fill", "negative"], 0), (["--at-least", "1"], 76.5)]
+)
+def test_split_fills(touching, tmp_path, capsys, words, area):
+    paths = [tmp_path / f"fill.{ending}" for ending in ("geojson", "wkt", "svg")]
+    assert main(["split", str(touching), *words, *(word for path in paths for word in ("-o", str(path)))]) == 0
+    features = json.loads(paths[0].read_text())["features"]
+    assert sum(shapely.geometry.shape(feature["geometry"]).area for feature in features) == area
+    assert f"{len(features)} polygon(s)" in capsys.readouterr().out
+
+
+def test_split_refuses_a_layer_below_the_first(touching, tmp_path, capsys):
+    assert main(["split", str(touching), "--at-least", "0", "-o", str(tmp_path / "fill.wkt")]) == 2
+    assert "at_least" in capsys.readouterr().err
+
+
+def test_draw_mask(touching, tmp_path, capsys):
+    paths = [tmp_path / f"mask.{ending}" for ending in ("png", "npy", "csv")]
+    assert main(["draw", str(touching), "--mask", "9", *(word for path in paths for word in ("-o", str(path)))]) == 0
+    assert "9 rows of 9 pixels, transform 1 0 0 0 -1 9" in capsys.readouterr().out
+    mask = np.load(paths[1])
+    assert (mask == np.loadtxt(paths[2], delimiter=",")).all()
+    # Row 0 is on top; the hole's centre has the pixel of its place.
+    assert mask[8 - 4, 4] == 0
+    assert mask.sum() == (mask == 1).sum() > 70
+    from matplotlib.image import imread
+
+    white = (imread(paths[0])[..., :3] == 1).all(axis=2)
+    assert (white == (mask == 0)).all()
+    with pytest.raises(SystemExit):
+        main(["draw", str(touching), "--mask", "0", "-o", str(tmp_path / "none.png")])
+
+
 def test_triangulate_numbers_the_points_of_the_file(loop, tmp_path):
     turned = tmp_path / "turned.csv"
     turned.write_text("".join(reversed(loop.read_text().splitlines(keepends=True))))

@@ -1,16 +1,23 @@
 """Cells with their winding numbers, against what GEOS makes of the same loop."""
 
 import math
+from collections import Counter
 
 import numpy as np
 import pytest
 import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import plyfold as pf
 from coarse import CURVES
 from plyfold.errors import PrecisionError
-from plyfold.flat.coverage import coverage
+from plyfold.flat.coverage import _has_equal_points as has_equal_points
+from plyfold.flat.coverage import coverage, directed_coverage
+from plyfold.flat.regions import refuse_invalid
 from reference import random_curves
+from reference.fills import cells_by_slabs
+from touching import touching_outlines
 
 
 def winding_number(points, place):
@@ -70,14 +77,75 @@ def test_loops_in_a_row_touch_from_inside():
     np.testing.assert_allclose(rows, by_geos(pf.arrange(points).curve.points), rtol=1e-6)
 
 
-def test_needles_are_named():
-    """Cells that are gone when their crossings are rounded."""
+def test_needles_are_kept():
+    """Cells nearly as thin as rounding errors."""
     strip = np.array([(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1e-17), (0, 1e-17)])
-    with pytest.raises(PrecisionError) as caught:
-        coverage(strip)
-    assert len(caught.value.where) > 0
+    found = coverage(strip)
+    assert [cell.winding for cell in found] == [1, 1, 2, 1]
+    assert sorted(cell.polygon.area for cell in found) == pytest.approx([1e-17, 3e-17, 3, 16])
 
 
 def test_nothing_to_cover_but_one_cell():
     (only,) = coverage([(0, 0), (1, 0), (0, 1)])
     assert (only.polygon.area, only.winding) == (0.5, 1)
+
+
+def as_turned(cells, turned):
+    return sorted((-winding if turned else winding, float(size)) for winding, size in cells)
+
+
+@settings(max_examples=150, deadline=None)
+@given(touching_outlines())
+def test_cells_of_drawings_that_touch(outline):
+    found, turned = directed_coverage(outline)
+    assert all(cell.polygon.is_valid for cell in found)
+    rows = sorted((cell.winding, cell.polygon.area) for cell in found)
+    expected = as_turned(cells_by_slabs(outline.loops), turned)
+    assert [row[0] for row in rows] == [row[0] for row in expected]
+    np.testing.assert_allclose([row[1] for row in rows], [row[1] for row in expected], rtol=1e-9)
+    whole = shapely.union_all([cell.polygon for cell in found])
+    assert whole.area == pytest.approx(sum(row[1] for row in rows))
+
+
+@settings(max_examples=100, deadline=None)
+@given(touching_outlines(), st.sampled_from([1 / 3, 0.1, 1e5 + 0.3]))
+def test_no_area_is_lost_where_contacts_are_nearly_broken(outline, scale):
+    """Scaled by what is no power of two, crossings fall apart by less than rounding errors."""
+    drawn = pf.Outline([loop * scale for loop in outline.loops])
+    found, turned = directed_coverage(drawn)
+    total = Counter()
+    for winding, size in as_turned(cells_by_slabs(drawn.loops), turned):
+        total[winding] += size
+    for cell in found:
+        assert cell.polygon.is_valid
+        total[cell.winding] -= cell.polygon.area
+    assert max(map(abs, total.values()), default=0) < 1e-12 * scale * scale
+
+
+@pytest.mark.parametrize("kind", ["turned", "mirrored", "shifted start"])
+def test_crowds_have_the_same_cells_in_every_position(kind):
+    points = np.random.default_rng(5).integers(0, 6, (60, 2))
+    moved = {"turned": points @ [(0, 1), (-1, 0)], "mirrored": points * (-1, 1), "shifted start": np.roll(points, 7, 0)}
+    cells, others = (directed_coverage(drawn) for drawn in (points, moved[kind]))
+    flip = (cells[1] != others[1]) != (kind == "mirrored")
+    rows, other_rows = (
+        sorted((cell.winding * sign, round(cell.polygon.area, 9)) for cell in found)
+        for found, sign in ((cells[0], 1), (others[0], -1 if flip else 1))
+    )
+    assert rows == other_rows
+
+
+def test_a_polygon_that_is_spoiled_is_named():
+    bow = shapely.Polygon([(0, 0), (1, 1), (1, 0), (0, 1)])
+    with pytest.raises(PrecisionError) as caught:
+        refuse_invalid(np.array([bow], dtype=object), np.zeros((1, 2)))
+    assert caught.value.where == ((0.5, 0.5),)
+
+
+def test_the_position_of_a_drawing_decides_about_the_order_of_its_cells_alone():
+    """Equal points are seen before crossings are looked for; without them cells come in the order of arrangements."""
+    general = random_curves.random_polygon(np.random.default_rng(3), 12)
+    assert not has_equal_points(np.array(general, dtype=np.float64))
+    assert has_equal_points(np.array([(0.5, 1), (2, 3), (0.5, 1)]))
+    drawn = pf.arrange(general)
+    assert [cell.winding for cell in coverage(general)] == [w for w in drawn.winding.tolist() if w]

@@ -6,13 +6,16 @@ import sys
 import numpy as np
 import pytest
 import shapely
+from hypothesis import given, settings
 
 import plyfold as pf
 from coarse import CURVES
-from plyfold.errors import NotImmersibleError, PrecisionError
+from plyfold.errors import InputError, NotImmersibleError, PrecisionError
 from plyfold.flat.decompose import decompose
 from plyfold.gallery import ribbon
 from reference import random_curves
+from reference.fills import cells_by_slabs
+from touching import touching_outlines
 
 # Found to be the least by hand: one more than the places where the ribbon must be cut, or what a deep cell needs.
 PIECES = {"circle": 1, "horseshoe": 2, "exit-ramp": 2, "two-loops": 3, "knotted-ribbon": 2, "pentagram": 2}
@@ -128,3 +131,42 @@ def test_a_triangle_is_one_piece():
 def test_clockwise():
     points = CURVES["exit-ramp"].curve.points
     assert all(piece.exterior.is_ccw for piece in decompose(points[::-1]))
+
+
+# ---- any closed curve: signed ----------------------------------------------------------------------------------------
+
+
+@settings(max_examples=80, deadline=None)
+@given(touching_outlines())
+def test_signed_polygons_add_up_to_winding_numbers(outline):
+    lists = pf.decompose(outline, signed=True)
+    for parts in lists:
+        assert all(part.is_valid and len(part.interiors) == 0 for part in parts)
+    places = np.random.default_rng(0).random((60, 2)) * 4
+    covered = [sum(shapely.contains_xy(part, *places.T).astype(int) for part in parts) for parts in lists]
+    assert (covered[0] - covered[1] == pf.winding_at(outline, places)).all()
+    cells = cells_by_slabs(outline.loops)
+    for parts, sign in zip(lists, (1, -1), strict=True):
+        expected = float(sum(max(sign * winding, 0) * size for winding, size in cells))
+        assert sum(part.area for part in parts) == pytest.approx(expected)
+
+
+def test_signed_polygons_of_strands_that_cross_at_a_vertex():
+    eight = [(0, 0), (2, 2), (4, 2), (4, 4), (2, 4), (2, 2), (2, 0)]
+    positive, negative = pf.decompose(eight, signed=True)
+    assert [part.area for part in positive] == [4]
+    assert [part.area for part in negative] == [2]
+    square = eight[1:-1]
+    with pytest.raises(InputError, match="signed"):
+        pf.decompose(square, pf.find_immersion(square), signed=True)
+
+
+def test_holes_are_cut():
+    """A ring with two holes, of which one touches the outline in a point."""
+    plate = shapely.Polygon([(0, 0), (9, 0), (9, 9), (0, 9)], [[(2, 2), (4, 2), (3, 4)], [(9, 5), (7, 6), (7, 4)]])
+    positive, negative = pf.decompose(plate, signed=True)
+    assert all(part.is_valid and len(part.interiors) == 0 for part in positive)
+    assert shapely.union_all(positive).equals(plate)
+    assert sum(part.area for part in positive) == pytest.approx(plate.area)
+    assert 2 <= len(positive) <= 6
+    assert negative == []

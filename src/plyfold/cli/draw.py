@@ -3,31 +3,54 @@
 from __future__ import annotations
 
 import argparse
+import math
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plyfold.cli.inputs import DISK, NO_DISK, add_command, add_outputs, add_time_limit, prepare, write_texts
+from plyfold.cli.drawing import read_outline
+from plyfold.cli.inputs import (
+    DISK,
+    NO_DISK,
+    add_command,
+    add_outputs,
+    add_time_limit,
+    prepare,
+    refuse_outputs,
+    write_texts,
+)
 from plyfold.cli.progress import Stopwatch
 from plyfold.cli.streams import complain
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError
+from plyfold.io.saving import save_bytes
+from plyfold.loading import FOR_CROSSINGS, FOR_MESHES, load_libraries
 
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
 
 __all__ = ["add_draw_command"]
 
+# More pixels in a row or a column would take more memory than a picture is worth.
+_MOST_COLUMNS = 20_000
+
 
 def add_draw_command(commands: Any) -> None:
     """Add the subcommand to a parser."""
     draw = add_command(commands, "draw", _draw, "draw the arrangement, the disk layout, the layers and the surface")
     add_time_limit(draw, "lifting it")
-    add_outputs(draw, ".svg .png .pdf; of the view over-under .svg .tikz .tex")
+    add_outputs(draw, ".svg .png .pdf; of the view over-under .svg .tikz .tex; of a mask .png .npy .csv")
     draw.add_argument(
         "--what",
         choices=["all", "arrangement", "layout", "layers", "surface", "over-under"],
         default="all",
         help="one panel only, or the surface from above with what is hidden removed",
+    )
+    draw.add_argument(
+        "--mask",
+        type=_columns,
+        metavar="COLUMNS",
+        help="the winding number at the centre of each pixel instead, so many of them across; nothing is moved",
     )
     draw.add_argument(
         "--hidden",
@@ -43,7 +66,16 @@ def add_draw_command(commands: Any) -> None:
     )
 
 
+def _columns(text: str) -> int:
+    columns = int(text)
+    if not 1 <= columns <= _MOST_COLUMNS:
+        raise argparse.ArgumentTypeError(f"{text} is not a number of columns from 1 to {_MOST_COLUMNS}")
+    return columns
+
+
 def _draw(options: argparse.Namespace) -> int:
+    if options.mask is not None:
+        return _draw_mask(options)
     if options.what == "over-under":
         return _draw_over_under(options)
     from plyfold.draw.figures import save
@@ -74,6 +106,28 @@ def _draw_over_under(options: argparse.Namespace) -> int:
     watch.stop()
     choices = {"colours": options.colours, "hidden": options.hidden}
     write_texts(options, {ending: partial(write, layering, **choices) for ending, write in OVER_UNDER_WRITERS.items()})
+    return DISK
+
+
+def _draw_mask(options: argparse.Namespace) -> int:
+    from plyfold.flat.fills import coverage_mask
+    from plyfold.io.masks import MASK_WRITERS
+
+    watch = Stopwatch()
+    refuse_outputs(options, tuple(MASK_WRITERS))
+    drawn = read_outline(options, watch)
+    load_libraries((*FOR_CROSSINGS, *FOR_MESHES), watch)
+    watch("counting")
+    (left, low), (right, high) = drawn.points.min(axis=0).tolist(), drawn.points.max(axis=0).tolist()
+    # As large as the drawing is wide, or high where it is higher than so many pixels.
+    size = max(right - left, (high - low) / _MOST_COLUMNS * options.mask) / options.mask
+    rows = max(1, math.ceil((high - low) / size))
+    mask = coverage_mask(drawn, (rows, options.mask), transform := (size, 0.0, left, 0.0, -size, high))
+    watch.stop()
+    print(f"{rows} rows of {options.mask} pixels, transform {' '.join(f'{number:.12g}' for number in transform)}")
+    for path in options.output:
+        save_bytes(path, MASK_WRITERS[Path(path).suffix.lower()](mask), options.force)
+        print(f"  wrote {path}")
     return DISK
 
 

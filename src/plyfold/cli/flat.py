@@ -4,29 +4,51 @@ from __future__ import annotations
 
 import argparse
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from plyfold.cli.inputs import DISK, NO_DISK, add_command, add_outputs, prepare, read_arrangement, write_texts
+from plyfold.cli.drawing import read_outline
+from plyfold.cli.inputs import (
+    DISK,
+    NO_DISK,
+    add_command,
+    add_outputs,
+    prepare,
+    read_arrangement,
+    refuse_outputs,
+    write_texts,
+)
 from plyfold.cli.progress import Stopwatch
-from plyfold.loading import FOR_MESHES, load_libraries
+from plyfold.loading import FOR_CROSSINGS, FOR_MESHES, load_libraries
 from plyfold.wording import counted
 
 if TYPE_CHECKING:
-    from plyfold.arrangement.arrangement import Arrangement
+    from shapely import Polygon
+
+    from plyfold.outline.curve import Outline
 
 __all__ = ["add_flat_commands"]
+
+Polygons: TypeAlias = "tuple[list[Polygon], list[dict[str, Any]], str]"
+"""Polygons, what is told of each, and what they are."""
 
 
 def add_flat_commands(commands: Any) -> None:
     """Add the subcommands to a parser."""
-    split = add_command(commands, "split", _split, "cut a disk into simple polygons, or any curve into its cells")
+    split = add_command(commands, "split", _split, "cut a disk into simple polygons, or any curves into cells or fills")
     add_outputs(split, ".geojson .wkt .svg")
-    split.add_argument(
+    what = split.add_mutually_exclusive_group()
+    what.add_argument(
         "--cells",
         action="store_true",
-        help="the cells with their winding numbers, of a curve that need be no disk; "
-        "one whose turning number is negative is turned round first",
+        help="the cells with their winding numbers, of curves that need be no disk; nothing is moved, and "
+        "one curve whose turning number is negative is turned round first",
     )
+    what.add_argument(
+        "--fill",
+        choices=["nonzero", "evenodd", "positive", "negative"],
+        help="what is painted by a fill rule, of the points as given; nothing is moved",
+    )
+    what.add_argument("--at-least", type=int, metavar="J", help="the places with winding number J or a larger one")
     triangles = add_command(
         commands, "triangulate", _triangulate, "cut a disk into triangles on the points of the curve"
     )
@@ -46,29 +68,60 @@ def _split(options: argparse.Namespace) -> int:
     from plyfold.io.pieces import POLYGON_WRITERS
 
     watch = Stopwatch()
-    arranged = prepare(options, tuple(POLYGON_WRITERS), watch)
-    load_libraries(() if options.cells else FOR_MESHES, watch)
-    watch("cutting")
-    if options.cells:
-        from plyfold.flat.coverage import coverage
-
-        cells = coverage(arranged)
-        polygons = [cell.polygon for cell in cells]
-        told = [{"winding": cell.winding, "reversed": arranged.reversed} for cell in cells]
-    else:
-        from plyfold.flat.decompose import decompose
-
-        polygons = decompose(arranged)
-        told = [{"piece": number} for number in range(len(polygons))]
+    refuse_outputs(options, tuple(POLYGON_WRITERS))
+    is_filled = options.fill is not None or options.at_least is not None
+    cut = _filled if is_filled else _cells if options.cells else _pieces
+    polygons, told, kind = cut(options, watch)
     watch.stop()
-    print(f"{len(polygons)} " + (f"cell(s), {_direction(arranged)}" if options.cells else "simple polygon(s)"))
+    print(f"{len(polygons)} {kind}")
     write_texts(options, {ending: partial(write, polygons, told) for ending, write in POLYGON_WRITERS.items()})
     return DISK
 
 
-def _direction(arranged: Arrangement) -> str:
+def _pieces(options: argparse.Namespace, watch: Stopwatch) -> Polygons:
+    from plyfold.flat.decompose import decompose
+
+    arranged = read_arrangement(options, watch)
+    load_libraries(FOR_MESHES, watch)
+    watch("cutting")
+    polygons = decompose(arranged)
+    return polygons, [{"piece": number} for number in range(len(polygons))], "simple polygon(s)"
+
+
+def _cells(options: argparse.Namespace, watch: Stopwatch) -> Polygons:
+    from plyfold.flat.coverage import directed_coverage
+
+    drawn = _as_given(options, watch)
+    watch("cutting")
+    cells, turned = directed_coverage(drawn)
+    told = [{"winding": cell.winding, "reversed": turned} for cell in cells]
+    return [cell.polygon for cell in cells], told, f"cell(s), {_direction(turned)}"
+
+
+def _filled(options: argparse.Namespace, watch: Stopwatch) -> Polygons:
+    from plyfold.flat.fills import fill
+
+    drawn = _as_given(options, watch)
+    watch("filling")
+    parts = list(fill(drawn, options.fill or "nonzero", at_least=options.at_least).geoms)
+    painted = {"fill": options.fill} if options.at_least is None else {"at_least": options.at_least}
+    return parts, [painted] * len(parts), "polygon(s)"
+
+
+def _as_given(options: argparse.Namespace, watch: Stopwatch) -> Outline:
+    """Return the outline with nothing moved; refuse one that touches itself if that is asked for."""
+    from plyfold.arrangement.arrangement import arrange
+
+    drawn = read_outline(options, watch)
+    load_libraries((*FOR_CROSSINGS, *FOR_MESHES), watch)
+    if options.general_position == "raise":
+        arrange(drawn, "raise")
+    return drawn
+
+
+def _direction(turned: bool) -> str:
     """Say whose sign the winding numbers of the cells have."""
-    if arranged.reversed:
+    if turned:
         return "with winding numbers of the curve turned round, for the drawing turns clockwise"
     return "with winding numbers in the direction of the drawing"
 

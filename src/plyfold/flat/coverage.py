@@ -2,26 +2,33 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
+from contextlib import suppress
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 import shapely
 
 from plyfold.arrangement.arrangement import Arrangement, arrange
+from plyfold.arrangement.noding import Noding, node_outline
+from plyfold.arrangement.polylines import polygon_turning_number
 from plyfold.arrays import Floats, Ints
-from plyfold.errors import PrecisionError
+from plyfold.errors import GeneralPositionError, PrecisionError
+from plyfold.flat.regions import refuse_invalid, regions, signed_areas
 from plyfold.mesh.refine import chain_of, drawn_outline
-from plyfold.outline.given import OutlineLike
+from plyfold.outline.curve import Outline
+from plyfold.outline.given import OutlineLike, as_outline
 from plyfold.ragged import count_each
 
 if TYPE_CHECKING:
     from shapely import Polygon
 
-__all__ = ["Covered", "coverage", "outlined"]
+__all__ = ["Covered", "coverage", "directed_coverage", "outlined"]
+
+
+# Any odd number; the fraction of the golden ratio scatters bits well.
+_ODD = np.uint64(0x9E3779B97F4A7C15)
 
 
 class Covered(NamedTuple):
@@ -43,27 +50,30 @@ class Covered(NamedTuple):
 
 
 def coverage(curve: OutlineLike) -> list[Covered]:
-    """Return the cells that a closed curve or an outline winds round, with their winding numbers.
+    """Return the cells that closed curves wind round, with their winding numbers.
 
     Parameters
     ----------
-    curve : Curve, array_like of shape (n, 2), shapely geometry or Arrangement; Outline, or a list of curves
-        Any closed curves, whether they bound a surface or not.
+    curve : Outline, Curve, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of such curves
+        Any closed curves, whether they bound a disk or not, and however they touch, overlap or crowd.
 
     Returns
     -------
     list of Covered
-        Pairs (polygon, winding), in the order of the arrangement's cells; those with winding number 0 are left out.
-        The polygons are valid and do not overlap. They have holes where loops lie in a cell; one that touches itself at
-        a crossing has a hole that touches its outline there. Crossings are rounded to double precision.
+        Pairs (polygon, winding); those with winding number 0 are left out. One curve in general position has its cells
+        in the order of the arrangement's. Nothing is moved: of a drawing that is not in general position, cells with
+        one winding number that are parted by strands run to and fro are one cell, and there is no other cell than
+        those drawn. The polygons are valid and do not overlap; one that touches itself at a point has a hole that
+        touches its outline there. Crossings are rounded to double precision.
 
-        The signs are those of the direction in which the turning number is not negative: of the points as given, or,
-        if ``arrange(curve).reversed``, of the curve turned round. In the other direction they are the opposite.
+        The signs are those of the points as given or of the curve turned round, whichever has no negative winding
+        number; if both have some, that in which the turning number is not negative; and of several curves that of the
+        points as given. ``arrange(curve).reversed`` says which, where vertices need not be moved.
 
     Raises
     ------
     PrecisionError
-        If a polygon is no longer valid with its crossings rounded; it names the place.
+        If rounding its crossings makes the drawing cross itself ever more.
 
     Notes
     -----
@@ -77,11 +87,61 @@ def coverage(curve: OutlineLike) -> list[Covered]:
     >>> clockwise = [(0, 0), (0, 1), (1, 1), (1, 0)]
     >>> coverage(clockwise)[0].winding, arrange(clockwise).reversed
     (1, True)
+
+    Two triangles that meet in a point:
+
+    >>> [cell.polygon.area for cell in coverage([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)])]
+    [1.0, 1.0]
     """
-    drawn = arrange(curve)
+    return directed_coverage(curve)[0]
+
+
+def directed_coverage(curve: OutlineLike) -> tuple[list[Covered], bool]:
+    """Return the same as :func:`coverage`, and whether the winding numbers are those of the curve turned round."""
+    drawn = curve if isinstance(curve, Arrangement) else _in_general_position(as_outline(curve))
+    if isinstance(drawn, Arrangement) and drawn.n_loops == 1:
+        with suppress(PrecisionError):
+            return _cells_of_arrangement(drawn), drawn.reversed
+    outline = as_outline(drawn)
+    noding = node_outline(outline)
+    turned = _winds_backward(outline, noding)
+    found = regions(noding, np.negative if turned else np.positive)
+    # An arrangement that was turned round has an outline that is.
+    return [Covered(*region) for region in found], turned or (isinstance(drawn, Arrangement) and drawn.reversed)
+
+
+def _in_general_position(outline: Outline) -> Arrangement | Outline:
+    """Return the arrangement of one curve, if it is in general position, and otherwise the outline as it is."""
+    # Where points are equal there is no need to look for crossings, of which crowds have many.
+    if outline.n_loops > 1 or _has_equal_points(outline.points):
+        return outline
+    try:
+        return arrange(outline, general_position="raise")
+    except GeneralPositionError:
+        return outline
+
+
+def _has_equal_points(points: Floats) -> bool:
+    """Tell whether some points are equal; mostly none are, and then their hashes, sorted faster, tell it."""
+    x, y = np.ascontiguousarray(points).view(np.uint64).T
+    high = x * _ODD
+    hashes = np.sort(((high ^ (high >> np.uint64(32))) + y) * _ODD)
+    return bool((hashes[1:] == hashes[:-1]).any()) and len(np.unique(points, axis=0)) < len(points)
+
+
+def _cells_of_arrangement(drawn: Arrangement) -> list[Covered]:
+    """Return the cells of one curve by its borders; they may be spoiled where rounding merges crossings."""
     wound = np.flatnonzero(drawn.winding).tolist()
     polygons = outlined(drawn, wound)
     return [Covered(*pair) for pair in zip(polygons, drawn.winding[wound].tolist(), strict=True)]
+
+
+def _winds_backward(outline: Outline, noding: Noding) -> bool:
+    """Tell whether an outline is to be turned round, by the same rule as arrangements."""
+    least, most = int(noding.winding.min()), int(noding.winding.max())
+    if least >= 0 or most <= 0:
+        return least < 0
+    return outline.n_loops == 1 and polygon_turning_number(outline.points) < 0
 
 
 # ---- polygons from the borders around them ---------------------------------------------------------------------------
@@ -110,14 +170,14 @@ def outlined(arrangement: Arrangement, cells: Sequence[int]) -> list[Polygon]:
     loops, owner = _without_pinches(arrangement, cells)
     coordinates, start = _coordinates(arrangement, loops)
     lines = shapely.linearrings(coordinates, indices=np.repeat(np.arange(len(loops)), np.diff(start)))
-    hole = _signed_areas(coordinates, start) < 0
+    hole = signed_areas(coordinates, start) < 0
     polygons = np.full(len(cells), None, dtype=object)
     polygons[owner[~hole]] = shapely.polygons(lines[~hole])
     for ring in np.unique(owner[hole]).tolist():
         own = slice(*np.searchsorted(owner, [ring, ring + 1]))
         if polygons[ring]:
             polygons[ring] = shapely.Polygon(polygons[ring].exterior, lines[own][hole[own]])
-    _refuse_invalid(polygons, coordinates[start[np.searchsorted(owner, np.arange(len(cells)))]])
+    refuse_invalid(polygons, coordinates[start[np.searchsorted(owner, np.arange(len(cells)))]])
     return list(polygons)
 
 
@@ -203,25 +263,3 @@ def _first_pieces(arrangement: Arrangement, chain_border: Ints, first_piece: Int
     change = np.flatnonzero(chain_border != chain_border[before])
     begin[chain_border[change]] = change
     return begin
-
-
-def _signed_areas(coordinates: Floats, start: Ints) -> Floats:
-    """Return the signed area of each loop, measured from its first point."""
-    x, y = (coordinates - np.repeat(coordinates[start[:-1]], np.diff(start), axis=0)).T
-    following = np.arange(1, len(x) + 1)
-    following[start[1:] - 1] = start[:-1]
-    return np.asarray(np.add.reduceat(x * y[following] - y * x[following], start[:-1]) / 2)
-
-
-def _refuse_invalid(polygons: npt.NDArray[np.object_], corner: Floats) -> None:
-    """Raise PrecisionError if a polygon is missing or not valid; it has the given corner."""
-    bad = np.flatnonzero(~shapely.is_valid(polygons))
-    if len(bad) == 0:
-        return
-    reasons = " ".join(filter(None, shapely.is_valid_reason(polygons[bad])))
-    places = [(float(x), float(y)) for x, y in re.findall(r"\[(\S+) (\S+)\]", reasons)]
-    raise PrecisionError(
-        "strands are so close that rounding their crossings to double precision spoils a polygon there",
-        where=places or corner[bad],
-        hint="move the strands apart there",
-    )

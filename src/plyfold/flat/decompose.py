@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -12,14 +12,15 @@ import shapely
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Floats, Ints
-from plyfold.errors import PrecisionError
+from plyfold.errors import InputError, PrecisionError
 from plyfold.flat.delaunay import delaunay_triangles
+from plyfold.flat.layers import signed_layers
 from plyfold.flat.triangulate import chosen_immersion, glued_by_points
 from plyfold.graphs import components, spanning_tree
 from plyfold.halfedges import ends_of, glued_pairs
 from plyfold.immersion.immersion import Immersion
 from plyfold.mesh.refine import drawn_outline
-from plyfold.outline.given import OutlineLike
+from plyfold.outline.given import OutlineLike, as_outline
 from plyfold.predicates import orient
 
 if TYPE_CHECKING:
@@ -31,7 +32,21 @@ __all__ = ["decompose"]
 _AT_ONCE = 1000
 
 
-def decompose(curve: OutlineLike, immersion: Immersion | None = None) -> list[Polygon]:
+@overload
+def decompose(
+    curve: OutlineLike, immersion: Immersion | None = None, *, signed: Literal[False] = False
+) -> list[Polygon]: ...
+
+
+@overload
+def decompose(
+    curve: OutlineLike, immersion: None = None, *, signed: Literal[True]
+) -> tuple[list[Polygon], list[Polygon]]: ...
+
+
+def decompose(
+    curve: OutlineLike, immersion: Immersion | None = None, *, signed: bool = False
+) -> list[Polygon] | tuple[list[Polygon], list[Polygon]]:
     """Cut the surface that an outline bounds, along straight chords, into few polygons that do not overlap themselves.
 
     Parameters
@@ -40,13 +55,20 @@ def decompose(curve: OutlineLike, immersion: Immersion | None = None) -> list[Po
         It may cross itself, and have holes and cusps.
     immersion : Immersion, optional
         The surface to cut, if the outline bounds several; by default the first one.
+    signed : bool, optional
+        Take any closed curves, whether they bound a surface or not, and however they touch, and return two lists. False
+        by default.
 
     Returns
     -------
-    list of shapely.Polygon
+    list of shapely.Polygon, or a pair of such lists
         Polygons, counter-clockwise, whose corners are points of the outline; those of a disk are simple and have no
         holes. Together they cover each place as often as the outline winds round it. A curve without overlaps gives one
         polygon.
+
+        If ``signed``, the polygons that count once, and those that count −1 times: they add up to the winding numbers
+        of the points as given. They are the layers {w ≥ 1}, {w ≥ 2}, … and {w ≤ −1}, {w ≤ −2}, … without their holes,
+        and have crossings, rounded, among their corners.
 
     Raises
     ------
@@ -55,7 +77,8 @@ def decompose(curve: OutlineLike, immersion: Immersion | None = None) -> list[Po
     PrecisionError
         If :func:`triangulate` cannot make its triangles; it names the place.
     InputError
-        If the immersion is one of another outline, or two sides of triangles join the same two cusps.
+        If the immersion is one of another outline, or two sides of triangles join the same two cusps; or if ``signed``
+        is asked of an immersion.
 
     Notes
     -----
@@ -71,8 +94,20 @@ def decompose(curve: OutlineLike, immersion: Immersion | None = None) -> list[Po
     >>> ramp = [(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)]
     >>> len(decompose(ramp))
     2
+    >>> eight = [(0, 0), (2, 2), (2, 0), (0, 2)]
+    >>> positive, negative = decompose(eight, signed=True)
+    >>> [part.area for part in positive], [part.area for part in negative]
+    ([1.0], [1.0])
     """
-    chosen = chosen_immersion(curve, immersion)
+    if signed:
+        if immersion is not None:
+            raise InputError("signed polygons are those of a curve, and of no immersion")
+        return signed_layers(as_outline(curve))
+    return _pieces_of_immersion(chosen_immersion(curve, immersion))
+
+
+def _pieces_of_immersion(chosen: Immersion) -> list[Polygon]:
+    """Return the polygons of an immersed surface."""
     drawn = chosen.arrangement
     points = drawn_outline(drawn).points
     # Round triangles overlap fewer others than long ones.

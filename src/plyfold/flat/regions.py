@@ -1,0 +1,212 @@
+"""Regions of a noded outline as polygons: faces with the same label put together, and only their boundaries walked."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+import shapely
+
+from plyfold.arrangement.noding import Noding, node_rounded
+from plyfold.arrays import Bools, Floats, Ints
+from plyfold.errors import PrecisionError
+from plyfold.graphs import components
+from plyfold.outline.direction import sense
+
+if TYPE_CHECKING:
+    from shapely import Polygon
+
+__all__ = ["Region", "refuse_invalid", "regions", "signed_areas"]
+
+# A loop with less area than this share of its squared length may have lost all of it when its nodes were rounded.
+_THIN = 1e-9
+
+
+class Region(NamedTuple):
+    """A connected region of faces with one label."""
+
+    polygon: Polygon
+    label: int
+
+
+def regions(noding: Noding, label_of: Callable[[Ints], Ints]) -> list[Region]:
+    """Return the connected regions of faces that have the same label, but for label 0.
+
+    Parameters
+    ----------
+    noding : Noding
+    label_of : callable
+        Returns the label of each of some winding numbers, 0 for winding number 0.
+
+    Returns
+    -------
+    list of Region
+        Faces hang together along parts, and not at nodes. Polygons are valid; one that touches itself at a node has a
+        hole that touches its outline there. What has no area left when its crossings are rounded is left out. Crossings
+        on a straight side are left out if nothing else of the boundary is there.
+
+        Where rounding the crossings makes strands cross that did not, the regions are those of the rounded strands.
+
+    Raises
+    ------
+    PrecisionError
+        If rounding has no end, see :func:`node_rounded`.
+    """
+    with suppress(PrecisionError):
+        return _regions(noding, label_of(noding.winding))
+    rounded = node_rounded(noding)
+    return _regions(rounded, label_of(rounded.winding))
+
+
+def _regions(noding: Noding, label: Ints) -> list[Region]:
+    boundary, following = _boundary(noding, label[noding.face])
+    loops = list(_simple_loops(boundary, following, _starts(noding)))
+    if not loops:
+        return []
+    start = np.cumsum([0, *map(len, loops)])
+    half_edges = np.concatenate(loops)
+    left = noding.face[half_edges[start[:-1]]]
+    region = np.unique(_regions_of_faces(noding, label)[left], return_inverse=True)[1]
+    is_hole = ~_run_counter_clockwise(noding, half_edges, start)
+    polygons = _polygons(_rings(noding, half_edges, start, boundary), region, is_hole)
+    # Each region has one loop that is no hole.
+    shell = np.flatnonzero(~is_hole)[np.argsort(region[~is_hole])]
+    kept = ~shapely.is_missing(polygons)
+    polygons, labels = polygons[kept], label[left[shell[kept]]]
+    # Regions with one label share no sides: if they are valid together, they are valid and do not overlap.
+    for one in np.unique(labels).tolist():
+        refuse_invalid(np.array([shapely.MultiPolygon(list(polygons[labels == one]))], dtype=object))
+    return list(map(Region, polygons, labels.tolist()))
+
+
+def _starts(noding: Noding) -> Ints:
+    """Return the node at which each half-edge starts."""
+    return noding.ends.ravel()
+
+
+def _boundary(noding: Noding, left: Ints) -> tuple[Ints, Ints]:
+    """Return the half-edges between different labels that have one on their left, and the one after each of them."""
+    other = np.arange(len(left)) ^ 1
+    is_boundary = (left != left[other]) & (left != 0)
+    boundary = np.flatnonzero(is_boundary)
+    following = noding.following[boundary]
+    while (inner := ~is_boundary[following]).any():
+        following[inner] = noding.following[other[following[inner]]]
+    return boundary, following
+
+
+def _simple_loops(boundary: Ints, following: Ints, start: Ints) -> Iterator[list[int]]:
+    """Yield closed walks of half-edges along the boundary, split whenever they come back to a node."""
+    after = dict(zip(boundary.tolist(), following.tolist(), strict=True))
+    node = dict(zip(after, start[boundary].tolist(), strict=True))
+    while after:
+        half_edge = next(iter(after))
+        path: list[int] = []
+        place: dict[int, int] = {}
+        while half_edge in after:
+            path.append(half_edge)
+            place[node[half_edge]] = len(path) - 1
+            half_edge = after.pop(half_edge)
+            if (first := place.get(node[half_edge])) is not None:
+                loop = path[first:]
+                yield loop
+                del path[first:]
+                for passed in loop:
+                    del place[node[passed]]
+
+
+def _regions_of_faces(noding: Noding, label: Ints) -> Ints:
+    """Return the region of each face."""
+    one, other = noding.face.reshape(-1, 2).T
+    same = label[one] == label[other]
+    return components(len(label), one[same], other[same])
+
+
+def _run_counter_clockwise(noding: Noding, half_edges: Ints, start: Ints) -> Bools:
+    """Tell which simple loops do: those that leave their leftmost node below the way they come. Exact."""
+    loop = np.repeat(np.arange(len(start) - 1), np.diff(start))
+    leftmost = np.lexsort([_starts(noding)[half_edges], loop])[start[:-1]]
+    line = noding.line[half_edges // 2]
+    return np.asarray(line[leftmost] < line[_before(start)[leftmost]])
+
+
+def _rings(noding: Noding, half_edges: Ints, start: Ints, boundary: Ints) -> npt.NDArray[np.object_]:
+    """Return the ring of each loop, None for those that have no area once their nodes are rounded."""
+    node, line = _starts(noding)[half_edges], noding.line[half_edges // 2]
+    loop = np.repeat(np.arange(len(start) - 1), np.diff(start))
+    passes = np.bincount(_starts(noding)[boundary], minlength=len(noding.points))
+    is_corner = noding.is_vertex[node] | (line != line[_before(start)]) | (passes[node] > 1)
+    loop, corners = loop[is_corner], noding.points[node[is_corner]]
+    fresh = (corners != corners[_before(_starts_of_rows(loop))]).any(axis=1)
+    loop, corners = loop[fresh], corners[fresh]
+    rings = np.full(len(start) - 1, None, dtype=object)
+    enough = np.bincount(loop, minlength=len(rings))[loop] >= 3
+    loop, corners = loop[enough], corners[enough]
+    wide = _with_area(corners, _starts_of_rows(loop))[np.unique(loop, return_inverse=True)[1]]
+    loop, corners = loop[wide], corners[wide]
+    kept, row = np.unique(loop, return_inverse=True)
+    rings[kept] = shapely.linearrings(corners, indices=row)
+    return rings
+
+
+def _starts_of_rows(row: Ints) -> Ints:
+    """Return where each row starts, and where the last one ends, given the row of each entry."""
+    return np.concatenate([np.unique(row, return_index=True)[1], [len(row)]])
+
+
+def _before(start: Ints) -> Ints:
+    """Return the place before each one, in rows that close."""
+    before = np.arange(int(start[-1])) - 1
+    before[start[:-1]] = start[1:] - 1
+    return before
+
+
+def _with_area(corners: Floats, start: Ints) -> Bools:
+    """Tell which rings have an area that is not 0. Exact."""
+    if len(corners) == 0:
+        return np.empty(0, dtype=bool)
+    first = np.repeat(corners[start[:-1]], np.diff(start), axis=0)
+    reach = np.maximum.reduceat(np.abs(corners - first).max(axis=1), start[:-1])
+    wide = np.abs(signed_areas(corners, start)) >= _THIN * reach * reach
+    for ring in np.flatnonzero(~wide).tolist():
+        wide[ring] = sense(corners[start[ring] : start[ring + 1]]) != 0
+    return np.asarray(wide)
+
+
+def _polygons(rings: npt.NDArray[np.object_], region: Ints, is_hole: Bools) -> npt.NDArray[np.object_]:
+    """Return the polygon of each region from its one shell and its holes, None where the shell has no area."""
+    polygons = np.full(int(region.max()) + 1, None, dtype=object)
+    shells = np.flatnonzero(~is_hole & ~shapely.is_missing(rings))
+    polygons[region[shells]] = shapely.polygons(rings[shells])
+    holes = np.flatnonzero(is_hole & ~shapely.is_missing(rings))
+    holes = holes[np.argsort(region[holes], kind="stable")]
+    for group in np.split(holes, np.flatnonzero(np.diff(region[holes])) + 1):
+        if len(group) and (shell := polygons[region[group[0]]]) is not None:
+            polygons[region[group[0]]] = shapely.Polygon(shell.exterior, rings[group])
+    return polygons
+
+
+def signed_areas(coordinates: Floats, start: Ints) -> Floats:
+    """Return the signed area of each loop, measured from its first point."""
+    x, y = (coordinates - np.repeat(coordinates[start[:-1]], np.diff(start), axis=0)).T
+    following = np.arange(1, len(x) + 1)
+    following[start[1:] - 1] = start[:-1]
+    return np.asarray(np.add.reduceat(x * y[following] - y * x[following], start[:-1]) / 2)
+
+
+def refuse_invalid(polygons: npt.NDArray[np.object_], corner: Floats | None = None) -> None:
+    """Raise PrecisionError if a polygon is not valid, or missing; then its place is the given corner."""
+    bad = np.flatnonzero(~shapely.is_valid(polygons))
+    if len(bad) == 0:
+        return
+    reasons = " ".join(filter(None, shapely.is_valid_reason(polygons[bad])))
+    places = [(float(x), float(y)) for x, y in re.findall(r"\[(\S+) (\S+)\]", reasons)]
+    raise PrecisionError(
+        "strands are so close that rounding their crossings to double precision spoils a polygon there",
+        where=places or ([] if corner is None else corner[bad]),
+        hint="move the strands apart there",
+    )
