@@ -275,9 +275,9 @@ class TestObstructions:
             with pytest.raises(InputError, match="without cusps") as caught:
                 ask(cusped)
             assert caught.value.where == (LIMACON[6],)
-            with pytest.raises(InputError, match="one curve"):
+            with pytest.raises(InputError, match="one closed curve"):
                 ask([TRIANGLE, HOLE])
-        with pytest.raises(InputError, match="disks so far"):
+        with pytest.raises(InputError, match="disks alone"):
             irreducible_kernels(HANDLE)
 
     def test_what_is_too_much_to_list_is_not_sampled(self, monkeypatch):

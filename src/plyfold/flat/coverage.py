@@ -60,9 +60,9 @@ def coverage(curve: OutlineLike) -> list[Covered]:
     Returns
     -------
     list of Covered
-        Pairs (polygon, winding); those with winding number 0 are left out. One curve in general position has its cells
-        in the order of the arrangement's. Nothing is moved: of a drawing that is not in general position, cells with
-        one winding number that are parted by strands run to and fro are one cell, and there is no other cell than
+        Pairs (polygon, winding); those with winding number 0 are left out. An outline in general position has its
+        cells in the order of the arrangement's. Nothing is moved: of a drawing that is not in general position, cells
+        with one winding number that are parted by strands run to and fro are one cell, and there is no other cell than
         those drawn. The polygons are valid and do not overlap; one that touches itself at a point has a hole that
         touches its outline there. Crossings are rounded to double precision.
 
@@ -99,7 +99,7 @@ def coverage(curve: OutlineLike) -> list[Covered]:
 def directed_coverage(curve: OutlineLike) -> tuple[list[Covered], bool]:
     """Return the same as :func:`coverage`, and whether the winding numbers are those of the curve turned round."""
     drawn = curve if isinstance(curve, Arrangement) else _in_general_position(as_outline(curve))
-    if isinstance(drawn, Arrangement) and drawn.n_loops == 1:
+    if isinstance(drawn, Arrangement):
         with suppress(PrecisionError):
             return _cells_of_arrangement(drawn), drawn.reversed
     outline = as_outline(drawn)
@@ -111,9 +111,9 @@ def directed_coverage(curve: OutlineLike) -> tuple[list[Covered], bool]:
 
 
 def _in_general_position(outline: Outline) -> Arrangement | Outline:
-    """Return the arrangement of one curve, if it is in general position, and otherwise the outline as it is."""
+    """Return the arrangement of an outline in general position, and any other outline as it is."""
     # Where points are equal there is no need to look for crossings, of which crowds have many.
-    if outline.n_loops > 1 or _has_equal_points(outline.points):
+    if _has_equal_points(outline.points):
         return outline
     try:
         return arrange(outline, general_position="raise")
@@ -130,7 +130,7 @@ def _has_equal_points(points: Floats) -> bool:
 
 
 def _cells_of_arrangement(drawn: Arrangement) -> list[Covered]:
-    """Return the cells of one curve by its borders; they may be spoiled where rounding merges crossings."""
+    """Return the cells by their borders; they may be spoiled where rounding merges crossings."""
     wound = np.flatnonzero(drawn.winding).tolist()
     polygons = outlined(drawn, wound)
     return [Covered(*pair) for pair in zip(polygons, drawn.winding[wound].tolist(), strict=True)]
