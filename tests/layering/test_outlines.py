@@ -290,7 +290,7 @@ def test_what_is_found_can_be_layered_again():
 
 def test_the_disk_layout_is_there_for_disks_alone():
     for surface in (find_embedding(HANDLE), find_embedding([OUTER, HOLE])):
-        with pytest.raises(InputError, match="disks so far"):
+        with pytest.raises(InputError, match="disks alone"):
             surface.immersion.disk_layout()
         assert surface.immersion._repr_svg_() is None
 
