@@ -166,6 +166,17 @@ def test_cusps_of_an_outline_that_needs_none(ring, capsys):
     assert "cusp proposed" not in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("name", ["linked-rings", "letter-g"])
+def test_no_cusps_are_proposed_where_pieces_lie_without(name, capsys):
+    main(["check", f"gallery:{name}", "--cusps", "auto"])
+    assert "cusp" not in capsys.readouterr().out
+
+
+def test_what_was_changed_is_said_beside_other_answers(limacon, tmp_path, capsys):
+    main(["lift", str(limacon), "--cusps", "auto", "-o", str(tmp_path / "limacon.glb")])
+    assert capsys.readouterr().err.startswith("note: cusp proposed at ")
+
+
 def test_cusps_that_are_not_found(file, limacon, capsys):
     eights = file("eights.csv", "3,0\n1,3\n-2,0\n1,-3\n3,0.5\n1,1\n0.5,0\n1,-1\n0,9\n-9,9\n-9,8\n0,10\n")
     assert main(["check", eights, "--cusps", "auto"]) == 1

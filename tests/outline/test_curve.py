@@ -262,6 +262,12 @@ def test_cusps_follow_a_reversal_and_lists_of_curves():
         ([SQUARE], {(1, 0): 1}, "no point 0 of loop 1"),
         ([SQUARE], {(0, 4): 1}, "no point 4 of loop 0"),
         ([SQUARE], {(0, 0): True}, "whole number"),
+        ([SQUARE], {(0, 0): 10**30}, "beyond 1,000,000"),
+        ([SQUARE], [[10**30, 0, 0, 0]], "beyond 1,000,000"),
+        ([SQUARE], {0: 1}, "named by its loop and its point"),
+        ([SQUARE], {"0:1": 1}, "named by its loop and its point"),
+        (shapely.box(0, 0, 1, 1), None, "a Polygon is no list of loops"),
+        (None, None, "no list of loops"),
     ],
 )
 def test_an_outline_refuses_what_it_cannot_be(loops, cusps, message):

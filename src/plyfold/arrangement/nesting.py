@@ -146,7 +146,7 @@ def _visits(polyline: _Polyline, watch: Watch) -> Visits:
             f"the curves are not in general position (vertices on other edges: {len(np.unique(touches[:, 0]))}, "
             f"meetings of three edges: {len(visits.triple)})",
             where=touching_places(polyline.points, contacts, visits),
-            hint="move these vertices",
+            hint="move these vertices: several loops are not moved apart, as one is",
         )
     return visits
 

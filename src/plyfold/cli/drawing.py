@@ -36,7 +36,11 @@ def add_drawing_options(command: argparse.ArgumentParser) -> None:
         help="a point where the surface turns M full turns further than one sees (default: 1), counted from 0 in its "
         "loop: --cusp 12, --cusp 0:12, --cusp 0:12x2; as often as needed",
     )
-    command.add_argument("--cusps", choices=["auto"], help="have cusps proposed, where up to 3 turns are too many")
+    command.add_argument(
+        "--cusps",
+        choices=["auto"],
+        help="have cusps proposed, if the outline bounds nothing and up to 3 turns are too many",
+    )
     command.add_argument("--uv", action="store_true", help="of an OBJ or PLY, the texture coordinates as the flat mesh")
     command.add_argument("--tolerance", type=float, help="how far a Bézier or arc may be from its polyline")
 
@@ -54,7 +58,16 @@ def read_outline(options: argparse.Namespace, watch: Stopwatch) -> Outline:
     """Read the outline that is meant, and mark its cusps."""
     watch("reading")
     outline = _with_cusps(_read(options), options.cusp)
-    return _with_proposed_cusps(outline, getattr(options, "time_limit", None), watch) if options.cusps else outline
+    if not options.cusps or _bounds_surface(outline, watch):
+        return outline
+    return _with_proposed_cusps(outline, getattr(options, "time_limit", None), watch)
+
+
+def _bounds_surface(outline: Outline, watch: Stopwatch) -> bool:
+    from plyfold.immersion.solve import find_immersion
+
+    watch("finding immersions")
+    return bool(find_immersion(outline))
 
 
 def _read(options: argparse.Namespace) -> Outline:
@@ -75,6 +88,7 @@ def _with_cusps(outline: Outline, marks: list[CuspMark]) -> Outline:
     if not marks:
         return outline
     from plyfold.outline.given import outline_with
+    from plyfold.outline.vertices import whole_turns
 
     cusps = [index.copy() for index in outline.cusps]
     for loop, point, turns in marks:
@@ -82,7 +96,7 @@ def _with_cusps(outline: Outline, marks: list[CuspMark]) -> Outline:
             loops = f"the outline has {len(cusps)} loop" + "s" * (len(cusps) > 1)
             there = f"loop {loop} has points 0 to {len(cusps[loop]) - 1}" if loop < len(cusps) else loops
             raise InputError(f"there is no point {loop}:{point} to be a cusp", hint=f"both count from 0: {there}")
-        cusps[loop][point] = turns
+        cusps[loop][point] = whole_turns(turns)
     return outline_with(outline, cusps)
 
 

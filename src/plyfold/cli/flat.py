@@ -15,6 +15,7 @@ from plyfold.cli.inputs import (
     prepare,
     read_arrangement,
     refuse_outputs,
+    say_notes,
     write_texts,
 )
 from plyfold.cli.progress import Stopwatch
@@ -82,6 +83,7 @@ def _pieces(options: argparse.Namespace, watch: Stopwatch) -> Polygons:
     from plyfold.flat.decompose import decompose
 
     arranged = read_arrangement(options, watch)
+    say_notes(arranged.outline)
     load_libraries(FOR_MESHES, watch)
     watch("cutting")
     polygons = decompose(arranged)
@@ -113,6 +115,7 @@ def _as_given(options: argparse.Namespace, watch: Stopwatch) -> Outline:
     from plyfold.arrangement.arrangement import arrange
 
     drawn = read_outline(options, watch)
+    say_notes(drawn)
     load_libraries((*FOR_CROSSINGS, *FOR_MESHES), watch)
     if options.general_position == "raise":
         arrange(drawn, "raise")

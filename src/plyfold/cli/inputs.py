@@ -20,6 +20,7 @@ from plyfold.loading import FOR_CROSSINGS, load_libraries
 
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
+    from plyfold.outline.curve import Outline
 
 __all__ = [
     "BAD_INPUT",
@@ -32,6 +33,7 @@ __all__ = [
     "prepare",
     "read_arrangement",
     "refuse_outputs",
+    "say_notes",
     "title",
     "write_texts",
 ]
@@ -86,9 +88,19 @@ def read_arrangement(options: argparse.Namespace, watch: Stopwatch, clock: Clock
 def prepare(
     options: argparse.Namespace, endings: tuple[str, ...], watch: Stopwatch, clock: Clock | None = None
 ) -> Arrangement:
-    """Refuse outputs that cannot be written, then read the input."""
+    """Refuse outputs that cannot be written, then read the input, and say what was changed in it."""
     refuse_outputs(options, endings)
-    return read_arrangement(options, watch, clock)
+    arranged = read_arrangement(options, watch, clock)
+    say_notes(arranged.outline)
+    return arranged
+
+
+def say_notes(outline: Outline | None) -> None:
+    """Say on standard error what was changed in the input."""
+    from plyfold.report import repair_lines
+
+    for line in repair_lines(outline) if outline is not None else ():
+        print(line.strip(), file=sys.stderr)
 
 
 def refuse_outputs(options: argparse.Namespace, endings: tuple[str, ...]) -> None:

@@ -127,12 +127,13 @@ def _turning_in_words(arranged: Arrangement, members: Ints, connected: bool) -> 
     cusps = turning - sum(loop_characteristics(arranged)[loop] for loop in members.tolist())
     some = f" of {arranged.n_loops}" if loops < arranged.n_loops else ""
     who = "curve turns" if arranged.n_loops == 1 else f"{loops}{some} curves together turn"
-    at_cusps = f", {cusps} of them at cusps," if cusps else ""
+    at_cusps = f", {cusps} of them at cusps" if cusps else ""
     what = "a surface in one piece" if connected and loops > 1 else "a surface"
     most = 2 - loops if connected else loops
     apart = "apart from cusps, " if cusps else ""
     often = {1: "once"}.get(most, f"{most} times")
-    return f"The {who} {turning} times{at_cusps}; {apart}what bounds {what} turns {often}, or less by an even number."
+    turns = {1: "once"}.get(turning, f"{turning} times")
+    return f"The {who} {turns}{at_cusps}; {apart}what bounds {what} turns {often}, or less by an even number."
 
 
 def loops_apart(arranged: Arrangement) -> Obstruction | None:

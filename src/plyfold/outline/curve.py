@@ -79,7 +79,7 @@ class Outline:
     def __init__(
         self, loops: Iterable[Curve | npt.ArrayLike], cusps: Cusps | None = None, repairs: Iterable[Repair] = ()
     ) -> None:
-        vertices = _vertices_of_loops(list(loops))
+        vertices = _vertices_of_loops(_as_list(loops))
         given = [len(loop.given) for loop in vertices]
         index = [loop.cusps for loop in vertices] if cusps is None else _index_of_rows(cusps, given)
         starts = np.cumsum([0, *given])
@@ -319,6 +319,16 @@ def _settle(outline: Outline, **attributes: object) -> None:
     vars(outline).update(attributes)
 
 
+def _as_list(loops: Iterable[Curve | npt.ArrayLike]) -> list[Curve | npt.ArrayLike]:
+    if isinstance(loops, Outline):
+        return list(loops.curves)
+    try:
+        return list(loops)
+    except TypeError as error:
+        hint = "give a list of closed curves; of a shapely geometry, plyfold.outline.given.as_outline makes an outline"
+        raise CurveError(f"a {type(loops).__name__} is no list of loops", hint=hint) from error
+
+
 def _vertices_of_loops(loops: Sequence[Curve | npt.ArrayLike]) -> list[Vertices]:
     """Return the vertices of each loop; an error says which one is none."""
     if not loops:
@@ -346,11 +356,19 @@ def _index_of_rows(cusps: Cusps, given: Sequence[int]) -> list[npt.ArrayLike]:
             raise CurveError(f"there are cusps for {len(cusps)} loops, and {len(given)} loops")
         return list(cusps)
     index = [np.zeros(count, dtype=np.int64) for count in given]
-    for (loop, vertex), turns in cusps.items():
+    for key, turns in cusps.items():
+        loop, vertex = _loop_and_point(key)
         if not (0 <= loop < len(given) and 0 <= vertex < given[loop]):
             raise CurveError(f"there is no point {vertex} of loop {loop} to be a cusp", hint="both count from 0")
         index[loop][vertex] = whole_turns(turns)
     return list(index)
+
+
+def _loop_and_point(key: object) -> tuple[int, int]:
+    """Return the loop and the point that a cusp is named by; refuse other names."""
+    if isinstance(key, tuple) and len(key) == 2 and all(isinstance(number, int | np.integer) for number in key):
+        return int(key[0]), int(key[1])
+    raise CurveError(f"a cusp is named by its loop and its point, and not by {key!r}", hint="such as {(0, 12): 1}")
 
 
 def _one_after_the_other(arrays: Sequence[npt.NDArray[Number]]) -> npt.NDArray[Number]:

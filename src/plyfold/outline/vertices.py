@@ -17,6 +17,10 @@ from plyfold.predicates import orient
 __all__ = ["Vertices", "cleaned", "marked", "naming_the_curve", "whole_turns"]
 
 
+MOST_TURNS = 1_000_000
+"""No cusp has a larger index: over its left lie more sheets than it has turns."""
+
+
 class Vertices(NamedTuple):
     """The vertices that are left of the points of a closed polyline.
 
@@ -63,7 +67,10 @@ def marked(vertices: Vertices, index: npt.ArrayLike) -> Ints:
     CurveError
         If an index is no whole number from 0 up, or if there are not as many as rows.
     """
-    given = np.asarray(index)
+    try:
+        given = np.asarray(index)
+    except ValueError:  # rows of different lengths
+        given = np.empty((0, 2))
     n = len(vertices.points)
     if given.ndim != 1 or len(given) not in (len(vertices.given), n):
         raise CurveError(
@@ -72,6 +79,7 @@ def marked(vertices: Vertices, index: npt.ArrayLike) -> Ints:
         )
     for row in np.flatnonzero(given) if given.dtype.kind in "iu" else range(len(given)):
         whole_turns(given[row], vertices.given[row])
+    given = given.astype(np.int64)
     total = np.zeros(n, dtype=np.int64)
     np.add.at(total, _vertex_of_row(vertices, len(given)), given)
     total.setflags(write=False)
@@ -85,6 +93,8 @@ def whole_turns(index: object, place: npt.ArrayLike | None = None) -> int:
             f"the index of a cusp counts full turns and is a whole number from 0 up, not {index}",
             where=[] if place is None else [np.asarray(place)],
         )
+    if index > MOST_TURNS:
+        raise CurveError(f"a cusp of index {index} is beyond {MOST_TURNS:,} full turns")
     return int(index)
 
 
