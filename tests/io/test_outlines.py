@@ -350,3 +350,27 @@ def test_cusps_turn_with_even_odd_loops(read):
 def test_cusps_that_a_path_does_not_have(read, cusps, complaint):
     with pytest.raises(FileFormatError, match=complaint):
         read("cusps.svg", svg(f'<path id="p" d="{d(FAR)}" data-cusps="{cusps}"/>'))
+
+
+SHAPE = {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [0, 3], [0, 0]]]}
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("place.geojson", {"type": "Feature", "geometry": None, "properties": {}}),
+        ("empty.geojson", {"type": "Feature", "geometry": {"type": "Polygon", "coordinates": []}, "properties": {}}),
+        ("parts.geojson", {"type": "Feature", "geometry": {"type": "MultiPolygon", "coordinates": [[]]}}),
+    ],
+)
+def test_a_feature_that_draws_nothing_harms_no_other(read, name, text):
+    feature = {"type": "Feature", "geometry": SHAPE, "properties": {}}
+    outline = read(name, json.dumps({"type": "FeatureCollection", "features": [text, feature]}))
+    assert len(outline) == 3
+
+
+def test_lines_of_wkt_that_draw_nothing_harm_no_other(read):
+    triangle = "POLYGON ((0 0, 4 0, 0 3, 0 0))"
+    assert len(read("empty.wkt", f"{triangle}\nPOLYGON EMPTY")) == 3
+    outline = read("point.wkt", f"POINT (7 7)\n{triangle}")
+    assert said(outline) == ["point left out at (7, 7)"]

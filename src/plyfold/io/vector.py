@@ -57,9 +57,10 @@ def shapes_in_wkt(text: str) -> list[Shape]:
     if text.upper().count("COLLECTION") > 1:  # the parser would recurse as deep as they are nested
         raise FileFormatError("it holds a collection in a collection", hint=_HINT)
     plain = re.sub(r"^\s*SRID=\d+;", "", text, flags=re.IGNORECASE).strip()
-    return [
-        shape for part in _NEXT_GEOMETRY.sub(")\0", plain).split("\0") for shape in _shapes_of_geometry(_geometry(part))
-    ]
+    geometries = list(map(_geometry, _NEXT_GEOMETRY.sub(")\0", plain).split("\0")))
+    if len(geometries) == 1 and geometries[0].is_empty:
+        raise FileFormatError(f"the {geometries[0].geom_type} is empty", hint="give a ring or line with points")
+    return _with_lines_first([shape for geometry in geometries for shape in _shapes_of_geometry(geometry)])
 
 
 def _geometry(text: str) -> BaseGeometry:
@@ -70,14 +71,13 @@ def _geometry(text: str) -> BaseGeometry:
             geometry = shapely.from_wkt(text)
     except shapely.errors.ShapelyError as error:
         raise FileFormatError(f"broken WKT ({error})", hint=_HINT) from error
-    if geometry.is_empty:
-        raise FileFormatError(f"the {geometry.geom_type} is empty", hint="give a ring or line with points")
     return geometry
 
 
 def _shapes_of_geometry(geometry: BaseGeometry) -> list[Shape]:
-    shapes = _with_lines_first(_shapes_of_parts(geometry))
-    said = left_out_coordinates(geometry)
+    if geometry.is_empty:
+        return []
+    shapes, said = _shapes_of_parts(geometry), left_out_coordinates(geometry)
     return [shapes[0]._replace(repairs=(*said, *shapes[0].repairs)), *shapes[1:]]
 
 
@@ -88,7 +88,7 @@ def _shapes_of_parts(geometry: BaseGeometry) -> list[Shape]:
     parts = list(getattr(geometry, "geoms", [geometry]))
     match geometry.geom_type:
         case "GeometryCollection":
-            return [shape for part in parts for shape in _shapes_of_parts(part)]
+            return [shape for part in parts if not part.is_empty for shape in _shapes_of_parts(part)]
         case "Polygon" | "MultiPolygon":
             rings = [[part.exterior, *part.interiors] for part in parts]
             return [Shape(tuple(_rings([list(map(get_coordinates, polygon)) for polygon in rings])))]
@@ -141,7 +141,7 @@ def _with_lines_first(shapes: list[Shape]) -> list[Shape]:
     repairs = [repair for shape in shapes if not shape.loops for repair in shape.repairs]
     drawn = [shape for shape in shapes if shape.loops]
     if not drawn:
-        raise _error("it holds points alone")
+        raise _error("it holds no line and no polygon, but points alone" if repairs else "it holds nothing")
     first, *others = drawn
     return [first._replace(repairs=(*repairs, *first.repairs)), *others]
 
@@ -160,6 +160,8 @@ def _shapes(value: dict[str, Any], name: str = "", cusps: object = None) -> list
 def _shapes_of_feature(feature: dict[str, Any]) -> list[Shape]:
     properties, name = feature.get("properties"), feature.get("id")
     cusps = properties.get("cusps") if isinstance(properties, dict) else None
+    if feature.get("geometry", 0) is None:  # a feature without a place
+        return []
     shapes = _shapes(_object(feature.get("geometry")), "" if name is None else str(name), cusps)
     if cusps is not None and len(shapes) != 1:
         raise _error("a feature with cusps holds several geometries")
@@ -175,7 +177,9 @@ def _shape(kind: str, coordinates: object, name: str, cusps: object) -> Shape:
         positions = _positions([coordinates] if kind == "Point" else coordinates)
         return Shape((), name, _points_left_out(positions))
     if kind in ("Polygon", "MultiPolygon"):
-        polygons = [coordinates] if kind == "Polygon" else _list(coordinates)
+        polygons = [
+            polygon for polygon in ([coordinates] if kind == "Polygon" else _list(coordinates)) if polygon != []
+        ]
         rings = _rings([list(map(_positions, _list(polygon))) for polygon in polygons])
         lengths = [len(_list(ring.points)) for ring in rings]
         marks = cusps_of_loops(cusps, lengths)
@@ -191,8 +195,6 @@ def _shape(kind: str, coordinates: object, name: str, cusps: object) -> Shape:
 
 def _rings(polygons: Sequence[Sequence[Any]]) -> list[Line]:
     """Return the rings of polygons: of each first its shell, then its holes."""
-    if not any(polygons):
-        raise _error("a polygon has no ring")
     return [Line(ring, direction=-1 if number else 1) for polygon in polygons for number, ring in enumerate(polygon)]
 
 

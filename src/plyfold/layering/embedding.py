@@ -112,7 +112,7 @@ def find_embedding(
     >>> from plyfold import Curve
     >>> limacon = [(3, 0), (1, 3), (-2, 0), (1, -3), (3, 0.5), (1, 1), (0.5, 0), (1, -1)]
     >>> sorted(find_embedding(Curve(limacon, cusps={6: 1})).level.tolist())
-    [1, 1, 2]
+    [1, 1, 1, 1, 2]
     """
     clock = Clock(time_limit)
     try:
