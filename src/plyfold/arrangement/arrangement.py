@@ -31,7 +31,7 @@ from plyfold.arrangement.planar_map import (
     checked_code,
     windings_of_loops,
 )
-from plyfold.arrangement.polylines import inner_points, polygon_turning_number, total_winding
+from plyfold.arrangement.polylines import inner_points, polygon_turning_numbers, total_winding
 from plyfold.arrangement.theorems import theorems_of
 from plyfold.arrays import Bools, Floats, Ints, freeze
 from plyfold.clock import UNWATCHED, Watch
@@ -579,7 +579,7 @@ def _of_loops(outline: Outline, turned_round: bool, watch: Watch) -> Arrangement
     is_left = found.bridges[inner] % 2 == 0
     drawn = with_marks(plain, cusps_of_outline(outline, visits.edge), feet, is_left)
     crossings = visits.point[np.arange(len(visits.point)) < visits.partner]
-    turning = tuple(map(polygon_turning_number, outline.loops))
+    turning = polygon_turning_numbers(outline.points, outline.first_point)
     settled = {"exact_signs": visits.exact_signs, "reversed": turned_round}
     walk = walked if drawn is plain else walked_round(drawn)
     return Arrangement._of_map(drawn, walk, turning, outline, crossings=crossings, **settled)

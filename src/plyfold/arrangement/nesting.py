@@ -246,11 +246,10 @@ def _foot_on_edge(plan: _Plan, edge: int, corner: int, number: int) -> Mark:
     Later ones, which come from further right, are higher if the vertices have one height: they pass above.
     """
     height, loop = float(plan.polyline.points[corner, 1]), int(plan.polyline.loop[edge])
-    ends = plan.ends[edge]
-    start, end = map(Fraction, ends[:, 1].tolist())
-    share, upward = (Fraction(height) - start) / (end - start), start < end
+    (start_x, start_y), (end_x, end_y) = plan.ends[edge].tolist()
+    share, upward = (Fraction(height) - Fraction(start_y)) / (Fraction(end_y) - Fraction(start_y)), start_y < end_y
     tie = 2 + number if upward else -2 - number
-    point = (float(_place_and_slope(ends, height)[0]), height)
+    point = (start_x + float(share) * (end_x - start_x), height)
     return Mark(edge - loop, share, tie, _visits_passed(plan, edge, share, upward), loop, point)
 
 
@@ -268,19 +267,22 @@ def _met_on_the_left(plan: _Plan, corner: int) -> int | None:
     near = plan.near(np.array([(plan.leftmost, height), (x, height)]))
     low = plan.ends[near, :, 1] <= height
     met = near[(plan.group[near] != plan.group[corner]) & ~plan.polyline.is_jump[near] & (low[:, 0] != low[:, 1])]
-    places = {edge: _place_and_slope(plan.ends[edge], height) for edge in _nearest(plan.ends[met], x, height, met)}
+    nearest, is_sure = _nearest(plan.ends[met], x, height, met)
+    if is_sure:
+        return nearest[0]
+    places = {edge: _place_and_slope(plan.ends[edge], height) for edge in nearest}
     passed = [edge for edge, (place, _) in places.items() if place < x]
     return max(passed, key=places.__getitem__, default=None)
 
 
-def _nearest(ends: Floats, x: float, height: float, edges: Ints) -> list[int]:
-    """Return those of some edges that a ray to the left may meet first, as far as rounded places tell."""
+def _nearest(ends: Floats, x: float, height: float, edges: Ints) -> tuple[list[int], bool]:
+    """Return those of some edges that a ray to the left may meet first, by rounded places; and if it is surely met."""
     (start_x, start_y), (end_x, end_y) = ends.transpose(1, 2, 0)
     place = start_x + (height - start_y) / (end_y - start_y) * (end_x - start_x)
     error = 16 * np.finfo(np.float64).eps * (np.abs(start_x) + np.abs(end_x)) + np.finfo(np.float64).tiny
-    surely = (place - error)[place + error < x].max(initial=-np.inf)
-    nearest: list[int] = edges[(place + error >= surely) & (place - error < x)].tolist()
-    return nearest
+    left = place + error < x
+    nearest = (place + error >= (place - error)[left].max(initial=-np.inf)) & (place - error < x)
+    return edges[nearest].tolist(), np.count_nonzero(nearest) == 1 and bool(left[nearest].all())
 
 
 def _place_and_slope(edge: Floats, height: float) -> tuple[Fraction, Fraction]:

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from plyfold.arrays import Floats
+from plyfold.arrays import Floats, Ints
 from plyfold.predicates import orient
 
-__all__ = ["inner_points", "polygon_turning_number", "total_winding", "winding_number"]
+__all__ = ["inner_points", "polygon_turning_number", "polygon_turning_numbers", "total_winding", "winding_number"]
 
 
 def polygon_turning_number(points: Floats) -> int:
@@ -23,12 +23,21 @@ def polygon_turning_number(points: Floats) -> int:
     >>> polygon_turning_number(np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]))
     1
     """
-    before, after = np.roll(points, 1, axis=0), np.roll(points, -1, axis=0)
-    turn = orient(before, points, after)
-    step = after - points
+    return polygon_turning_numbers(points, np.array([0, len(points)]))[0]
+
+
+def polygon_turning_numbers(points: Floats, first: Ints) -> tuple[int, ...]:
+    """Return the turning numbers of several closed polylines; polyline l has points ``first[l]:first[l + 1]``."""
+    following = np.arange(1, len(points) + 1)
+    following[first[1:] - 1] = first[:-1]
+    previous = np.empty_like(following)
+    previous[following] = np.arange(len(points))
+    turn = orient(points[previous], points, points[following])
+    step = points[following] - points
     upper = (step[:, 1] > 0) | ((step[:, 1] == 0) & (step[:, 0] > 0))
-    upper_before = np.roll(upper, 1)
-    return int(((turn > 0) & ~upper_before & upper).sum()) - int(((turn < 0) & upper_before & ~upper).sum())
+    upper_before = upper[previous]
+    passed = ((turn > 0) & ~upper_before & upper).astype(np.int64) - ((turn < 0) & upper_before & ~upper)
+    return tuple(np.add.reduceat(passed, first[:-1]).tolist())
 
 
 def winding_number(points: Floats, place: tuple[float, float]) -> int | None:
