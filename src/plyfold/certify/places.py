@@ -80,8 +80,12 @@ class ExactPlaces:
             sure = np.abs(cross) > bound
         sure &= np.isfinite(cross)
         signs = np.where(sure, np.sign(np.where(sure, cross, 0)), 0).astype(np.int8)
-        for i in np.flatnonzero(~sure).tolist():
-            signs[i] = self._exact_cross_sign(int(a[i]), int(b[i]), int(c[i]), int(d[i]))
+        unsure = np.flatnonzero(~sure)
+        ends = np.stack([a, b, c, d], axis=1)[unsure]
+        # The signs of what lies on one edge are 0 as they are.
+        apart = ~self._on_one_edge(ends)
+        for i, four in zip(unsure[apart].tolist(), ends[apart].tolist(), strict=True):
+            signs[i] = self._exact_cross_sign(four)
         return signs, np.asarray(~sure)
 
     def step_sign(self, a: Ints, b: Ints, axis: Ints) -> Signs:
@@ -113,13 +117,17 @@ class ExactPlaces:
     def _edge(self, edge: int) -> tuple[Point, Point]:
         return _rational(self.curve[edge, 0]), _rational(self.curve[edge, 1])
 
-    def _exact_cross_sign(self, a: int, b: int, c: int, d: int) -> int:
-        common = set(self.edges[a].tolist()) & set(self.edges[b].tolist()) - {-1}
-        if common & set(self.edges[c].tolist()) & set(self.edges[d].tolist()):
-            return 0
-        if not self.off[[a, b, c, d]].any():
-            return _sign(_cross(*_whole(self.near[[a, b, c, d]])))
-        p, q, r, s = (self.exact(vertex) for vertex in (a, b, c, d))
+    def _on_one_edge(self, vertices: Ints) -> Bools:
+        """Tell which rows of vertices lie on one edge of the curve together."""
+        edges = self.edges[vertices]
+        shared = [(edges == edges[:, :1, which, None]).any(axis=2).all(axis=1) for which in range(2)]
+        known = edges[:, 0] >= 0
+        return np.asarray((shared[0] & known[:, 0]) | (shared[1] & known[:, 1]))
+
+    def _exact_cross_sign(self, vertices: list[int]) -> int:
+        if not self.off[vertices].any():
+            return _sign(_cross(*_whole(self.near[vertices])))
+        p, q, r, s = map(self.exact, vertices)
         return _sign(_cross(p, q, r, s))
 
 
