@@ -305,6 +305,14 @@ def test_converting_says_what_was_changed(file, tmp_path, capsys):
     assert "note: open line left out at (0, 0) by 50\n" in capsys.readouterr().out
 
 
+def test_nothing_is_converted_if_one_format_refuses(limacon, tmp_path, capsys):
+    outputs = [tmp_path / "a.svg", tmp_path / "b.wkt"]
+    words = ["convert", str(limacon), "--cusps", "auto", *(word for path in outputs for word in ("-o", str(path)))]
+    assert main(words) == 2
+    assert "cusp" in capsys.readouterr().err
+    assert not any(path.exists() for path in outputs)
+
+
 def test_what_cannot_be_converted(limacon, tmp_path, capsys):
     assert main(["convert", limacon, "--cusp", "7", "-o", str(tmp_path / "out.wkt")]) == 2
     assert "no place for the cusps" in capsys.readouterr().err

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 from typing import Any
 
 from plyfold.cli.drawing import read_outline
@@ -26,6 +27,9 @@ def _convert(options: argparse.Namespace) -> int:
     watch = Stopwatch()
     outline = read_outline(options, watch)
     watch.stop()
+    # A format that cannot hold the outline refuses it before any other file is written.
+    for path in options.output:
+        OUTLINE_WRITERS[Path(path).suffix.lower()](outline)
     loops = f"{outline.n_loops} loop" + "s" * (outline.n_loops > 1)
     print("\n".join([f"{loops}, {len(outline):,} points", *repair_lines(outline)]))
     for path in options.output:
