@@ -79,6 +79,7 @@ def has_picture(page):
     return page.evaluate(script) > 60
 
 
+@pytest.mark.slow
 def test_a_large_picture_is_kept_and_so_is_every_drawing(sketch, large_picture):
     for size in (200, 300, 400):
         draw(sketch, named("exit-ramp", size))
@@ -238,6 +239,7 @@ def test_a_long_drawing_still_fits_into_a_link_if_rounding_changes_no_answer(ske
 # ---- two tabs, and hands ---------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_duplicated_tab_goes_on_with_a_drawing_of_its_own(sketch):
     draw(sketch, eight())
     verdict(sketch, WORD["none"])

@@ -80,11 +80,11 @@ def _split(options: argparse.Namespace) -> int:
 
 
 def _pieces(options: argparse.Namespace, watch: Stopwatch) -> Polygons:
-    from plyfold.flat.decompose import decompose
-
     arranged = read_arrangement(options, watch)
     say_notes(arranged.outline)
     load_libraries(FOR_MESHES, watch)
+    from plyfold.flat.decompose import decompose
+
     watch("cutting")
     polygons = decompose(arranged)
     return polygons, [{"piece": number} for number in range(len(polygons))], "simple polygon(s)"
