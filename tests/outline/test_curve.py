@@ -232,6 +232,20 @@ def test_an_outline_numbers_its_loops_one_after_the_other():
     assert [len(curve) for curve in outline.curves] == [4, 3]
 
 
+def test_an_outline_of_one_loop_stands_for_a_curve_with_all_that_is_known_of_it():
+    outline = Outline([[SQUARE[0], *SQUARE]], {(0, 2): 1})
+    curve = as_curve(outline)
+    assert isinstance(as_outline(outline), Curve)
+    assert curve.points.tolist() == outline.points.tolist()
+    assert curve.repairs == outline.repairs != ()
+    assert curve.cusps[0].tolist() == [0, 1, 0, 0]
+
+
+def test_an_outline_of_an_outline_keeps_its_repairs():
+    first = Outline([[SQUARE[0], *SQUARE], HOLE])
+    assert Outline(first, [[0, 1, 0, 0], [0, 0, 0]]).repairs == first.repairs != ()
+
+
 def test_rows_count_the_points_that_were_left_out():
     outline = Outline([[*SQUARE, SQUARE[0]], [HOLE[0], *HOLE]])
     assert outline.rows.tolist() == [0, 1, 2, 3, 5, 7, 8]

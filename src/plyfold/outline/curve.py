@@ -80,6 +80,8 @@ class Outline:
         self, loops: Iterable[Curve | npt.ArrayLike], cusps: Cusps | None = None, repairs: Iterable[Repair] = ()
     ) -> None:
         vertices = _vertices_of_loops(_as_list(loops))
+        if isinstance(loops, Outline) and loops.n_loops > 1:
+            repairs = (*repairs, *loops.repairs)
         given = [len(loop.given) for loop in vertices]
         index = [loop.cusps for loop in vertices] if cusps is None else _index_of_rows(cusps, given)
         starts = np.cumsum([0, *given])
@@ -176,8 +178,9 @@ class Outline:
 
     @property
     def curves(self) -> tuple[Curve, ...]:
-        """Each loop as an outline of its own, with its cusps."""
-        return tuple(Curve(points, (), index) for points, index in zip(self.loops, self.cusps, strict=True))
+        """Each loop as an outline of its own, with its cusps; a single one with the repairs, too."""
+        repairs = self.repairs if self.n_loops == 1 else ()
+        return tuple(Curve(points, repairs, index) for points, index in zip(self.loops, self.cusps, strict=True))
 
     def reversed(self) -> Outline:
         """Return the same outline with each loop run the other way from the same first point, cusps included.
@@ -325,7 +328,7 @@ def _as_list(loops: Iterable[Curve | npt.ArrayLike]) -> list[Curve | npt.ArrayLi
     try:
         return list(loops)
     except TypeError as error:
-        hint = "give a list of closed curves; of a shapely geometry, plyfold.outline.given.as_outline makes an outline"
+        hint = "give a list of closed curves; a shapely geometry is taken as it is wherever an outline is"
         raise CurveError(f"a {type(loops).__name__} is no list of loops", hint=hint) from error
 
 

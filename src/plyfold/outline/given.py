@@ -107,7 +107,7 @@ def as_curve(value: object) -> Curve:
     >>> len(as_curve(shapely.box(0, 0, 1, 1)))
     4
     """
-    outline = value if isinstance(value, Curve) else as_outline(value)
+    outline = as_outline(value)
     if isinstance(outline, Curve):
         return outline
     raise CurveError(
@@ -148,7 +148,7 @@ def as_outline(value: object) -> Outline:
     <Outline of 2 loops, 8 points>
     """
     if isinstance(value, Outline):
-        return value
+        return value if isinstance(value, Curve) or value.n_loops > 1 else value.curves[0]
     if isinstance(getattr(value, "geom_type", None), str):  # a GeoSeries has an array of them
         return _outline_of_geometry(cast("BaseGeometry", value))
     if hasattr(value, "outline"):
