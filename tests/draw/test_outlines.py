@@ -73,9 +73,8 @@ def shoelace(points):
 def test_every_cell_is_filled_but_for_what_lies_in_it(outline):
     arrangement = pf.arrange(outline)
     svg = ElementTree.fromstring(arrangement._repr_svg_())
-    fills = {
-        int(re.search(r"cell (\d+)", path[0].text)[1]): rings_in_path(path) for path in svg.iter(f"{SVG}path") if path
-    }
+    titled = [path for path in svg.iter(f"{SVG}path") if len(path)]
+    fills = {int(re.search(r"cell (\d+)", path[0].text)[1]): rings_in_path(path) for path in titled}
     assert sorted(fills) == list(range(1, arrangement.n_cells))
     place = in_pixels(outline, svg)
     for cell in fills:
