@@ -82,10 +82,13 @@ def test_triangles_are_the_surface(name):
 @pytest.mark.parametrize("angle", np.linspace(0, 6, 13))
 def test_cusps_in_all_directions(angle):
     """A spiral stair seen from everywhere: its edges end at the line and begin there, the corner convex or reflex."""
+    found = 0
     for at in range(0, 40, 3):
         curve = pf.Curve(turned(limacon(), angle), cusps={at: 1})
         if immersion := pf.find_immersion(curve):
             certify(curve, sweep_triangles(immersion))
+            found += 1
+    assert found == 5  # the points of the inner loop
 
 
 @pytest.mark.usefixtures("way")
@@ -114,7 +117,9 @@ def test_double_rings_have_bridges_that_change_sheets(name):
 def test_random_double_rings(seed):
     rng = np.random.default_rng(seed)
     rings = double_ring(*rng.integers(12, 60, 2), rng.uniform(-0.3, 0.3, 2))
-    for immersion in pf.immersions([turned(loop, rng.uniform(0, 6)) for loop in rings]):
+    found = list(pf.immersions([turned(loop, rng.uniform(0, 6)) for loop in rings]))
+    assert len(found) == 2
+    for immersion in found:
         certify(immersion.arrangement.outline, sweep_triangles(immersion))
 
 

@@ -42,7 +42,9 @@ def test_the_surface_climbs_or_falls_by_the_index():
 
 
 def test_casings_come_in_three_lengths():
-    for surface in embeddings(spiral({0: 2})):
+    found = list(embeddings(spiral({0: 2})))
+    assert found
+    for surface in found:
         drawn = surface.immersion.arrangement
         casing, k = surface.casing, drawn.n_crossings
         assert len(casing) == 2 * k + 1
@@ -110,7 +112,7 @@ def test_orders_over_the_immersions_of_a_disk_with_cusps_are_its_embeddings(outl
     by_immersion = [list(pf.layerings(immersion)) for immersion in pf.immersions(outline)]
     assert sum(map(len, by_immersion)) == count_embeddings(outline)
     for found in by_immersion:
-        assert all(tuple(numbers(layering)) in every for layering in found)
+        assert {tuple(numbers(layering)) for layering in found} <= every
         if found:
             immersion = found[0].immersion
             assert pf.count_layerings(immersion) == len(found)

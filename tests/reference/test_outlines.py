@@ -205,13 +205,15 @@ class TestDrawings:
 
 class TestKeys:
     def test_numbers_of_sheets_and_the_order_of_rows_do_not_matter(self):
-        rng = np.random.default_rng(8)
+        rng, seen = np.random.default_rng(8), 0
         for _, code, _ in drawings(5, 30):
             for own, rows in surfaces(code):
                 name = rng.permutation(200)
                 other = [(edge, name[right], name[left]) for edge, right, left in rows]
                 shuffled = [other[i] for i in rng.permutation(len(other))]
                 assert key_of(code, name[list(own)], shuffled) == key_of(code, own, rows)
+                seen += 1
+        assert seen > 10
 
     def test_what_is_no_surface_is_refused(self):
         code = with_cusps(of_gauss(LIMACON), [(1, 1)])
