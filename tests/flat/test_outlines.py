@@ -5,7 +5,6 @@ import pytest
 import shapely
 
 import plyfold as pf
-from plyfold import compiled
 from plyfold.certify import check_immersed_surface
 from plyfold.errors import InputError
 from plyfold.flat.sweep import sweep_triangles
@@ -54,13 +53,6 @@ OUTLINES = {
     **{f"double ring on a grid {r}": [twice_round_squares(8), twice_round_squares(r)[::-1]] for r in (1, 3, 5)},
     **{f"cusp at {at}": pf.Curve(limacon(), cusps={at: 1}) for at in (15, 17, 20, 22, 25)},
 }
-
-
-@pytest.fixture(params=["plain Python", "machine code"])
-def way(request, monkeypatch):
-    if request.param == "machine code":
-        pytest.importorskip("numba")
-    monkeypatch.setattr(compiled, "_machine_code_pays", lambda steps: request.param == "machine code")
 
 
 def certify(outline, faces):

@@ -9,7 +9,6 @@ import pytest
 import plyfold as pf
 from codes import code_of
 from nightly.outlines import judge_immersions, random_outline
-from plyfold import compiled
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.errors import CurveError, GeneralPositionError, InputError
 from plyfold.immersion import outlines
@@ -288,11 +287,8 @@ class TestObstructions:
                 ask(ONE_PART, 1)
 
 
-@pytest.mark.parametrize("way", ["plain Python", "machine code"])
-def test_both_ways_of_loops_peel_alike(way, monkeypatch):
-    if way == "machine code":
-        pytest.importorskip("numba")
-    monkeypatch.setattr(compiled, "_machine_code_pays", lambda steps: way == "machine code")
+@pytest.mark.usefixtures("way")
+def test_ports_and_sheets_that_peeling_pairs_know_each_other():
     for loops in (TWO_OVER_TWO_HOLES, NEST, HANDLE, [HANDLE, LIDS[2]]):
         seams = outline_seams(pf.arrange(loops))
         known = peel(seams)
