@@ -16,7 +16,7 @@ from reference.outline_drawings import outline_code
 from reference.outline_gluings import surfaces
 from reference.outline_levels import level_solutions
 from reference.outlines import outline_map
-from reference.random_curves import random_polygon, without_repeats
+from reference.random_curves import FRAME, small_loops
 
 
 def assert_same_surfaces(loops, cusps, most=4):
@@ -42,11 +42,7 @@ def random_outlines(seed):
     """Loops and cusps: small ones on a frame, many of which lie inside others."""
     rng = np.random.default_rng(seed)
     while True:
-        loops = [[(-40, -41), (42, -40), (40, 43), (-43, 40)]]
-        for _ in range(int(rng.integers(1, 4))):
-            size, (x, y) = int(rng.choice([4, 9, 20])), rng.integers(-20, 21, 2).tolist()
-            polygon = without_repeats(random_polygon(rng, int(rng.integers(3, 6)), size))
-            loops.append([(x + a, y + b) for a, b in polygon])
+        loops = [FRAME, *small_loops(rng, 5)]
         rng.shuffle(loops)
         cusps = [(rng.random(len(loop)) < 0.08).astype(int).tolist() for loop in loops]
         yield loops, cusps

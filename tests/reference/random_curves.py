@@ -31,6 +31,10 @@ SEVERAL_IMMERSIONS = (
 """(polygon, number of crossings, sorted numbers of layerings of its immersions)"""
 
 
+FRAME: Polygon = [(-40, -41), (42, -40), (40, 43), (-43, 40)]
+"""Round `small_loops`, most of which lie inside."""
+
+
 def rounded(points: list[complex], scale: float = 1.0) -> Polygon:
     """Points of the complex plane on the integer grid."""
     return [(round(scale * z.real), round(scale * z.imag)) for z in points]
@@ -110,3 +114,13 @@ def glued_disk(rng: np.random.Generator, triangles: int, size: int = 1000) -> Po
             boundary.insert(i + 1, apex)
             angles.insert(i + 1, angle(u, apex, v))
     return boundary
+
+
+def small_loops(rng: np.random.Generator, most: int) -> list[Polygon]:
+    """One to three polygons of three to so many vertices, some of which lie apart or inside others."""
+    loops = []
+    for _ in range(int(rng.integers(1, 4))):
+        size, (x, y) = int(rng.choice([4, 9, 20])), rng.integers(-20, 21, 2).tolist()
+        polygon = without_repeats(random_polygon(rng, int(rng.integers(3, most + 1)), size))
+        loops.append([(x + a, y + b) for a, b in polygon])
+    return loops
