@@ -10,11 +10,11 @@ from plyfold.errors import InputError
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.mesh.cells import triangulate_cells
 from plyfold.mesh.sheets import glue_copies, twisted_bridges
+from reference.random_curves import HANDLE
 
 SQUARE = [(0, 0), (9, 0), (9, 9), (0, 9)]
 HOLE = [(3, 3), (3, 6), (6, 6), (6, 3)]
 TRIANGLE = [(5, -2), (12, 5), (4, 12)]
-HANDLE = [(73, 90), (-75, 89), (115, -54), (115, 45), (-10, 54), (47, 67), (49, 8), (15, 32), (94, 29), (91, -28)]
 
 
 def turned(points, angle):

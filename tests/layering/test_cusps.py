@@ -9,8 +9,8 @@ from plyfold.layering.embedding import count_embeddings, embeddings, find_embedd
 from plyfold.layering.levels.equations import level_clauses, list_levels
 from plyfold.layering.levels.pieces import not_cut_off, piece_of_each_sheet
 from plyfold.sat import solutions_by_choice
+from reference.random_curves import LIMACON
 
-LIMACON = [(3, 0), (1, 3), (-2, 0), (1, -3), (3, 0.5), (1, 1), (0.5, 0), (1, -1)]
 # A limaçon that winds round once more.
 SPIRAL = [
     (0, -4), (5, 0), (0, 6), (-7, 0), (0, -8), (8.5, 0.5), (0, 9), (-9, 0.4),

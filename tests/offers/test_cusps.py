@@ -14,9 +14,8 @@ from reference.crossings import DegenerateError
 from reference.outline_drawings import outline_code
 from reference.outline_levels import level_solutions
 from reference.outlines import outline_map
-from reference.random_curves import random_polygon, without_repeats
+from reference.random_curves import LIMACON, random_polygon, without_repeats
 
-LIMACON = [(3, 0), (1, 3), (-2, 0), (1, -3), (3, 0.5), (1, 1), (0.5, 0), (1, -1)]
 SQUARE = [(0, 0), (9, 0), (9, 9), (0, 9)]
 
 

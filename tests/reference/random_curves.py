@@ -31,6 +31,13 @@ SEVERAL_IMMERSIONS = (
 """(polygon, number of crossings, sorted numbers of layerings of its immersions)"""
 
 
+# It turns twice: with a cusp on its inner lobe, points 5 to 7, it bounds a disk.
+LIMACON = [(3, 0), (1, 3), (-2, 0), (1, -3), (3, 0.5), (1, 1), (0.5, 0), (1, -1)]
+# It turns -1 times and bounds a disk with a handle, in one way.
+HANDLE: Polygon = [
+    (73, 90), (-75, 89), (115, -54), (115, 45), (-10, 54), (47, 67), (49, 8), (15, 32), (94, 29), (91, -28),
+]  # fmt: skip
+
 FRAME: Polygon = [(-40, -41), (42, -40), (40, 43), (-43, 40)]
 """Round `small_loops`, most of which lie inside."""
 
