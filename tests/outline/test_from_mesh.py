@@ -13,7 +13,6 @@ from reference.mesh_outlines import fans_of, marked, mesh_outline
 from reference.random_curves import glued_disk
 
 SQUARE = [(0, 0), (2, 0), (2, 2), (0, 2)]
-HALVES = [(0, 1, 2), (0, 2, 3)]
 
 
 def loops_of(outline):
@@ -134,7 +133,6 @@ def test_a_full_fan_may_touch_the_boundary():
 
 
 WITH_MIDDLE = [*SQUARE, (1, 1)]
-ROUND = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
 
 
 @pytest.mark.parametrize(
