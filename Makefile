@@ -24,7 +24,8 @@ test: $(READY) lint  ## Style, types, and every test but the slow ones
 test-busy: $(READY)  ## The same beside eight busy processes: no test depends on how fast the machine is
 	$(BIN)/python tools/busy.py 8 make --no-print-directory test
 
-test-slow: $(READY)  ## The tests that take minutes: every curve with six crossings
+test-slow: $(READY)  ## The tests that take minutes: every curve with six crossings, and the slowest rounds of the page
+	@$(MAKE) --no-print-directory browser 2>/dev/null || echo "The tests of the pages are skipped."
 	$(BIN)/python -m pytest -n 2 -m slow
 
 nightly: $(READY)  ## 100,000 random curves and lists of curves, and 10,000 fronts of bodies, against the slow references: about an hour; OPTIONS="--seconds 60" for a taste

@@ -67,9 +67,10 @@ def test_angles_add_up():
 
 
 def test_patches_that_cut_themselves_are_found():
-    for patch in some(5, 40):
-        if len(patch.faces) < 300:
-            assert bool(meeting_pairs(patch.vertices, patch.faces)) == patch.cuts_itself
+    small = [patch for patch in some(5, 40) if len(patch.faces) < 300]
+    for patch in small:
+        assert bool(meeting_pairs(patch.vertices, patch.faces)) == patch.cuts_itself
+    assert {patch.cuts_itself for patch in small} == {True, False}
 
 
 def test_levels_obey_the_rules_where_a_patch_does_not_cut_itself():

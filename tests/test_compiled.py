@@ -30,13 +30,6 @@ def running_sum(given, results):
     return total
 
 
-@pytest.fixture(params=["plain Python", "machine code"])
-def way(request, monkeypatch):
-    if request.param == "machine code":
-        pytest.importorskip("numba")
-    monkeypatch.setattr(compiled, "_machine_code_pays", lambda steps: request.param == "machine code")
-
-
 @pytest.mark.usefixtures("way")
 def test_results_are_arrays():
     given = Numbers(np.array([3, 1, 4]))

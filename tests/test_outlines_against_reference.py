@@ -7,8 +7,10 @@ import pytest
 
 import plyfold as pf
 from bodies import patches
+from codes import code_of
 from nightly.outlines import judge_embeddings, judge_immersions
 from plyfold.arrangement.arrangement import Arrangement
+from reference.outlines import of_gauss, outline_map, with_cusps
 from reference.planar_maps import border_count, nonnegative_curves
 
 BIG = [(0, 0), (90, 0), (0, 90)]
@@ -27,7 +29,12 @@ def test_a_cusp_on_each_border_of_each_curve_in_both_directions(k):
         judge(Arrangement.from_gauss(*code))
         for border in range(border_count(code)):
             for m in (1, 2):
-                judge(Arrangement.from_gauss(*code, cusps={border: m}))
+                arranged, expected = (
+                    Arrangement.from_gauss(*code, cusps={border: m}),
+                    with_cusps(of_gauss(code), [(border, m)]),
+                )
+                assert outline_map(code_of(arranged)) == outline_map(expected)
+                judge(arranged)
 
 
 def test_pairs_of_cusps():

@@ -89,11 +89,10 @@ HANDLE = [
     (0, 0), (8, 0), (8, 2), (7.5, 2), (7.5, 10), (2.5, 10), (2.5, 2), (1.5, 2), (1.5, 6), (4.5, 6),
     (4.5, 2), (3.5, 2), (3.5, 9), (6.5, 9), (6.5, 2), (5.5, 2), (5.5, 7), (0.5, 7), (0.5, 2), (0, 2),
 ]  # fmt: skip
-LIMACON = [(3, 0), (1, 3), (-2, 0), (1, -3), (3, 0.5), (1, 1), (0.5, 0), (1, -1)]
 MIXED = [(-6, -2), (4, 1), (-10, -12), (9, 6), (8, 1), (8, -4), (-1, 7)]
 
 
-@pytest.mark.parametrize("points", [HANDLE, LIMACON, MIXED, [(0, 0), (1, 0), (0, 1)]])
+@pytest.mark.parametrize("points", [HANDLE, random_curves.LIMACON, MIXED, [(0, 0), (1, 0), (0, 1)]])
 def test_directions(points):
     """All ways to give a curve agree about it, and turning it round or reflecting it does what it should."""
     there, back = pf.arrange(points), pf.arrange([points[0], *points[:0:-1]])

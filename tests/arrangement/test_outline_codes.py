@@ -16,7 +16,7 @@ from reference.outline_drawings import outline_code
 from reference.outline_gluings import surfaces
 from reference.outline_levels import level_solutions
 from reference.outlines import outline_map
-from reference.random_curves import random_polygon, without_repeats
+from reference.random_curves import FRAME, small_loops
 
 
 def assert_same_surfaces(loops, cusps, most=4):
@@ -42,11 +42,7 @@ def random_outlines(seed):
     """Loops and cusps: small ones on a frame, many of which lie inside others."""
     rng = np.random.default_rng(seed)
     while True:
-        loops = [[(-40, -41), (42, -40), (40, 43), (-43, 40)]]
-        for _ in range(int(rng.integers(1, 4))):
-            size, (x, y) = int(rng.choice([4, 9, 20])), rng.integers(-20, 21, 2).tolist()
-            polygon = without_repeats(random_polygon(rng, int(rng.integers(3, 6)), size))
-            loops.append([(x + a, y + b) for a, b in polygon])
+        loops = [FRAME, *small_loops(rng, 5)]
         rng.shuffle(loops)
         cusps = [(rng.random(len(loop)) < 0.08).astype(int).tolist() for loop in loops]
         yield loops, cusps
@@ -69,16 +65,18 @@ def test_random_outlines():
     assert cusped > 1
 
 
-@pytest.mark.parametrize("kind", ["tube", "ball", "banded"])
-def test_patches_of_bodies(kind):
-    """All of them bound a surface, with their cusps."""
+@pytest.mark.parametrize(
+    ("kind", "count", "size", "least"), [("tube", 60, 130, 10), ("ball", 60, 130, 20), ("banded", 25, 250, 8)]
+)
+def test_patches_of_bodies(kind, count, size, least):
+    """All of them bound a surface, with their cusps; those with bands have handles and holes."""
     found = 0
-    for patch in islice(patches(31, (kind,)), 60):
-        if len(patch.faces) < 130:
+    for patch in islice(patches(31, (kind,)), count):
+        if len(patch.faces) < size:
             counted = assert_same_surfaces([loop.tolist() for loop in patch.outline], [c.tolist() for c in patch.cusps])
             assert counted is None or counted > 0
             found += counted is not None
-    assert found >= {"tube": 10, "ball": 20, "banded": 0}[kind]
+    assert found >= least
 
 
 def test_large_patches_have_planar_maps():

@@ -9,17 +9,21 @@ import trimesh
 
 import plyfold as pf
 from plyfold.cli.commands import main
+from reference.random_curves import HANDLE, LIMACON
 
 SQUARE = "M0 0H9V9H0Z"
 HOLE = "M2 2V4H4V2Z"
 FAR = "M20 0H29V9H20Z"
 EIGHT = "M0 20L2 22V20L0 22Z"
-LIMACON = "3,0\n1,3\n-2,0\n1,-3\n3,0.5\n1,1\n0.5,0\n1,-1\n"
 
 
 def svg(*paths):
     drawn = "".join(f'<path id="{name}" d="{data}"/>' for name, data in paths)
     return f'<svg xmlns="http://www.w3.org/2000/svg">{drawn}</svg>'
+
+
+def rows(points):
+    return "".join(f"{x},{y}\n" for x, y in points)
 
 
 @pytest.fixture
@@ -44,7 +48,7 @@ def three(file):
 
 @pytest.fixture
 def limacon(file):
-    return file("limacon.csv", LIMACON)
+    return file("limacon.csv", rows(LIMACON))
 
 
 def lines(capsys):
@@ -78,14 +82,13 @@ def test_check_names_the_surface(paths, surface, euler, file, capsys):
 
 
 def test_check_of_loops_that_bound_nothing(file, capsys):
-    drawing = file("drawing.svg", svg(("all", SQUARE + HOLE.replace("M2 2V4H4V2Z", "M20 2V4H40V2Z"))))
+    drawing = file("drawing.svg", svg(("all", SQUARE + "M20 2V4H40V2Z")))
     assert main(["check", drawing]) == 1
     assert capsys.readouterr().out.startswith("No surface. The curves wind -1 times")
 
 
 def test_check_of_a_handle(file, capsys):
-    places = [(73, 90), (-75, 89), (115, -54), (115, 45), (-10, 54), (47, 67), (49, 8), (15, 32), (94, 29), (91, -28)]
-    drawing = file("handle.csv", "".join(f"{x},{y}\n" for x, y in places))
+    drawing = file("handle.csv", rows(HANDLE))
     assert main(["check", drawing, "--json"]) == 0
     [found] = lines(capsys)
     assert found["surface"] == "a disk of cloth with a handle"
@@ -178,7 +181,7 @@ def test_what_was_changed_is_said_beside_other_answers(limacon, tmp_path, capsys
 
 
 def test_cusps_that_are_not_found(file, limacon, capsys):
-    eights = file("eights.csv", "3,0\n1,3\n-2,0\n1,-3\n3,0.5\n1,1\n0.5,0\n1,-1\n0,9\n-9,9\n-9,8\n0,10\n")
+    eights = file("eights.csv", rows([*LIMACON, (0, 9), (-9, 9), (-9, 8), (0, 10)]))
     assert main(["check", eights, "--cusps", "auto"]) == 1
     assert capsys.readouterr().err.startswith("plyfold: ")
     assert main(["check", limacon, "--cusps", "auto", "--time-limit", "0"]) == 3

@@ -5,17 +5,16 @@ import pytest
 import shapely
 
 import plyfold as pf
-from plyfold import compiled
 from plyfold.certify import check_immersed_surface
 from plyfold.errors import InputError
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.mesh.cells import triangulate_cells
 from plyfold.mesh.sheets import glue_copies, twisted_bridges
+from reference.random_curves import HANDLE
 
 SQUARE = [(0, 0), (9, 0), (9, 9), (0, 9)]
 HOLE = [(3, 3), (3, 6), (6, 6), (6, 3)]
 TRIANGLE = [(5, -2), (12, 5), (4, 12)]
-HANDLE = [(73, 90), (-75, 89), (115, -54), (115, 45), (-10, 54), (47, 67), (49, 8), (15, 32), (94, 29), (91, -28)]
 
 
 def turned(points, angle):
@@ -56,13 +55,6 @@ OUTLINES = {
 }
 
 
-@pytest.fixture(params=["plain Python", "machine code"])
-def way(request, monkeypatch):
-    if request.param == "machine code":
-        pytest.importorskip("numba")
-    monkeypatch.setattr(compiled, "_machine_code_pays", lambda steps: request.param == "machine code")
-
-
 def certify(outline, faces):
     assert len(faces) == len(outline) - 2 * pf.arrange(outline).euler_characteristic
     check_immersed_surface(outline.loops, outline.points, faces, np.arange(len(outline)), outline.cusps)
@@ -82,10 +74,13 @@ def test_triangles_are_the_surface(name):
 @pytest.mark.parametrize("angle", np.linspace(0, 6, 13))
 def test_cusps_in_all_directions(angle):
     """A spiral stair seen from everywhere: its edges end at the line and begin there, the corner convex or reflex."""
+    found = 0
     for at in range(0, 40, 3):
         curve = pf.Curve(turned(limacon(), angle), cusps={at: 1})
         if immersion := pf.find_immersion(curve):
             certify(curve, sweep_triangles(immersion))
+            found += 1
+    assert found == 5  # the points of the inner loop
 
 
 @pytest.mark.usefixtures("way")
@@ -114,7 +109,9 @@ def test_double_rings_have_bridges_that_change_sheets(name):
 def test_random_double_rings(seed):
     rng = np.random.default_rng(seed)
     rings = double_ring(*rng.integers(12, 60, 2), rng.uniform(-0.3, 0.3, 2))
-    for immersion in pf.immersions([turned(loop, rng.uniform(0, 6)) for loop in rings]):
+    found = list(pf.immersions([turned(loop, rng.uniform(0, 6)) for loop in rings]))
+    assert len(found) == 2
+    for immersion in found:
         certify(immersion.arrangement.outline, sweep_triangles(immersion))
 
 

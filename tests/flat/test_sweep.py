@@ -8,20 +8,12 @@ import pytest
 
 import plyfold as pf
 from coarse import CURVES
-from plyfold import compiled
 from plyfold.certify import check_immersed_disk
 from plyfold.errors import GeneralPositionError
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.flat.sweep_line import empty_skip_list, link_above, sweep_order, sweep_plan, unlink
 from plyfold.predicates import as_coordinates, turn
 from reference import random_curves
-
-
-@pytest.fixture(params=["plain Python", "machine code"])
-def way(request, monkeypatch):
-    if request.param == "machine code":
-        pytest.importorskip("numba")
-    monkeypatch.setattr(compiled, "_machine_code_pays", lambda steps: request.param == "machine code")
 
 
 def certify(immersion):

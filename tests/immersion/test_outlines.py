@@ -9,7 +9,6 @@ import pytest
 import plyfold as pf
 from codes import code_of
 from nightly.outlines import judge_immersions, random_outline
-from plyfold import compiled
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.errors import CurveError, GeneralPositionError, InputError
 from plyfold.immersion import outlines
@@ -19,6 +18,7 @@ from plyfold.immersion.solve import nth_immersion
 from reference.outline_gluings import fits, key_of, one_of_each_class, surfaces
 from reference.outlines import outline_map
 from reference.planar_maps import border_count, census
+from reference.random_curves import HANDLE, LIMACON
 
 TRIANGLE, HOLE = [(0, 0), (9, 0), (0, 9)], [(1, 1), (1, 3), (3, 1)]
 FRAME = [(-2, -2), (20, -2), (-2, 20)]
@@ -26,14 +26,12 @@ OTHER_HOLE, THIRD_HOLE = [(4, 1), (4, 2), (5, 1)], [(6, 0.5), (6, 1), (6.5, 0.5)
 NEST = [FRAME, [(-1, -1), (-1, 17), (17, -1)], TRIANGLE, HOLE]
 """A ring in the hole of a ring."""
 TWO_OVER_TWO_HOLES = [FRAME, TRIANGLE, HOLE, OTHER_HOLE]
-HANDLE = [(73, 90), (-75, 89), (115, -54), (115, 45), (-10, 54), (47, 67), (49, 8), (15, 32), (94, 29), (91, -28)]
 LIDS = [
     [(-300, -300), (400, -301), (50, 500)],
     [(-100, -80), (200, -81), (50, 150)],
     [(0, -80), (130, -60), (120, 100), (-10, 70)],
 ]
-"""Curves over that one: far around it, or across it."""
-LIMACON = [(3, 0), (1, 3), (-2, 0), (1, -3), (3, 0.5), (1, 1), (0.5, 0), (1, -1)]
+"""Curves over the disk with a handle: far around it, or across it."""
 CUSP_IN_THE_WRONG_PLACE = [(15, -16), (-1, 17), (2, -12), (11, 0), (8, -18), (16, 16), (7, -6), (7, -20)]
 """Point 4 as a cusp leaves no disk, though the number of turns is right."""
 ONE_PART = [*([(x - i, y - i) for x, y in FRAME] for i in range(3)), TRIANGLE, HOLE]
@@ -288,11 +286,8 @@ class TestObstructions:
                 ask(ONE_PART, 1)
 
 
-@pytest.mark.parametrize("way", ["plain Python", "machine code"])
-def test_both_ways_of_loops_peel_alike(way, monkeypatch):
-    if way == "machine code":
-        pytest.importorskip("numba")
-    monkeypatch.setattr(compiled, "_machine_code_pays", lambda steps: way == "machine code")
+@pytest.mark.usefixtures("way")
+def test_ports_and_sheets_that_peeling_pairs_know_each_other():
     for loops in (TWO_OVER_TWO_HOLES, NEST, HANDLE, [HANDLE, LIDS[2]]):
         seams = outline_seams(pf.arrange(loops))
         known = peel(seams)

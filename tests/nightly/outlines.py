@@ -26,7 +26,7 @@ from reference.crossings import DegenerateError, turning_number
 from reference.outline_gluings import key_of, pieces, surfaces
 from reference.outline_levels import layerings, level_solutions
 from reference.outlines import OutlineCode
-from reference.random_curves import Polygon, random_polygon, without_repeats
+from reference.random_curves import FRAME, Polygon, small_loops, without_repeats
 
 MOST_SHEETS = 4
 """Sheets over a cell up to which the references try all gluings."""
@@ -48,11 +48,7 @@ Cusps = list[np.ndarray]
 
 def on_a_frame(rng: np.random.Generator) -> list[Polygon]:
     """Up to three loops of few edges in a frame, some of which lie apart or inside others."""
-    loops: list[Polygon] = [[(-40, -41), (42, -40), (40, 43), (-43, 40)]]
-    for _ in range(int(rng.integers(1, 4))):
-        size, (x, y) = int(rng.choice([4, 9, 20])), rng.integers(-20, 21, 2).tolist()
-        polygon = without_repeats(random_polygon(rng, int(rng.integers(3, 8)), size))
-        loops.append([(x + a, y + b) for a, b in polygon])
+    loops = [FRAME, *small_loops(rng, 7)]
     return [loops[i] for i in rng.permutation(len(loops))]
 
 

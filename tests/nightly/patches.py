@@ -10,7 +10,7 @@ import plyfold as pf
 from bodies import Patch, levels_beside
 from plyfold.errors import GeneralPositionError
 from plyfold.layering.levels.equations import level_equations
-from reference.mesh_outlines import least_turned
+from reference.mesh_outlines import marked
 from reference.triangles import meeting_pairs
 
 MOST_TO_LIFT = 30
@@ -42,14 +42,6 @@ def judge_mesh(patch: Patch, outline: pf.Outline) -> None:
     found = pf.Outline.from_mesh(patch.vertices[:, :2], patch.faces)
     rows = np.split(found.rows, found.first_point[1:-1])
     assert marked(rows, found.cusps) == marked(patch.loops, outline.cusps)
-
-
-def marked(loops: list[np.ndarray], cusps: list[np.ndarray]) -> set[tuple[tuple[int, int], ...]]:
-    """Loops of vertices with their cusps, wherever they start."""
-    return {
-        least_turned(list(zip(loop.tolist(), index.tolist(), strict=True)))
-        for loop, index in zip(loops, cusps, strict=True)
-    }
 
 
 def judge_immersion(found: pf.Immersion | pf.Obstruction, patch: Patch) -> None:

@@ -15,7 +15,7 @@ def test_a_slice_of_drawings(seed):
     fills.judge(fills.random_drawing(np.random.default_rng(seed)))
 
 
-def test_drawings_touch_in_all_ways():
+def test_drawings_have_one_to_three_loops_on_the_grid_and_off_it():
     drawn = [fills.random_drawing(np.random.default_rng(seed)) for seed in range(60)]
     assert {len(loops) for loops in drawn} == {1, 2, 3}
     assert any((loop != np.rint(loop)).any() for loops in drawn for loop in loops)

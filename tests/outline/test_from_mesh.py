@@ -9,20 +9,15 @@ import plyfold as pf
 from bodies import patches
 from coarse import CURVES
 from plyfold.errors import CurveError
-from reference.mesh_outlines import fans_of, least_turned, mesh_outline
+from reference.mesh_outlines import fans_of, marked, mesh_outline
 from reference.random_curves import glued_disk
 
 SQUARE = [(0, 0), (2, 0), (2, 2), (0, 2)]
-HALVES = [(0, 1, 2), (0, 2, 3)]
 
 
 def loops_of(outline):
     """Each loop as rows of (vertex, index), in the form of the reference."""
-    rows = np.split(outline.rows, outline.first_point[1:-1])
-    return {
-        least_turned(list(zip(row.tolist(), cusps.tolist(), strict=True)))
-        for row, cusps in zip(rows, outline.cusps, strict=True)
-    }
+    return marked(np.split(outline.rows, outline.first_point[1:-1]), outline.cusps)
 
 
 def assert_as_in_fractions(points, faces):
@@ -37,10 +32,7 @@ def assert_as_in_fractions(points, faces):
 def test_patches_of_bodies_give_back_their_outlines():
     for patch in islice(patches(21), 60):
         found = assert_as_in_fractions(patch.vertices[:, :2], patch.faces)
-        assert loops_of(found) == {
-            least_turned(list(zip(loop.tolist(), cusps.tolist(), strict=True)))
-            for loop, cusps in zip(patch.loops, patch.cusps, strict=True)
-        }
+        assert loops_of(found) == marked(patch.loops, patch.cusps)
         assert isinstance(found, pf.Curve) == (len(patch.loops) == 1)
         assert not found.repairs
 
@@ -141,7 +133,6 @@ def test_a_full_fan_may_touch_the_boundary():
 
 
 WITH_MIDDLE = [*SQUARE, (1, 1)]
-ROUND = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
 
 
 @pytest.mark.parametrize(

@@ -4,9 +4,11 @@ A fan is walked from the boundary edge that leaves its vertex, counter-clockwise
 turn, and a full turn is made whenever the direction arrives at, or passes, the one in which the walk began.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
+
+import numpy as np
 
 from reference.crossings import Point, cross, dot, exact, minus
 
@@ -62,6 +64,14 @@ def mesh_outline(points: Sequence[Sequence[float]], faces: Sequence[Sequence[int
             edge = fan.vertex, fan.rim[0]
         loops.add(least_turned(loop))
     return loops
+
+
+def marked(loops: Iterable[np.ndarray], cusps: Iterable[np.ndarray]) -> set[tuple[tuple[int, int], ...]]:
+    """Loops of vertices and their indices, in the form of `mesh_outline`."""
+    return {
+        least_turned(list(zip(loop.tolist(), index.tolist(), strict=True)))
+        for loop, index in zip(loops, cusps, strict=True)
+    }
 
 
 def least_turned(loop: Sequence[tuple[int, int]]) -> tuple[tuple[int, int], ...]:

@@ -31,6 +31,17 @@ SEVERAL_IMMERSIONS = (
 """(polygon, number of crossings, sorted numbers of layerings of its immersions)"""
 
 
+# It turns twice: with a cusp on its inner lobe, points 5 to 7, it bounds a disk.
+LIMACON = [(3, 0), (1, 3), (-2, 0), (1, -3), (3, 0.5), (1, 1), (0.5, 0), (1, -1)]
+# It turns -1 times and bounds a disk with a handle, in one way.
+HANDLE: Polygon = [
+    (73, 90), (-75, 89), (115, -54), (115, 45), (-10, 54), (47, 67), (49, 8), (15, 32), (94, 29), (91, -28),
+]  # fmt: skip
+
+FRAME: Polygon = [(-40, -41), (42, -40), (40, 43), (-43, 40)]
+"""Round `small_loops`, most of which lie inside."""
+
+
 def rounded(points: list[complex], scale: float = 1.0) -> Polygon:
     """Points of the complex plane on the integer grid."""
     return [(round(scale * z.real), round(scale * z.imag)) for z in points]
@@ -110,3 +121,13 @@ def glued_disk(rng: np.random.Generator, triangles: int, size: int = 1000) -> Po
             boundary.insert(i + 1, apex)
             angles.insert(i + 1, angle(u, apex, v))
     return boundary
+
+
+def small_loops(rng: np.random.Generator, most: int) -> list[Polygon]:
+    """One to three polygons of three to so many vertices, some of which lie apart or inside others."""
+    loops = []
+    for _ in range(int(rng.integers(1, 4))):
+        size, (x, y) = int(rng.choice([4, 9, 20])), rng.integers(-20, 21, 2).tolist()
+        polygon = without_repeats(random_polygon(rng, int(rng.integers(3, most + 1)), size))
+        loops.append([(x + a, y + b) for a, b in polygon])
+    return loops

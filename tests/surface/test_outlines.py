@@ -11,12 +11,12 @@ from plyfold.draw.viewer import mesh_data
 from plyfold.errors import InputError
 from plyfold.mesh.cells import triangulate_cells
 from plyfold.surface.stairs import with_cusps_apart, with_steps
+from reference.random_curves import HANDLE
 from reference.triangles import meeting_pairs
 
 SQUARE = [(0, 0), (9, 0), (9, 9), (0, 9)]
 HOLE = [(3, 3), (3, 6), (6, 6), (6, 3)]
 TRIANGLE = [(5, -2), (12, 5), (4, 12)]
-HANDLE = [(73, 90), (-75, 89), (115, -54), (115, 45), (-10, 54), (47, 67), (49, 8), (15, 32), (94, 29), (91, -28)]
 
 
 def circle(radius, centre=(0.0, 0.0), way=1, n=40):
