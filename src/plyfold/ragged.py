@@ -6,7 +6,7 @@ import numpy as np
 
 from plyfold.arrays import Ints
 
-__all__ = ["count_each", "next_in_rows", "pairs_in_each", "starts_of"]
+__all__ = ["count_each", "next_in_rows", "pairs_in_each", "previous_in_rows", "starts_of"]
 
 
 def starts_of(lengths: Ints) -> Ints:
@@ -42,6 +42,19 @@ def next_in_rows(first: Ints) -> Ints:
     following = np.arange(1, int(first[-1]) + 1)
     following[first[1:] - 1] = first[:-1]
     return following
+
+
+def previous_in_rows(first: Ints) -> Ints:
+    """Return the place of the entry before each one, the last before the first of its row; no row is empty.
+
+    Examples
+    --------
+    >>> previous_in_rows(np.array([0, 2, 5])).tolist()
+    [1, 0, 4, 2, 3]
+    """
+    previous = np.arange(-1, int(first[-1]) - 1)
+    previous[first[:-1]] = first[1:] - 1
+    return previous
 
 
 def pairs_in_each(lengths: Ints) -> tuple[Ints, Ints]:

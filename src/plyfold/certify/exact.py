@@ -11,7 +11,18 @@ import numpy.typing as npt
 
 from plyfold.errors import CertificateError
 
-__all__ = ["Bools", "Floats", "Ints", "Loops", "as_faces", "as_loops", "different", "finite", "pair_keys"]
+__all__ = [
+    "Bools",
+    "Floats",
+    "Ints",
+    "Loops",
+    "as_faces",
+    "as_loops",
+    "different",
+    "finite",
+    "next_along_loops",
+    "pair_keys",
+]
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int64]
@@ -48,14 +59,19 @@ class Loops:
     @property
     def following(self) -> Ints:
         """The point after each, along its loop."""
-        following = np.arange(1, len(self.points) + 1)
-        following[self.first[1:] - 1] = self.first[:-1]
-        return following
+        return next_along_loops(self.first)
 
     @property
     def edges(self) -> Floats:
         """Both ends of each edge, (n, 2, 2)."""
         return np.stack([self.points, self.points[self.following]], axis=1)
+
+
+def next_along_loops(first: Ints) -> Ints:
+    """Return the place after each one, in closed rows that begin at ``first``, which ends with the length of all."""
+    following = np.arange(1, int(first[-1]) + 1)
+    following[first[1:] - 1] = first[:-1]
+    return following
 
 
 def as_loops(

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.certify.disk import Sides, disk_sides, surface_sides
-from plyfold.certify.exact import Bools, Floats, Ints, Loops, as_loops, different, finite
+from plyfold.certify.exact import Bools, Floats, Ints, Loops, as_loops, different, finite, next_along_loops
 from plyfold.certify.places import ExactPlaces, on_edges, require_positive
 from plyfold.errors import CertificateError
 
@@ -184,9 +184,8 @@ def walked(outline: Loops, near: Floats, sides: Sides, boundary: npt.ArrayLike) 
 def walk_along(outline: Loops, near: Floats, loop: Ints, first: Ints) -> Walk:
     """Return rows of vertices, which begin at ``first``, as a walk along an outline, through all its points."""
     at = _positions_of(outline, near[loop], first)
-    after = np.arange(1, len(loop) + 1)
-    after[first[1:] - 1] = first[:-1]
-    return Walk(outline, near, loop, after, np.repeat(np.arange(len(at)), np.diff(np.append(at, len(loop)))), at)
+    edge = np.repeat(np.arange(len(at)), np.diff(np.append(at, len(loop))))
+    return Walk(outline, near, loop, next_along_loops(first), edge, at)
 
 
 def common_places(walk: Walk) -> ExactPlaces:

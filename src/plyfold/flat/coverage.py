@@ -19,7 +19,7 @@ from plyfold.flat.regions import refuse_invalid, regions, signed_areas
 from plyfold.mesh.refine import chain_of, drawn_outline
 from plyfold.outline.curve import Outline
 from plyfold.outline.given import OutlineLike, as_outline
-from plyfold.ragged import count_each
+from plyfold.ragged import count_each, previous_in_rows
 
 if TYPE_CHECKING:
     from shapely import Polygon
@@ -256,10 +256,8 @@ def _coordinates(arrangement: Arrangement, loops: Sequence[Sequence[int]]) -> tu
 
 def _first_pieces(arrangement: Arrangement, chain_border: Ints, first_piece: Ints) -> Ints:
     """Return the first piece of the chain that is on each border."""
-    before = np.arange(-1, len(chain_border) - 1)
-    before[first_piece[:-1]] = first_piece[1:] - 1
     begin = np.empty(arrangement.n_borders, dtype=np.int64)
     begin[chain_border[first_piece[:-1]]] = first_piece[:-1]
-    change = np.flatnonzero(chain_border != chain_border[before])
+    change = np.flatnonzero(chain_border != chain_border[previous_in_rows(first_piece)])
     begin[chain_border[change]] = change
     return begin

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import pairwise
 from typing import TYPE_CHECKING, Literal, overload
 
 import numpy as np
@@ -115,7 +114,7 @@ def _pieces_of_immersion(chosen: Immersion) -> list[Polygon]:
     if not chosen.is_disk or drawn.cusp_index.any():
         return _pieces_of_surface(points, faces, np.concatenate(drawn_outline(drawn).cusps) > 0)
     conflicts = _crossing_sides(drawn, faces)
-    tree = _tree(faces)
+    tree = _forest(faces)
     while True:
         piece = _pieces(conflicts, *tree)
         polygons = _outlined(points, faces, piece)
@@ -143,26 +142,18 @@ def _pieces_of_surface(points: Floats, faces: Ints, is_cusp: Bools) -> list[Poly
     for triangle, others in _overlaps(points, faces, [np.arange(len(faces))], is_cusp).items():
         conflicts[triangle] |= others
     piece = _pieces(conflicts, *_forest(faces))
-    polygons = [
-        shapely.coverage_union_all(shapely.polygons(points[faces[piece == number]]))
-        for number in range(piece.max() + 1)
-    ]
+    polygons = [shapely.coverage_union_all(shapely.polygons(points[faces[members]])) for members in _members(piece)]
     return [polygon for union in polygons for polygon in shapely.get_parts(shapely.orient_polygons(union)).tolist()]
 
 
 def _forest(faces: Ints) -> tuple[list[int], list[int]]:
-    """Return the same as :func:`_tree` for triangles that may fall apart into pieces; roots hang on −1."""
+    """Return the triangles in an order, and for each the one before it that it hangs on; −1 for one in each part."""
     first, second = glued_pairs(faces).T // 3
-    part = components(len(faces), first, second)
-    order, parent = [], np.full(len(faces), -1)
-    for number in range(int(part.max()) + 1):
-        members = np.flatnonzero(part == number)
-        inside = part[first] == number
-        links = (np.searchsorted(members, side[inside]) for side in (first, second))
-        above, _, own_order = spanning_tree(len(members), *links)
-        order += members[own_order].tolist()
-        parent[members[own_order[1:]]] = members[above[own_order[1:]]]
-    return order, parent.tolist()
+    roots = np.unique(components(len(faces), first, second), return_index=True)[1]
+    # Node 0, on which these hang, stands for no triangle.
+    start, end = np.append(np.zeros_like(roots), first + 1), np.append(roots, second) + 1
+    above, _, order = spanning_tree(len(faces) + 1, start, end)
+    return (order[1:] - 1).tolist(), (above[1:] - 1).tolist()
 
 
 def _crossing_sides(drawn: Arrangement, faces: Ints) -> list[set[int]]:
@@ -177,12 +168,6 @@ def _crossing_sides(drawn: Arrangement, faces: Ints) -> list[set[int]]:
     for one, other in zip(at.tolist(), at[drawn.partner].tolist(), strict=True):
         conflicts[one].add(other)
     return conflicts
-
-
-def _tree(faces: Ints) -> tuple[list[int], list[int]]:
-    """Return the triangles in an order that begins with the root, and before each triangle the one it hangs on."""
-    parent, _, order = spanning_tree(len(faces), *glued_pairs(faces).T // 3)
-    return order.tolist(), parent.tolist()
 
 
 def _overlaps(points: Floats, faces: Ints, groups: list[Ints], is_cusp: Bools | None = None) -> dict[int, set[int]]:
@@ -230,10 +215,14 @@ def _neighbourhoods(piece: Ints, wanted: Ints, parent: list[int]) -> list[Ints]:
     above = piece[np.maximum(parent, 0)]
     top = np.flatnonzero((above != piece) & (np.array(parent) >= 0))
     hangs_on[piece[top]] = above[top]
-    by_piece = np.argsort(piece, kind="stable")
-    begin = np.searchsorted(piece[by_piece], np.arange(len(hangs_on) + 1))
-    members = [by_piece[low:high] for low, high in pairwise(begin)]
+    members = _members(piece)
     return [np.concatenate([members[p] for p in {one, hangs_on[one]}]) for one in wanted]
+
+
+def _members(piece: Ints) -> list[Ints]:
+    """Return the triangles of each piece."""
+    by_piece = np.argsort(piece, kind="stable")
+    return np.split(by_piece, np.flatnonzero(np.diff(piece[by_piece])) + 1)
 
 
 def _overlapping_boxes(triangles: Floats) -> Iterator[tuple[Ints, Ints]]:

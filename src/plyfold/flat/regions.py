@@ -16,6 +16,7 @@ from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import PrecisionError
 from plyfold.graphs import components
 from plyfold.outline.direction import sense
+from plyfold.ragged import next_in_rows, previous_in_rows
 
 if TYPE_CHECKING:
     from shapely import Polygon
@@ -131,7 +132,7 @@ def _run_counter_clockwise(noding: Noding, half_edges: Ints, start: Ints) -> Boo
     loop = np.repeat(np.arange(len(start) - 1), np.diff(start))
     leftmost = np.lexsort([_starts(noding)[half_edges], loop])[start[:-1]]
     line = noding.line[half_edges // 2]
-    return np.asarray(line[leftmost] < line[_before(start)[leftmost]])
+    return np.asarray(line[leftmost] < line[previous_in_rows(start)[leftmost]])
 
 
 def _rings(noding: Noding, half_edges: Ints, start: Ints, boundary: Ints) -> npt.NDArray[np.object_]:
@@ -139,9 +140,9 @@ def _rings(noding: Noding, half_edges: Ints, start: Ints, boundary: Ints) -> npt
     node, line = _starts(noding)[half_edges], noding.line[half_edges // 2]
     loop = np.repeat(np.arange(len(start) - 1), np.diff(start))
     passes = np.bincount(_starts(noding)[boundary], minlength=len(noding.points))
-    is_corner = noding.is_vertex[node] | (line != line[_before(start)]) | (passes[node] > 1)
+    is_corner = noding.is_vertex[node] | (line != line[previous_in_rows(start)]) | (passes[node] > 1)
     loop, corners = loop[is_corner], noding.points[node[is_corner]]
-    fresh = (corners != corners[_before(_starts_of_rows(loop))]).any(axis=1)
+    fresh = (corners != corners[previous_in_rows(_starts_of_rows(loop))]).any(axis=1)
     loop, corners = loop[fresh], corners[fresh]
     rings = np.full(len(start) - 1, None, dtype=object)
     enough = np.bincount(loop, minlength=len(rings))[loop] >= 3
@@ -156,13 +157,6 @@ def _rings(noding: Noding, half_edges: Ints, start: Ints, boundary: Ints) -> npt
 def _starts_of_rows(row: Ints) -> Ints:
     """Return where each row starts, and where the last one ends, given the row of each entry."""
     return np.concatenate([np.unique(row, return_index=True)[1], [len(row)]])
-
-
-def _before(start: Ints) -> Ints:
-    """Return the place before each one, in rows that close."""
-    before = np.arange(int(start[-1])) - 1
-    before[start[:-1]] = start[1:] - 1
-    return before
 
 
 def _with_area(corners: Floats, start: Ints) -> Bools:
@@ -193,8 +187,7 @@ def _polygons(rings: npt.NDArray[np.object_], region: Ints, is_hole: Bools) -> n
 def signed_areas(coordinates: Floats, start: Ints) -> Floats:
     """Return the signed area of each loop, measured from its first point."""
     x, y = (coordinates - np.repeat(coordinates[start[:-1]], np.diff(start), axis=0)).T
-    following = np.arange(1, len(x) + 1)
-    following[start[1:] - 1] = start[:-1]
+    following = next_in_rows(start)
     return np.asarray(np.add.reduceat(x * y[following] - y * x[following], start[:-1]) / 2)
 
 

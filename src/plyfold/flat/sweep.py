@@ -10,12 +10,8 @@ Bridges by which the gluing changes sheets lie on the line as well.
 At a cusp, the line meets the surface several times: the vertex is inside of intervals, on sheets all around it. There,
 what is above it of one goes on with what is below it of the one next to it, round the cusp.
 
-The part of the surface that was swept is cut into monotone polygons, whose triangles are found on the way [GJPT78]_.
-
-References
-----------
-.. [GJPT78] M. R. Garey, D. S. Johnson, F. P. Preparata, R. E. Tarjan, "Triangulating a simple polygon", Information
-   Processing Letters 7, 1978.
+The part of the surface that was swept is cut into monotone polygons, whose triangles are found on the way
+(:mod:`plyfold.flat.monotone`).
 """
 
 from __future__ import annotations
@@ -27,6 +23,17 @@ import numpy as np
 from plyfold.arrays import Ints
 from plyfold.compiled import called_from_loops, run_loop
 from plyfold.errors import PlyfoldError
+from plyfold.flat.monotone import (
+    TRIANGLES,
+    MonotonePolygons,
+    Stacks,
+    Triangles,
+    add_vertex,
+    count_up,
+    cut_off,
+    empty_triangles,
+    new_polygon,
+)
 from plyfold.flat.sweep_line import SkipList, SweepPlan, empty_skip_list, link_above, sweep_order, sweep_plan, unlink
 from plyfold.immersion.immersion import Immersion
 from plyfold.mesh.refine import borders_at_points, drawn_outline
@@ -69,8 +76,12 @@ class _Drawing(NamedTuple):
 
 
 class _Strands(NamedTuple):
-    """The edges on the line: the node of each in the skip list, the border that it is on now; the edge of each node."""
+    """The edges on the line: the node of each in the skip list, the border that it is on now; the edge of each node.
 
+    ``made`` has the number of nodes so far.
+    """
+
+    made: Ints
     node: Ints
     border: Ints
     edge: Ints
@@ -80,33 +91,14 @@ class _Intervals(NamedTuple):
     """The interval that each edge on the line bounds; of each interval the upper edge, and the polygons it closes.
 
     They are two, ``bottom`` and ``top``, after a vertex at which two intervals have become one: the next vertex of the
-    interval sees it.
+    interval sees it. ``made`` has the number of intervals so far.
     """
 
+    made: Ints
     of_edge: Ints
     upper_edge: Ints
     bottom: Ints
     top: Ints
-
-
-class _Polygons(NamedTuple):
-    """Monotone polygons, as far as they are not cut into triangles yet: a vertex, and a chain of others on one side.
-
-    They are stacks whose entries hold a vertex and the entry before, or −1. The chain is above, ``side`` 1, or below,
-    −1; there is none, 0, beside a single vertex. It bends inward: no triangle can be cut off.
-    """
-
-    last: Ints
-    side: Ints
-    vertex: Ints
-    before: Ints
-
-
-class _Output(NamedTuple):
-    """The triangles, and how many there are of: nodes, intervals, polygons, entries, triangles."""
-
-    faces: Ints
-    counts: Ints
 
 
 class _Sweep(NamedTuple):
@@ -117,11 +109,7 @@ class _Sweep(NamedTuple):
     nodes: SkipList
     strands: _Strands
     intervals: _Intervals
-    polygons: _Polygons
-    output: _Output
-
-
-_NODES, _INTERVALS, _POLYGONS, _ENTRIES, _TRIANGLES = range(5)
+    polygons: MonotonePolygons
 
 
 def sweep_triangles(immersion: Immersion) -> Ints:
@@ -156,9 +144,8 @@ def sweep_triangles(immersion: Immersion) -> Ints:
     given = (as_coordinates(plan.points), drawing, *_room(n, starts, turns, len(plan.bridges)))
     triangles = n - 2 * immersion.euler_characteristic
     # Room for one more: if there were more, that would be seen.
-    output = _Output(np.empty((triangles + 1, 3), dtype=np.int64), np.zeros(5, dtype=np.int64))
-    output = run_loop(_swept, len(drawing.order), given, output)
-    if output.counts[_TRIANGLES] != triangles:
+    output = run_loop(_swept, len(drawing.order), given, empty_triangles(triangles + 1))
+    if output.counts[TRIANGLES] != triangles:
         raise PlyfoldError("internal check failed: the triangles make the surface", where=plan.points[:1])
     return output.faces[:triangles]
 
@@ -196,24 +183,25 @@ def _drawing(immersion: Immersion, plan: SweepPlan) -> _Drawing:
     )
 
 
-def _room(n: int, starts: int, turns: int, bridges: int) -> tuple[SkipList, _Strands, _Intervals, _Polygons]:
+def _room(n: int, starts: int, turns: int, bridges: int) -> tuple[SkipList, _Strands, _Intervals, Stacks]:
     """Return empty tables for an outline of n vertices, at some of which the line first meets it, and of some cusps."""
 
     def rows(count: int, size: int) -> Ints:
         return np.empty((count, size), dtype=np.int64)
 
+    none = np.zeros((2, 1), dtype=np.int64)
     return (
         empty_skip_list(2 * starts + bridges),
-        _Strands(*rows(2, n + bridges), *rows(1, 2 * starts + bridges + 1)),
-        _Intervals(*rows(1, n + bridges), *rows(3, starts)),
-        _Polygons(*rows(2, starts + turns), *rows(2, 3 * (n + turns))),
+        _Strands(none[0], *rows(2, n + bridges), *rows(1, 2 * starts + bridges + 1)),
+        _Intervals(none[1], *rows(1, n + bridges), *rows(3, starts)),
+        Stacks(*rows(2, starts + turns), *rows(2, 3 * (n + turns))),
     )
 
 
-def _swept(given: tuple[Coordinates, _Drawing, SkipList, _Strands, _Intervals, _Polygons], output: _Output) -> int:
+def _swept(given: tuple[Coordinates, _Drawing, SkipList, _Strands, _Intervals, Stacks], output: Triangles) -> int:
     """Sweep; return how many triangles there are."""
-    places, drawing, nodes, strands, intervals, polygons = given
-    sweep = _Sweep(places, drawing, nodes, strands, intervals, polygons, output)
+    places, drawing, nodes, strands, intervals, stacks = given
+    sweep = _Sweep(places, drawing, nodes, strands, intervals, MonotonePolygons(places, stacks, output))
     rank, n = drawing.rank, len(drawing.cusp)
     for event in drawing.order:
         if event >= n:
@@ -239,7 +227,7 @@ def _swept(given: tuple[Coordinates, _Drawing, SkipList, _Strands, _Intervals, _
             _begin(sweep, event, turn(places, before, event, after) > 0)
         else:
             _end(sweep, event, turn(places, before, event, after) > 0)
-    triangles: int = output.counts[_TRIANGLES]
+    triangles: int = output.counts[TRIANGLES]
     return triangles
 
 
@@ -312,9 +300,9 @@ def _begin(sweep: _Sweep, vertex: int, convex: bool) -> None:
     intervals = sweep.intervals
     arriving, leaving = sweep.drawing.preceding[vertex], vertex
     place = _place_below(sweep, vertex)
-    fresh = _count_up(sweep, _INTERVALS)
+    fresh = count_up(sweep.intervals.made, 0)
     if convex:
-        intervals.bottom[fresh] = intervals.top[fresh] = _new_polygon(sweep, vertex)
+        intervals.bottom[fresh] = intervals.top[fresh] = new_polygon(sweep.polygons, vertex)
         intervals.upper_edge[fresh] = arriving
         intervals.of_edge[leaving] = intervals.of_edge[arriving] = fresh
         _insert(sweep, arriving, vertex, _insert(sweep, leaving, vertex, place))
@@ -373,20 +361,12 @@ def _insert(sweep: _Sweep, edge: int, vertex: int, place: int) -> int:
 @called_from_loops
 def _link(sweep: _Sweep, edge: int, border: int, place: int) -> int:
     """Put an edge that is on some border on the line, above a given node; return its own node."""
-    node = _count_up(sweep, _NODES) + 1
+    node = count_up(sweep.strands.made, 0) + 1
     sweep.strands.node[edge] = node
     sweep.strands.edge[node] = edge
     sweep.strands.border[edge] = border
     link_above(sweep.nodes, node, place)
     return node
-
-
-@called_from_loops
-def _count_up(sweep: _Sweep, what: int) -> int:
-    """Return the number of a new node, interval, polygon, entry or triangle."""
-    number: int = sweep.output.counts[what]
-    sweep.output.counts[what] = number + 1
-    return number
 
 
 @called_from_loops
@@ -396,9 +376,9 @@ def _end(sweep: _Sweep, vertex: int, convex: bool) -> None:
     arriving, leaving = sweep.drawing.preceding[vertex], vertex
     lower, upper = intervals.of_edge[leaving], intervals.of_edge[arriving]
     if convex:
-        _cut_off(sweep, intervals.bottom[lower], vertex)
+        cut_off(sweep.polygons, intervals.bottom[lower], vertex)
         if intervals.top[lower] != intervals.bottom[lower]:
-            _cut_off(sweep, intervals.top[lower], vertex)
+            cut_off(sweep.polygons, intervals.top[lower], vertex)
     else:
         _meet(sweep, lower, vertex, 1)
         _meet(sweep, upper, vertex, -1)
@@ -467,7 +447,7 @@ def _first_at_cusp(sweep: _Sweep, vertex: int, comes: bool, goes: bool) -> int:
         below: int = intervals.of_edge[vertex]
         _meet(sweep, below, vertex, 1)
         return below
-    fresh: int = intervals.of_edge[sweep.drawing.preceding[vertex]] if comes else _count_up(sweep, _INTERVALS)
+    fresh: int = intervals.of_edge[sweep.drawing.preceding[vertex]] if comes else count_up(sweep.intervals.made, 0)
     intervals.of_edge[vertex] = fresh
     intervals.bottom[fresh] = -1
     return fresh
@@ -521,9 +501,9 @@ def _meet(sweep: _Sweep, interval: int, vertex: int, side: int) -> None:
     bottom, top = intervals.bottom[interval], intervals.top[interval]
     near, far = (top, bottom) if side > 0 else (bottom, top)
     if near != far:
-        _cut_off(sweep, near, vertex)
+        cut_off(sweep.polygons, near, vertex)
         intervals.bottom[interval] = intervals.top[interval] = far
-    _add(sweep, far, vertex, side)
+    add_vertex(sweep.polygons, far, vertex, side)
 
 
 @called_from_loops
@@ -541,61 +521,14 @@ def _cut(sweep: _Sweep, interval: int, vertex: int) -> None:
 
     Afterwards the interval has one polygon below the vertex and one above it.
     """
-    intervals, polygons = sweep.intervals, sweep.polygons
+    intervals, stacks = sweep.intervals, sweep.polygons.stacks
     bottom, top = intervals.bottom[interval], intervals.top[interval]
     if bottom == top:
-        seen = _new_polygon(sweep, polygons.vertex[polygons.last[top]])
-        if polygons.side[top] < 0:
+        seen = new_polygon(sweep.polygons, stacks.vertex[stacks.last[top]])
+        if stacks.side[top] < 0:
             bottom = seen
         else:
             top = seen
-    _add(sweep, bottom, vertex, 1)
-    _add(sweep, top, vertex, -1)
+    add_vertex(sweep.polygons, bottom, vertex, 1)
+    add_vertex(sweep.polygons, top, vertex, -1)
     intervals.bottom[interval], intervals.top[interval] = bottom, top
-
-
-@called_from_loops
-def _new_polygon(sweep: _Sweep, vertex: int) -> int:
-    """Return a polygon that begins at a vertex."""
-    polygon = _count_up(sweep, _POLYGONS)
-    sweep.polygons.side[polygon] = 0
-    _push(sweep, polygon, vertex, -1)
-    return polygon
-
-
-@called_from_loops
-def _push(sweep: _Sweep, polygon: int, vertex: int, before: int) -> None:
-    entry = _count_up(sweep, _ENTRIES)
-    sweep.polygons.vertex[entry] = vertex
-    sweep.polygons.before[entry] = before
-    sweep.polygons.last[polygon] = entry
-
-
-@called_from_loops
-def _add(sweep: _Sweep, polygon: int, vertex: int, side: int) -> None:
-    """Add a vertex to a polygon, on its upper (1) or lower (−1) side, and cut off all triangles that can be."""
-    polygons = sweep.polygons
-    last = polygons.last[polygon]
-    left = _cut_off(sweep, polygon, vertex)
-    if polygons.side[polygon] == -side:
-        polygons.before[last] = -1
-        left = last
-    polygons.side[polygon] = side
-    _push(sweep, polygon, vertex, left)
-
-
-@called_from_loops
-def _cut_off(sweep: _Sweep, polygon: int, vertex: int) -> int:
-    """Cut triangles with a new vertex off the end of a polygon's chain; return the entry up to which it is left."""
-    polygons, faces = sweep.polygons, sweep.output.faces
-    above = polygons.side[polygon] > 0
-    entry: int = polygons.last[polygon]
-    while polygons.before[entry] >= 0:
-        near, far = polygons.vertex[entry], polygons.vertex[polygons.before[entry]]
-        second, third = (vertex, near) if above else (near, vertex)
-        if turn(sweep.places, far, second, third) <= 0:
-            break
-        triangle = _count_up(sweep, _TRIANGLES)
-        faces[triangle][0], faces[triangle][1], faces[triangle][2] = far, second, third
-        entry = polygons.before[entry]
-    return entry

@@ -22,6 +22,7 @@ from plyfold.immersion.obstructions import loops_apart, negative_winding, obstru
 from plyfold.layering.embedding import find_embedding
 from plyfold.layering.levels.equations import LevelClauses, LevelEquations, clauses_of, level_equations
 from plyfold.layering.orders.search import undecided
+from plyfold.mesh.refine import borders_at_points
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.given import OutlineLike
@@ -229,16 +230,9 @@ def _sharpest_points(arranged: Arrangement) -> dict[int, int]:
 
 def _border_of_each_point(arranged: Arrangement) -> Ints:
     """Return the border in which each point of the outline lies; −1 at cusps and for loops without visits."""
-    outline, first_visit = _drawn(arranged), arranged.first_visit
-    point = np.arange(len(outline))
-    loop = np.searchsorted(outline.first_point, point, side="right") - 1
-    # Visits on earlier edges come before a point; those on the edge that starts there come after it.
-    before = np.searchsorted(arranged.visit_edge, point) - 1
-    before = np.where(before < first_visit[loop], first_visit[loop + 1] - 1, before)
-    border = np.full(len(outline), -1)
-    inside = (np.diff(first_visit)[loop] > 0) & (np.concatenate(outline.cusps) == 0)
-    border[inside] = arranged.border_after[before[inside]]
-    return border
+    border, _ = borders_at_points(arranged)
+    is_inside = (arranged.start_visit[border] >= 0) & (np.concatenate(_drawn(arranged).cusps) == 0)
+    return np.where(is_inside, border, -1)
 
 
 def _angles(outline: Outline) -> Floats:
@@ -289,18 +283,17 @@ class _CuspClauses:
         The levels of the halves differ by at most that index, unless it is higher; and by at least so much, unless it
         is lower.
         """
-        places, x = self.places, self.levels.at_most
+        places = self.places
         possible = np.flatnonzero(places.most >= index)
         levels = places.equations.highest[places.border[possible]]
         place, i = np.repeat(possible, levels), 1 + count_each(levels)
         before, after = places.border[place], places.other[place]
         more, reached = self.at_least(index + 1)[place], self.at_least(max(index, 1))[place]
         climbs = self.levels.n_variables + int(places.most.sum()) + 1 + place
-        near = [[more, -x(one, i), x(other, i + index)] for one, other in ((before, after), (after, before))]
+        near = [[more, *row] for row in self.levels.at_most_apart(before, after, i, index)]
         if index == 0:
             return near
-        rises = [-reached, -climbs, -x(after, i), x(before, i - index)]
-        return [*near, rises, [-reached, climbs, -x(before, i), x(after, i - index)]]
+        return [*near, *([-reached, *row] for row in self.levels.at_least_apart(before, after, i, index, climbs))]
 
     def _numbers(self) -> list[list[int]]:
         """Return that there are so many cusps, and so many turns at them."""

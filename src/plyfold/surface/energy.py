@@ -37,6 +37,7 @@ _TIE = 1e-3
 # Thinner triangles (double area by longest side squared) and smaller areas (by the mean) count as if they were not,
 # for their numbers would drown all others.
 _THINNEST = 1e-2
+_SMALLEST = 1e-4
 # Triangles at cusps have next to no energy: there is a hole in the cloth, round which it may climb.
 _AT_CUSPS = 1e-6
 # Nearer to a cusp than the bending length, that is this share of the way to the cusp.
@@ -44,7 +45,6 @@ _BENDING_AT_CUSPS = 0.25
 # How much pieces that lie over each other are drawn together, with the energy of the slope as the unit of energy, and
 # the mean width of the cloth as that of length.
 _ATTRACTION = 1e-3
-_SMALLEST = 1e-4
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,6 +29,7 @@ from plyfold.layering.levels.equations import (
 from plyfold.layering.orders.search import undecided
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.outline.given import OutlineLike
+from plyfold.wording import counted
 
 __all__ = ["casing_of_visits", "embed_cased"]
 
@@ -134,7 +135,7 @@ def _not_determined(arranged: Arrangement, level: Ints, other: Ints) -> InputErr
     cusps = np.flatnonzero((arranged.cusp_index > 0) & (change != other_change))
     loops = np.unique(arranged.loop_of_border[level != other]).tolist()
     if len(cusps):
-        open_choice = f"whether the surface climbs or falls at {len(cusps)} cusps"
+        open_choice = f"whether the surface climbs or falls at {counted(len(cusps), 'cusp')}"
         places = arranged.visit_point[cusps].tolist() if arranged.outline else []
     else:
         open_choice = f"the level of curve {', '.join(map(str, loops))}"

@@ -33,6 +33,7 @@ from plyfold.memory import require_memory
 from plyfold.obstruction import Obstruction
 from plyfold.ragged import count_each, starts_of
 from plyfold.sat import Clauses, minimal_core, solutions_by_choice, solve
+from plyfold.wording import counted
 
 __all__ = [
     "Lacking",
@@ -258,15 +259,14 @@ class LevelClauses:
     @cached_property
     def of_marks(self) -> list[list[list[int]]]:
         """What each mark demands: two levels that differ by no more than its index, and at cusps by no less."""
-        equations, x = self.equations, self.at_most
+        equations = self.equations
         levels = equations.highest[equations.before]
         mark, i = np.repeat(np.arange(len(levels)), levels), 1 + count_each(levels)
         before, after, index = equations.before[mark], equations.after[mark], equations.index[mark]
-        near = [(-x(one, i), x(other, i + index)) for one, other in ((before, after), (after, before))]
+        near = self.at_most_apart(before, after, i, index)
         at_cusp = index > 0
-        i, before, after, index = i[at_cusp], before[at_cusp], after[at_cusp], index[at_cusp]
         climbs = np.repeat(self.climbs, levels[equations.cusps])
-        far = [(-climbs, -x(after, i), x(before, i - index)), (climbs, -x(before, i), x(after, i - index))]
+        far = self.at_least_apart(before[at_cusp], after[at_cusp], i[at_cusp], index[at_cusp], climbs)
         demands = _by_demand(len(levels), np.tile(mark, 2), np.concatenate([np.stack(row, 1) for row in near]))
         more = _by_demand(len(levels), np.tile(mark[at_cusp], 2), np.concatenate([np.stack(row, 1) for row in far]))
         return [[*some, *others] for some, others in zip(demands, more, strict=True)]
@@ -299,6 +299,18 @@ class LevelClauses:
         """Return the literals x(e, i): the level of a border is at most i."""
         variable = np.where(i < self.equations.highest[border], self._before[border] + i, _TRUE)
         return np.where(i > 0, variable, -_TRUE)
+
+    def at_most_apart(self, before: Ints, after: Ints, i: Ints, index: Ints | int) -> list[tuple[Ints, ...]]:
+        """Return rows of literals, for all levels i from 1 on: the levels of two borders differ by at most an index."""
+        x = self.at_most
+        return [(-x(one, i), x(other, i + index)) for one, other in ((before, after), (after, before))]
+
+    def at_least_apart(
+        self, before: Ints, after: Ints, i: Ints, index: Ints | int, climbs: Ints
+    ) -> list[tuple[Ints, ...]]:
+        """Return rows that they differ by at least that: the second is higher if a variable is true, lower if not."""
+        x = self.at_most
+        return [(-climbs, -x(after, i), x(before, i - index)), (climbs, -x(before, i), x(after, i - index))]
 
 
 def _by_demand(number: int, demand: Ints, rows: Ints) -> list[list[list[int]]]:
@@ -371,7 +383,7 @@ def no_levels(arranged: Arrangement, clauses: LevelClauses, clock: Clock, becaus
     among_crossings, among_cusps = contradiction(clauses, clock)
     crossings = sorted(crossing_from_base[i] for i in among_crossings)
     cusps = sorted(cusp_from_base[i] for i in among_cusps)
-    at = f"{len(crossings)} crossings" + (f" and {len(cusps)} cusp" + "s" * (len(cusps) > 1)) * bool(cusps)
+    at = " and ".join(counted(len(found), name) for found, name in ((crossings, "crossing"), (cusps, "cusp")) if found)
     sentence = f"No embedding: {because}no levels of the strands fit together at {at}."
     drawn = arranged.outline is not None
     places = np.concatenate([arranged.crossings[crossings], arranged.visit_point[cusps]]).tolist() if drawn else []
