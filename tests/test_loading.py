@@ -31,11 +31,22 @@ def imports_by_stage(*words):
     return {stage: names for stage, names in json.loads(printed.splitlines()[-1]).items() if names}
 
 
-@pytest.mark.parametrize("command", ["check", "lift", "split", "unwrap", "triangulate"])
-def test_no_stage_but_one_imports_libraries(command, tmp_path):
-    path = tmp_path / ("out.wkt" if command == "split" else "out.obj")
-    outputs = () if command == "check" else ("-o", str(path))
-    assert imports_by_stage(command, "gallery:exit-ramp", *outputs).keys() == {"loading libraries"}
+@pytest.mark.parametrize(
+    ("command", "ending"),
+    [
+        ("check", ""),
+        ("lift", "obj"),
+        ("split", "wkt"),
+        ("split --cells", "wkt"),
+        ("split --fill nonzero", "wkt"),
+        ("draw --mask 9", "npy"),
+        ("unwrap", "obj"),
+        ("triangulate", "obj"),
+    ],
+)
+def test_no_stage_but_one_imports_libraries(command, ending, tmp_path):
+    outputs = ("-o", str(tmp_path / f"out.{ending}")) if ending else ()
+    assert imports_by_stage(*command.split(), "gallery:exit-ramp", *outputs).keys() == {"loading libraries"}
 
 
 def test_in_python_too():

@@ -406,6 +406,15 @@ def test_draw_mask(touching, tmp_path, capsys):
         main(["draw", str(touching), "--mask", "0", "-o", str(tmp_path / "none.png")])
 
 
+def test_a_mask_is_of_the_points_as_given_and_says_what_was_left_out(touching, tmp_path, capsys):
+    (tmp_path / "flat.wkt").write_text("POLYGON ((0 0, 4 0, 0 3, 0 0), (1 1, 2 1, 1 1))")
+    main(["draw", str(tmp_path / "flat.wkt"), "--mask", "9", "-o", str(tmp_path / "flat.npy")])
+    assert "note: loop without area left out at (1, 1)" in capsys.readouterr().err
+    refused = ["draw", str(touching), "--mask", "9", "--general-position", "raise", "-o", str(tmp_path / "none.npy")]
+    assert main(refused) == 2
+    assert not (tmp_path / "none.npy").exists()
+
+
 def test_triangulate_numbers_the_points_of_the_file(loop, tmp_path):
     turned = tmp_path / "turned.csv"
     turned.write_text("".join(reversed(loop.read_text().splitlines(keepends=True))))

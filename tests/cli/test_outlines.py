@@ -175,6 +175,12 @@ def test_no_cusps_are_proposed_where_pieces_lie_without(name, capsys):
     assert "cusp" not in capsys.readouterr().out
 
 
+def test_cusps_are_not_proposed_for_a_moved_outline_if_that_is_refused(file, capsys):
+    touching = file("touching.csv", "3,0\n1,3\n-2,0\n1,-3\n3,0.5\n1,1\n0.5,0\n1,-1\n-2,0\n")
+    assert main(["check", touching, "--cusps", "auto", "--general-position", "raise"]) == 2
+    assert "not in general position" in capsys.readouterr().err
+
+
 def test_what_was_changed_is_said_beside_other_answers(limacon, tmp_path, capsys):
     main(["lift", str(limacon), "--cusps", "auto", "-o", str(tmp_path / "limacon.glb")])
     assert capsys.readouterr().err.startswith("note: cusp proposed at ")
@@ -185,7 +191,7 @@ def test_cusps_that_are_not_found(file, limacon, capsys):
     assert main(["check", eights, "--cusps", "auto"]) == 1
     assert capsys.readouterr().err.startswith("plyfold: ")
     assert main(["check", limacon, "--cusps", "auto", "--time-limit", "0"]) == 3
-    assert "name them with --cusp" in capsys.readouterr().err
+    assert "name the cusps with --cusp" in capsys.readouterr().err
 
 
 # ---- which shapes ----------------------------------------------------------------------------------------------------

@@ -51,6 +51,12 @@ def test_documents_of_a_later_version_are_refused(tmp_path):
         read(tmp_path / "drawing.json", {"plyfold": 3, "strokes": []})
 
 
+@pytest.mark.parametrize("points", [None, 5, "no", {"x": 1}, [1, 2], [[0], [1, 2]], [["a", 1]], [[10**400, 1]]])
+def test_strokes_without_points_are_refused(tmp_path, points):
+    with pytest.raises(FileFormatError, match=r"points that are not \[x, y\]"):
+        read(tmp_path / "drawing.json", {"plyfold": 2, "strokes": [{"points": points, "closed": True}]})
+
+
 def test_large_doubles_are_written_without_a_point(tmp_path):
     """As JavaScript does: the number is the shortest that means this double."""
     points = [[1000000414370802200, 0], [2000000414370802200, 0], [0, 1e18]]

@@ -139,6 +139,15 @@ def test_the_chart_of_a_ply(read):
         (ply("ascii", [(0, 1, 8)]), "face 0 has the vertex 8, counted from 0, and the mesh has 8"),
         (ply("ascii", [(0, 1, -1)]), "face 0 has the vertex -1"),
         (ply("ascii", []), "no face"),
+        (ply("ascii", [(0, 1)]), "face 0 has 2 corners"),
+        (ply("ascii", [(0, "nan", 1)]), "face 0 has a corner that is no number"),
+        (ply("ascii", [(0, "inf", 1)]), "face 0 has a corner that is no number"),
+        (ply("ascii", [(0, 1, 2)]).replace(b"\n3 0 1 2", b"\ninf 0 1 2"), "face 0 is broken, or missing"),
+        (ply("ascii", [(0, 1, 2)]).replace(b"\n3 0 1 2", b"\n-1 0 1 2"), "face 0 is broken, or missing"),
+        (
+            ply("ascii", [(0, 1, 2)], [("2 4 4", 0), ("1 4", 0), ("1 0", 3)]).replace(b"double x", b"list uchar int x"),
+            "lists as coordinates",
+        ),
         (b"ply\nformat ascii 1.0\nelement vertex 9999999999\nproperty double x\nend_header\n1\n", "vertex 1 is broken"),
     ],
 )

@@ -291,6 +291,18 @@ def test_even_odd_loops_are_turned_by_their_depth(read, attributes, where):
     assert pf.arrange(outline).winding.min() == 0
 
 
+@pytest.mark.parametrize("far", [FAR, FAR[::-1]])
+@pytest.mark.parametrize("hole", [HOLE, HOLE[::-1]])
+def test_even_odd_loops_run_as_the_other_shapes_do(read, far, hole):
+    """A rectangle runs clockwise in a picture whose y points up, and is painted the same by both rules."""
+    paths = f'<path fill-rule="evenodd" d="{d(SQUARE, hole)}"/><path d="{d(far)}"/>'
+    outline = read("beside.svg", svg(paths))
+    way = np.sign(plane_area(np.array(far)))
+    assert [np.sign(plane_area(loop)) for loop in outline.loops] == [way, -way, way]
+    assert pf.arrange(outline).winding.min() == 0
+    assert loops(outline)[2] == far
+
+
 def plane_area(points):
     x, y = points.T
     return x @ np.roll(y, -1) - y @ np.roll(x, -1)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
+from functools import partial
 from typing import Any
 
 from plyfold.cli.drawing import read_outline
-from plyfold.cli.inputs import DISK, add_command, add_outputs, refuse_outputs
+from plyfold.cli.inputs import DISK, add_command, add_outputs, refuse_outputs, write_texts
 from plyfold.cli.progress import Stopwatch
 
 __all__ = ["add_convert_command"]
@@ -20,19 +20,14 @@ def add_convert_command(commands: Any) -> None:
 
 
 def _convert(options: argparse.Namespace) -> int:
-    from plyfold.io.outline_files import OUTLINE_WRITERS, save
+    from plyfold.io.outline_files import OUTLINE_WRITERS
     from plyfold.report import repair_lines
 
     refuse_outputs(options, tuple(OUTLINE_WRITERS))
     watch = Stopwatch()
     outline = read_outline(options, watch)
     watch.stop()
-    # A format that cannot hold the outline refuses it before any other file is written.
-    for path in options.output:
-        OUTLINE_WRITERS[Path(path).suffix.lower()](outline)
     loops = f"{outline.n_loops} loop" + "s" * (outline.n_loops > 1)
     print("\n".join([f"{loops}, {len(outline):,} points", *repair_lines(outline)]))
-    for path in options.output:
-        save(outline, path, force=options.force)
-        print(f"  wrote {path}")
+    write_texts(options, {ending: partial(write, outline) for ending, write in OUTLINE_WRITERS.items()})
     return DISK

@@ -9,7 +9,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plyfold.cli.drawing import read_outline
 from plyfold.cli.inputs import (
     DISK,
     NO_DISK,
@@ -17,6 +16,7 @@ from plyfold.cli.inputs import (
     add_outputs,
     add_time_limit,
     prepare,
+    read_as_given,
     refuse_outputs,
     write_texts,
 )
@@ -24,10 +24,13 @@ from plyfold.cli.progress import Stopwatch
 from plyfold.cli.streams import complain
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError
 from plyfold.io.saving import save_bytes
-from plyfold.loading import FOR_CROSSINGS, FOR_MESHES, load_libraries
 
 if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
     from plyfold.arrangement.arrangement import Arrangement
+    from plyfold.outline.curve import Outline
 
 __all__ = ["add_draw_command"]
 
@@ -110,25 +113,32 @@ def _draw_over_under(options: argparse.Namespace) -> int:
 
 
 def _draw_mask(options: argparse.Namespace) -> int:
-    from plyfold.flat.fills import coverage_mask
     from plyfold.io.masks import MASK_WRITERS
 
     watch = Stopwatch()
     refuse_outputs(options, tuple(MASK_WRITERS))
-    drawn = read_outline(options, watch)
-    load_libraries((*FOR_CROSSINGS, *FOR_MESHES), watch)
+    drawn = read_as_given(options, watch)
     watch("counting")
-    (left, low), (right, high) = drawn.points.min(axis=0).tolist(), drawn.points.max(axis=0).tolist()
-    # As large as the drawing is wide, or high where it is higher than so many pixels.
-    size = max(right - left, (high - low) / _MOST_COLUMNS * options.mask) / options.mask
-    rows = max(1, math.ceil((high - low) / size))
-    mask = coverage_mask(drawn, (rows, options.mask), transform := (size, 0.0, left, 0.0, -size, high))
+    mask, transform = _mask(drawn, options.mask)
     watch.stop()
-    print(f"{rows} rows of {options.mask} pixels, transform {' '.join(f'{number:.12g}' for number in transform)}")
+    rows, columns = mask.shape
+    print(f"{rows} rows of {columns} pixels, transform {' '.join(f'{number:.12g}' for number in transform)}")
     for path in options.output:
         save_bytes(path, MASK_WRITERS[Path(path).suffix.lower()](mask), options.force)
         print(f"  wrote {path}")
     return DISK
+
+
+def _mask(drawn: Outline, columns: int) -> tuple[npt.NDArray[np.int32], tuple[float, ...]]:
+    """Return the winding numbers of pixels that cover the outline, so many of them across, and their transform."""
+    from plyfold.flat.fills import coverage_mask
+
+    (left, low), (right, high) = drawn.points.min(axis=0).tolist(), drawn.points.max(axis=0).tolist()
+    # As large as the drawing is wide, or high where it is higher than so many pixels.
+    size = max(right - left, (high - low) / _MOST_COLUMNS * columns) / columns
+    rows = max(1, math.ceil((high - low) / size))
+    transform = (size, 0.0, left, 0.0, -size, high)
+    return coverage_mask(drawn, (rows, columns), transform), transform
 
 
 def _furthest(arranged: Arrangement, options: argparse.Namespace, watch: Stopwatch) -> tuple[Any, Any]:

@@ -6,10 +6,13 @@ import argparse
 from typing import TYPE_CHECKING
 
 from plyfold.cli.progress import Stopwatch
+from plyfold.clock import Clock
 from plyfold.errors import FileFormatError, InputError, NotEmbeddableError, TimeLimitError
+from plyfold.loading import FOR_CROSSINGS, FOR_LAYERINGS, load_libraries
 from plyfold.obstruction import Obstruction, Unknown
 
 if TYPE_CHECKING:
+    from plyfold.arrangement.arrangement import Arrangement
     from plyfold.io.cusp_notation import CuspMark
     from plyfold.outline.curve import Outline
 
@@ -58,16 +61,7 @@ def read_outline(options: argparse.Namespace, watch: Stopwatch) -> Outline:
     """Read the outline that is meant, and mark its cusps."""
     watch("reading")
     outline = _with_cusps(_read(options), options.cusp)
-    if not options.cusps or _bounds_surface(outline, watch):
-        return outline
-    return _with_proposed_cusps(outline, getattr(options, "time_limit", None), watch)
-
-
-def _bounds_surface(outline: Outline, watch: Stopwatch) -> bool:
-    from plyfold.immersion.solve import find_immersion
-
-    watch("finding immersions")
-    return bool(find_immersion(outline))
+    return _with_proposed_cusps(outline, options, watch) if options.cusps else outline
 
 
 def _read(options: argparse.Namespace) -> Outline:
@@ -100,20 +94,46 @@ def _with_cusps(outline: Outline, marks: list[CuspMark]) -> Outline:
     return outline_with(outline, cusps)
 
 
-def _with_proposed_cusps(outline: Outline, time_limit: float | None, watch: Stopwatch) -> Outline:
+def _with_proposed_cusps(outline: Outline, options: argparse.Namespace, watch: Stopwatch) -> Outline:
     """Return the outline with cusps for the turns that are too many, if there are some; its repairs say which."""
+    from plyfold.arrangement.arrangement import arrange
     from plyfold.offers.cusps import suggest_cusps
     from plyfold.outline.given import outline_with
     from plyfold.outline.points import Repair
 
+    load_libraries(FOR_CROSSINGS, watch)
+    watch("finding the crossings")
+    arranged = arrange(outline, options.general_position)
+    load_libraries(FOR_LAYERINGS, watch)
+    watch("finding immersions")
+    clock = Clock(getattr(options, "time_limit", None))
+    if _turns_as_it_should(arranged, clock):
+        return outline
     watch("looking for cusps")
-    found = suggest_cusps(outline, time_limit=time_limit)
+    found = suggest_cusps(arranged, time_limit=clock.left)
     if isinstance(found, Unknown):
-        raise TimeLimitError(f"{found}", hint="name them with --cusp, or give it more time")
+        raise _not_decided(found)
     if isinstance(found, Obstruction):
-        if found.reason == "turning number" and found.value <= 0:
-            return outline
         raise NotEmbeddableError(found, hint="name the cusps with --cusp")
     places = [outline.loops[loop][point].tolist() for loop, point in found.cusps]
     proposed = [Repair("cusp proposed", (x, y), 0.0) for x, y in places]
     return outline_with(found.outline, repairs=(*found.outline.repairs, *proposed))
+
+
+def _turns_as_it_should(arranged: Arrangement, clock: Clock) -> bool:
+    """Tell whether an outline has no turns too many: as one piece with or without handles, or as the pieces it bounds.
+
+    Whether several loops bound pieces is asked where there are too many turns for one piece alone.
+    """
+    from plyfold.immersion.solve import find_immersion
+
+    if arranged.euler_characteristic <= 2 - arranged.n_loops:
+        return True
+    found = find_immersion(arranged, time_limit=clock.left) if arranged.n_loops > 1 else None
+    if isinstance(found, Unknown):
+        raise _not_decided(found)
+    return bool(found)
+
+
+def _not_decided(why: Unknown) -> TimeLimitError:
+    return TimeLimitError(f"{why}", hint="name the cusps with --cusp, or give it more time")

@@ -6,7 +6,6 @@ import argparse
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from plyfold.cli.drawing import read_outline
 from plyfold.cli.inputs import (
     DISK,
     NO_DISK,
@@ -14,17 +13,19 @@ from plyfold.cli.inputs import (
     add_outputs,
     prepare,
     read_arrangement,
+    read_as_given,
     refuse_outputs,
     say_notes,
     write_texts,
 )
 from plyfold.cli.progress import Stopwatch
-from plyfold.loading import FOR_CROSSINGS, FOR_MESHES, load_libraries
+from plyfold.loading import FOR_MESHES, load_libraries
 from plyfold.wording import counted
 
 if TYPE_CHECKING:
     from shapely import Polygon
 
+    from plyfold.arrangement.arrangement import Arrangement
     from plyfold.outline.curve import Outline
 
 __all__ = ["add_flat_commands"]
@@ -71,55 +72,43 @@ def _split(options: argparse.Namespace) -> int:
     watch = Stopwatch()
     refuse_outputs(options, tuple(POLYGON_WRITERS))
     is_filled = options.fill is not None or options.at_least is not None
-    cut = _filled if is_filled else _cells if options.cells else _pieces
-    polygons, told, kind = cut(options, watch)
+    if is_filled or options.cells:
+        drawn = read_as_given(options, watch)
+        watch("cutting")
+        polygons, told, kind = _filled(drawn, options) if is_filled else _cells(drawn)
+    else:
+        arranged = read_arrangement(options, watch)
+        say_notes(arranged.outline)
+        load_libraries(FOR_MESHES, watch)
+        watch("cutting")
+        polygons, told, kind = _pieces(arranged)
     watch.stop()
     print(f"{len(polygons)} {kind}")
     write_texts(options, {ending: partial(write, polygons, told) for ending, write in POLYGON_WRITERS.items()})
     return DISK
 
 
-def _pieces(options: argparse.Namespace, watch: Stopwatch) -> Polygons:
-    arranged = read_arrangement(options, watch)
-    say_notes(arranged.outline)
-    load_libraries(FOR_MESHES, watch)
+def _pieces(arranged: Arrangement) -> Polygons:
     from plyfold.flat.decompose import decompose
 
-    watch("cutting")
     polygons = decompose(arranged)
     return polygons, [{"piece": number} for number in range(len(polygons))], "simple polygon(s)"
 
 
-def _cells(options: argparse.Namespace, watch: Stopwatch) -> Polygons:
+def _cells(drawn: Outline) -> Polygons:
     from plyfold.flat.coverage import directed_coverage
 
-    drawn = _as_given(options, watch)
-    watch("cutting")
     cells, turned = directed_coverage(drawn)
     told = [{"winding": cell.winding, "reversed": turned} for cell in cells]
     return [cell.polygon for cell in cells], told, f"cell(s), {_direction(turned)}"
 
 
-def _filled(options: argparse.Namespace, watch: Stopwatch) -> Polygons:
+def _filled(drawn: Outline, options: argparse.Namespace) -> Polygons:
     from plyfold.flat.fills import fill
 
-    drawn = _as_given(options, watch)
-    watch("filling")
     parts = list(fill(drawn, options.fill or "nonzero", at_least=options.at_least).geoms)
     painted = {"fill": options.fill} if options.at_least is None else {"at_least": options.at_least}
     return parts, [painted] * len(parts), "polygon(s)"
-
-
-def _as_given(options: argparse.Namespace, watch: Stopwatch) -> Outline:
-    """Return the outline with nothing moved; refuse one that touches itself if that is asked for."""
-    from plyfold.arrangement.arrangement import arrange
-
-    drawn = read_outline(options, watch)
-    say_notes(drawn)
-    load_libraries((*FOR_CROSSINGS, *FOR_MESHES), watch)
-    if options.general_position == "raise":
-        arrange(drawn, "raise")
-    return drawn
 
 
 def _direction(turned: bool) -> str:

@@ -16,7 +16,7 @@ from plyfold.cli.progress import Stopwatch
 from plyfold.clock import Clock, Watch
 from plyfold.errors import InputError
 from plyfold.io.saving import refuse_output, save_bytes
-from plyfold.loading import FOR_CROSSINGS, load_libraries
+from plyfold.loading import FOR_CROSSINGS, FOR_MESHES, load_libraries
 
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
@@ -32,6 +32,7 @@ __all__ = [
     "add_time_limit",
     "prepare",
     "read_arrangement",
+    "read_as_given",
     "refuse_outputs",
     "say_notes",
     "title",
@@ -95,6 +96,18 @@ def prepare(
     return arranged
 
 
+def read_as_given(options: argparse.Namespace, watch: Stopwatch) -> Outline:
+    """Return the outline with nothing moved, and say what was changed; refuse one that touches itself if asked to."""
+    from plyfold.arrangement.arrangement import arrange
+
+    drawn = read_outline(options, watch)
+    say_notes(drawn)
+    load_libraries((*FOR_CROSSINGS, *FOR_MESHES), watch)
+    if options.general_position == "raise":
+        arrange(drawn, "raise")
+    return drawn
+
+
 def say_notes(outline: Outline | None) -> None:
     """Say on standard error what was changed in the input."""
     from plyfold.report import repair_lines
@@ -148,9 +161,10 @@ def _number(found: os.stat_result) -> tuple[int, int]:
 
 
 def write_texts(options: argparse.Namespace, content: dict[str, Callable[[], str]]) -> None:
-    """Write the outputs, each by its ending, and say so."""
-    for path in options.output:
-        save_bytes(path, content[Path(path).suffix.lower()]().encode(), options.force)
+    """Write the outputs, each by its ending, and say so; none is written if one of the formats refuses its content."""
+    texts = {path: content[Path(path).suffix.lower()]() for path in options.output}
+    for path, text in texts.items():
+        save_bytes(path, text.encode(), options.force)
         print(f"  wrote {path}")
 
 

@@ -77,9 +77,9 @@ def mesh_in_obj(text: str, uv: bool = False) -> FlatMesh:
         if word == kind:
             rows.append(_numbers(values[: 2 if uv else 3], number, fewest=2))
         elif word == "f":
+            if len(values) < 3:
+                raise FileFormatError(f"line {number}: a face with {len(values)} corners", hint=_HINT)
             faces.append([_corner(value, place, len(rows), number) for value in values])
-            if len(faces[-1]) < 3:
-                raise FileFormatError(f"line {number}: a face with {len(faces[-1])} corners", hint=_HINT)
     return _flat_mesh(rows, faces, "chart" if uv else "mesh")
 
 
@@ -146,8 +146,8 @@ class _Element(NamedTuple):
 
 
 class _Numbers(Protocol):
-    def take(self, kinds: str) -> Sequence[float]:
-        """Return the next numbers, of types such as ``"3f"``."""
+    def take(self, count: int, kind: str) -> Sequence[float]:
+        """Return the next numbers, so many of one type; raise ValueError or struct.error if they are not there."""
 
 
 class _BinaryNumbers:
@@ -156,9 +156,10 @@ class _BinaryNumbers:
     def __init__(self, data: bytes, order: str) -> None:
         self._data, self._order, self._next = data, order, 0
 
-    def take(self, kinds: str) -> Sequence[float]:
-        values = struct.unpack_from(self._order + kinds, self._data, self._next)
-        self._next += struct.calcsize(self._order + kinds)
+    def take(self, count: int, kind: str) -> Sequence[float]:
+        layout = f"{self._order}{count}{kind}"
+        values = struct.unpack_from(layout, self._data, self._next)
+        self._next += struct.calcsize(layout)
         return values
 
 
@@ -168,11 +169,10 @@ class _WrittenNumbers:
     def __init__(self, data: bytes) -> None:
         self._words, self._next = data.split(), 0
 
-    def take(self, kinds: str) -> Sequence[float]:
-        count = sum(int(repeat or 1) for repeat in re.findall(r"(\d*)[a-zA-Z]", kinds))
+    def take(self, count: int, kind: str) -> Sequence[float]:
         words = self._words[self._next : self._next + count]
-        if len(words) < count:
-            raise FileFormatError("it ends too early", hint=_HINT)
+        if len(words) != count:
+            raise ValueError
         self._next += count
         return [float(word) for word in words]
 
@@ -211,7 +211,7 @@ def mesh_in_ply(data: bytes, uv: bool = False) -> FlatMesh:
     tables = {element.name: _ply_table(element, numbers) for element in elements}
     faces = tables.get("face", {})
     corners = next((faces[name] for name in _CORNERS if name in faces), [])
-    whole = [[int(corner) for corner in face] for face in corners]
+    whole = [_ply_face(number, face) for number, face in enumerate(corners)]
     return _flat_mesh(_ply_places(tables.get("vertex", {}), uv), whole, "chart" if uv else "mesh")
 
 
@@ -254,11 +254,18 @@ def _ply_table(element: _Element, numbers: _Numbers) -> dict[str, list[Sequence[
     for row in range(element.rows if columns else 0):
         try:
             for known in element.properties:
-                count = int(numbers.take(known.length)[0]) if known.length else 1
-                columns[known.name].append(numbers.take(f"{count}{known.kind}"))
-        except (ValueError, struct.error) as error:
+                count = int(numbers.take(1, known.length)[0]) if known.length else 1
+                columns[known.name].append(numbers.take(count, known.kind))
+        except (ValueError, OverflowError, struct.error) as error:
             raise FileFormatError(f"{element.name} {row} is broken, or missing", hint=_HINT) from error
     return columns
+
+
+def _ply_face(number: int, corners: Sequence[float]) -> list[int]:
+    try:
+        return [int(corner) for corner in corners]
+    except (ValueError, OverflowError) as error:  # of a text, which may have anything there
+        raise FileFormatError(f"face {number} has a corner that is no number of a vertex", hint=_HINT) from error
 
 
 def _ply_places(vertices: dict[str, list[Sequence[float]]], uv: bool) -> list[list[float]]:
@@ -268,7 +275,10 @@ def _ply_places(vertices: dict[str, list[Sequence[float]]], uv: bool) -> list[li
     if not vertices.keys() >= {*names}:
         raise FileFormatError("its vertices have no x and y", hint=_HINT)
     columns = [vertices[name] for name in (*names, "z") if name in vertices and not (uv and name == "z")]
-    return [[value for (value,) in row] for row in zip(*columns, strict=True)]
+    rows = list(zip(*columns, strict=True))
+    if any(len(values) != 1 for row in rows for values in row):
+        raise FileFormatError("its vertices have lists as coordinates", hint=_HINT)
+    return [[value for (value,) in row] for row in rows]
 
 
 # ---- triangles -------------------------------------------------------------------------------------------------------
@@ -279,6 +289,8 @@ def _flat_mesh(rows: list[list[float]], faces: list[list[int]], what: str) -> Fl
     if not faces:
         raise FileFormatError("it has no face", hint=_HINT)
     for number, face in enumerate(faces):
+        if len(face) < 3:
+            raise FileFormatError(f"face {number} has {len(face)} corners", hint=_HINT)
         if wrong := [corner for corner in face if not 0 <= corner < len(rows)]:
             raise FileFormatError(
                 f"face {number} has the vertex {wrong[0]}, counted from 0, and the {what} has {len(rows)}", hint=_HINT

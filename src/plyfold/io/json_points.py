@@ -119,7 +119,12 @@ def _document(document: dict[str, Any]) -> Shape:
 
 def _stroke(stroke: dict[str, Any]) -> Line:
     """Return a stroke of the page, which writes doubles, large ones without a point."""
-    points = np.array(stroke.get("points", []), dtype=np.float64)
+    try:
+        points = np.array(stroke.get("points", []), dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        points = np.empty(())
+    if points.size and points.ndim != 2:
+        raise _error("a stroke of the document has points that are not [x, y]")
     (cusps,) = cusps_of_loops(stroke.get("cusps"), [len(points)])
     return Line(points, bool(stroke.get("closed")), cusps=cusps)
 

@@ -11,7 +11,10 @@ import numpy.typing as npt
 
 from plyfold.colours import rgb, winding_colour
 
-__all__ = ["MASK_WRITERS", "as_png"]
+__all__ = ["MASK_WRITERS", "PNG_START", "png_chunk"]
+
+PNG_START = b"\x89PNG\r\n\x1a\n"
+"""The first bytes of every PNG."""
 
 
 def as_png(mask: npt.NDArray[np.int32]) -> bytes:
@@ -30,10 +33,11 @@ def as_png(mask: npt.NDArray[np.int32]) -> bytes:
     lines = np.concatenate([np.zeros((rows, 1), dtype=np.uint8), pixels.reshape(rows, -1)], axis=1)
     header = struct.pack(">IIBBBBB", columns, rows, 8, 2, 0, 0, 0)
     chunks = (b"IHDR", header), (b"IDAT", zlib.compress(lines.tobytes())), (b"IEND", b"")
-    return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(kind, data) for kind, data in chunks)
+    return PNG_START + b"".join(png_chunk(kind, data) for kind, data in chunks)
 
 
-def _chunk(kind: bytes, data: bytes) -> bytes:
+def png_chunk(kind: bytes, data: bytes) -> bytes:
+    """Return a part of a PNG: how long its data are, its kind, of four letters, the data, and their check sum."""
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 

@@ -136,8 +136,8 @@ def read(
 
     * SVG: path, polygon, polyline, line, rect, circle, ellipse, with transforms, groups, ``use`` and viewBox. Subpaths
       are loops, which run as in the file; but where ``fill-rule`` is ``evenodd``, loops of a shape that meet no other
-      one are turned so that the painted side is on their left. ``data-cusps="0:12 1:3x2"`` names cusps by subpath, node
-      and index.
+      one are turned so that the painted side is on their left, or on their right if the other shapes run clockwise.
+      ``data-cusps="0:12 1:3x2"`` names cusps by subpath, node and index.
     * CSV, TXT: two columns separated by comma, semicolon or blanks; an optional header line; ``#`` starts a comment; an
       empty line ends a block. Columns named ``loop`` and ``cusp`` tell the loop of a point and its index as a cusp.
     * NPY: an (n, 2) array of numbers, or a stack of them.

@@ -100,7 +100,8 @@ def outline_of_drawn_shapes(shapes: Sequence[DrawnShape], tolerance: float | Non
     -------
     Outline
         The directions are those of the file; but of shapes that are filled by even and odd, loops that meet no other
-        loop of their shape are turned so that the painted side is on their left. Repairs say so.
+        loop of their shape are turned so that the painted side is on their left, or on their right, if the other shapes
+        run clockwise. Repairs say so.
 
     Raises
     ------
@@ -121,47 +122,58 @@ def outline_of_drawn_shapes(shapes: Sequence[DrawnShape], tolerance: float | Non
     with np.errstate(all="ignore"):
         size = _checked_size(sample_points([piece for shape in shapes for piece in shape.pieces]))
     tolerance = _checked_tolerance(tolerance, size)
+    flat = [_flattened(shape, tolerance) for shape in shapes]
     alone = sum(len(shape.pieces) for shape in shapes) == 1
-    return outline_of_shapes([_flattened(shape, tolerance, alone) for shape in shapes])
+    if alone or not any(shape.even_odd for shape in shapes):
+        return outline_of_shapes(flat)
+    way = _way_round([part for shape, part in zip(shapes, flat, strict=True) if not shape.even_odd])
+    return outline_of_shapes(
+        [_painted(part, way) if shape.even_odd else part for shape, part in zip(shapes, flat, strict=True)]
+    )
 
 
-def _flattened(shape: DrawnShape, tolerance: float, alone: bool) -> Shape:
+def _flattened(shape: DrawnShape, tolerance: float) -> Shape:
     cusps = _cusps_at_vertices(shape, tolerance)
-    lines = [
+    lines = (
         Line(piece.flattened(tolerance), piece.closed, cusps=marks)
         for piece, marks in zip(shape.pieces, cusps, strict=True)
-    ]
-    if shape.even_odd and not alone:
-        lines, turned = _painted(lines)
-        return Shape(tuple(lines), shape.name, (*shape.repairs, *turned))
+    )
     return Shape(tuple(lines), shape.name, shape.repairs)
+
+
+def _way_round(shapes: list[Shape]) -> int:
+    """Return 1 if shapes run counter-clockwise, −1 if clockwise: as the loop does that reaches farthest left."""
+    closed = [as_points(line.points) for shape in shapes for line in shape.loops if line.closed]
+    loops = [points for points in closed if sense(points)]
+    return sense(min(loops, key=lambda points: points[:, 0].min())) if loops else 1
 
 
 def _cusps_at_vertices(shape: DrawnShape, tolerance: float) -> list[dict[int, int]]:
     """Return for each piece the vertices of its polyline that are cusps; they are given by nodes."""
     found: list[dict[int, int]] = [{} for _ in shape.pieces]
+    nodes = [piece.nodes(tolerance) for piece in shape.pieces] if shape.cusps else []
     for mark in shape.cusps:
-        nodes = shape.pieces[mark.loop].nodes(tolerance) if mark.loop < len(shape.pieces) else []
-        if mark.point >= len(nodes):
+        if mark.loop >= len(nodes) or mark.point >= len(nodes[mark.loop]):
             hint = "count the subpaths from 0, and in each its nodes: the start, and the ends of its segments"
             raise FileFormatError(f"{shape.name or 'a shape'} has no node {written_cusp(mark)} to be a cusp", hint=hint)
-        found[mark.loop][nodes[mark.point]] = mark.turns
+        found[mark.loop][nodes[mark.loop][mark.point]] = mark.turns
     return found
 
 
-def _painted(lines: list[Line]) -> tuple[list[Line], list[Repair]]:
-    """Return the lines of a shape that is filled by even and odd with the directions that can be told, and a record."""
+def _painted(shape: Shape, way: int) -> Shape:
+    """Return a shape that is filled by even and odd with the directions that can be told, and a record of them."""
+    lines = list(shape.loops)
     loops = [number for number, line in enumerate(lines) if line.closed]
     points = [as_points(lines[number].points) for number in loops]
     repairs = []
-    for number, along, direction in zip(loops, points, even_odd_directions(points) if loops else [], strict=True):
-        lines[number] = lines[number]._replace(direction=direction)
+    for number, along, painted in zip(loops, points, even_odd_directions(points) if loops else [], strict=True):
+        lines[number] = lines[number]._replace(direction=(direction := way * painted))
         x, y = along[0].tolist()
         if direction == 0:
             repairs.append(Repair("direction kept (even-odd loops that meet)", (x, y), 0.0))
         elif sense(along) == -direction:
             repairs.append(Repair("loop turned round (even-odd)", (x, y), 0.0))
-    return lines, repairs
+    return shape._replace(loops=tuple(lines), repairs=(*shape.repairs, *repairs))
 
 
 def _checked_size(points: Floats) -> float:

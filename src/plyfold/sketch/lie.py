@@ -159,7 +159,7 @@ def lifted(question: Lift) -> dict[str, Any]:
 
     Parameters
     ----------
-    question : Surface
+    question : Lift
 
     Returns
     -------

@@ -11,7 +11,7 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.gauss import GaussCode
-from plyfold.draw.placement import closed, label_circle, outer_ring_first
+from plyfold.draw.placement import border_line, cusps_drawn, label_circle, outer_ring_first
 from plyfold.immersion.blank_word import blank_word
 from plyfold.immersion.immersion import Immersion
 from plyfold.obstruction import Obstruction, Unknown
@@ -85,17 +85,12 @@ def _loop(curve: Curve) -> dict[str, Any]:
 
 
 def _cusps(drawn: Arrangement) -> list[dict[str, Any]]:
-    places = drawn.visit_point
-    return [
-        {"where": places[visit].tolist(), "index": int(drawn.cusp_index[visit])}
-        for visit in np.flatnonzero(drawn.cusp_index)
-    ]
+    places, indices = cusps_drawn(drawn)
+    return [{"where": place, "index": index} for place, index in zip(places.tolist(), indices, strict=True)]
 
 
 def _border(drawn: Arrangement, border: int) -> list[list[float]]:
-    points = drawn.border_points(border)
-    whole = points if drawn.start_visit[border] >= 0 else closed(points)
-    return [[x, y] for x, y in whole.tolist()]
+    return [[x, y] for x, y in border_line(drawn, border).tolist()]
 
 
 def _cell(drawn: Arrangement, cell: int) -> dict[str, Any]:

@@ -15,10 +15,11 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import FileFormatError, InputError, StrokeError
-from plyfold.gallery import CURVES, OUTLINES
+from plyfold.gallery import CURVES, OUTLINES, named_curve
+from plyfold.io.masks import PNG_START
 from plyfold.io.reading import Contents, read_contents
 from plyfold.outline.curve import Outline, Repair
-from plyfold.sketch.pictures import PNG_START, png_document, svg_document
+from plyfold.sketch.pictures import png_document, svg_document
 from plyfold.sketch.schema import (
     MOST_BYTES,
     MOST_POINTS,
@@ -142,8 +143,6 @@ def start(file: str | None) -> dict[str, Any]:
 
 def _started_with(file: str) -> list[_Shape]:
     if file.startswith("gallery:"):
-        from plyfold.gallery import named_curve
-
         return [_shape_of("", named_curve(file.removeprefix("gallery:")).outline)]
     if file == "-":
         return _shapes("standard input", sys.stdin.buffer.read(MOST_BYTES + 1))

@@ -11,11 +11,11 @@ from collections.abc import Iterator
 from typing import Any
 
 from plyfold.errors import FileFormatError
+from plyfold.io.masks import PNG_START, png_chunk
 from plyfold.sketch.schema import MOST_BYTES, Document, document_data, parse
 
-__all__ = ["PNG_START", "png_document", "png_with", "svg_document", "svg_with"]
+__all__ = ["png_document", "png_with", "svg_document", "svg_with"]
 
-PNG_START = b"\x89PNG\r\n\x1a\n"
 _KEYWORD = b"plyfold"
 _ROOT = re.compile(r"<svg\b[^>]*>")
 _METADATA = re.compile(rb"<(?:\w+:)?metadata\b[^>]*\bid\s*=\s*[\"']plyfold[\"'][^>]*>(.*?)</", re.DOTALL)
@@ -36,7 +36,7 @@ def png_with(document: Document, picture: bytes) -> bytes:
         The same picture; readers that do not know the chunk pass over it.
     """
     text = zlib.compress(_text(document).encode(), 9)
-    chunk = _chunk(b"iTXt", _KEYWORD + b"\0\1\0\0\0" + text)  # compressed, no language, no translated keyword
+    chunk = png_chunk(b"iTXt", _KEYWORD + b"\0\1\0\0\0" + text)  # compressed, no language, no translated keyword
     end = picture.rindex(b"IEND") - 4
     return picture[:end] + chunk + picture[end:]
 
@@ -78,10 +78,6 @@ def svg_document(picture: bytes) -> Any:
 
 def _text(document: Document) -> str:
     return json.dumps(document_data(document), separators=(",", ":"), allow_nan=False)
-
-
-def _chunk(kind: bytes, content: bytes) -> bytes:
-    return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
 
 
 def _chunks(picture: bytes) -> Iterator[tuple[bytes, bytes]]:
