@@ -534,9 +534,8 @@ def watched_arrangement(curve: OutlineLike, general_position: Literal["perturb",
     if are_several(curve) and len(several := cast("Sequence[CurveLike]", curve)) == 1:
         return watched_arrangement(several[0], general_position, watch)
     outline = as_outline(curve)
-    if outline.n_loops == 1:
-        curve = outline if isinstance(outline, Curve) else outline.curves[0]
-        return _of_curve(curve, general_position, watch)
+    if isinstance(outline, Curve):
+        return _of_curve(outline, general_position, watch)
     arranged = _of_loops(outline, False, watch)
     return arranged if arranged.winding.max() > 0 else _of_loops(outline.reversed(), True, watch)
 
