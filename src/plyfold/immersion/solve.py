@@ -100,12 +100,12 @@ def find_immersion(
     try:
         arranged = watched_arrangement(curve, "perturb", watch)
         return next(watched_immersions(arranged, watch, connected), None) or _why_not(arranged, connected, watch)
-    except TimeLimitError:
+    except (TimeLimitError, TimeoutError):
         return _unknown("whether there is an immersion", clock)
 
 
 def _why_not(arranged: Arrangement, connected: bool, watch: Watch) -> Obstruction:
-    """Return the obstruction of an outline that has no immersion. May raise TimeLimitError."""
+    """Return the obstruction of an outline that has no immersion. May raise TimeLimitError or TimeoutError."""
     visible = visible_obstruction(arranged, connected)
     if visible is not None:
         return visible
