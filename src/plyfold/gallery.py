@@ -494,7 +494,7 @@ def named_curve(name: str) -> NamedOutline:
     Returns
     -------
     NamedOutline
-        For one loop without cusps, a :class:`NamedCurve`.
+        Of those in ``CURVES``, a :class:`NamedCurve`.
 
     Raises
     ------

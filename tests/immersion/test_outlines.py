@@ -11,7 +11,7 @@ from codes import code_of
 from nightly.outlines import judge_immersions, random_outline
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.errors import CurveError, GeneralPositionError, InputError
-from plyfold.immersion import outlines
+from plyfold.immersion import outlines, solve
 from plyfold.immersion.cutting import irreducible_kernels
 from plyfold.immersion.peeling import outline_seams, peel
 from plyfold.immersion.solve import nth_immersion
@@ -162,6 +162,21 @@ class TestInOnePiece:
         assert (found.reason, found.value) == ("turning number", 0)
         assert str(found).startswith("The 4 curves together turn 0 times; what bounds a surface in one piece turns -2")
 
+    def test_time_that_ends_while_the_reason_is_looked_for(self, monkeypatch):
+        """The solver has its own error for that."""
+
+        def late(*_):
+            raise TimeoutError
+
+        crossing = [
+            [(2, 22), (12, 7), (30, 0), (25, 19)],
+            [(17, 14), (30, 20), (34, 36), (6, 33)],
+            [(7, 16), (32, 33), (21, 23), (19, 17)],
+        ]
+        assert pf.find_immersion(crossing).reason == "no gluing"
+        monkeypatch.setattr(solve, "no_gluing", late)
+        assert pf.find_immersion(crossing, time_limit=60).reason == "time limit"
+
     def test_pieces_that_no_gluing_joins(self):
         """A disk with a handle in the hole of a ring: as many turns as a single piece could have."""
         hole = [(-200, -201), (0, 300), (260, -199)]
@@ -291,7 +306,7 @@ def test_ports_and_sheets_that_peeling_pairs_know_each_other():
     for loops in (TWO_OVER_TWO_HOLES, NEST, HANDLE, [HANDLE, LIDS[2]]):
         seams = outline_seams(pf.arrange(loops))
         known = peel(seams)
-        once = peel(seams, {int(seams.choices[-1]): 0})
+        once = peel(seams, {int(np.flatnonzero(seams.in_tree & (seams.own < 0))[-1]): 0})
         for found in (known, once):
             pairs = np.flatnonzero(found.upper >= 0)
             seam = np.repeat(np.arange(len(seams.size)), seams.size)[pairs]

@@ -175,11 +175,19 @@ def test_repair_is_a_sentence():
         shapely.GeometryCollection([shapely.MultiPolygon([shapely.Polygon(TRIANGLE)])]),
         np.array(TRIANGLE),
         Curve(TRIANGLE),
+        Outline([TRIANGLE]),
         SimpleNamespace(outline=Curve(TRIANGLE)),
     ],
 )
 def test_as_curve_accepts_what_stands_for_a_curve(geometry):
     assert as_curve(geometry).points.tolist() == [[0, 0], [4, 0], [0, 3]]
+
+
+def test_an_outline_of_one_loop_keeps_its_cusps_and_repairs_as_a_curve():
+    outline = Outline([[*TRIANGLE[:2], *TRIANGLE[1:]]], {(0, 0): 1})
+    curve = as_curve(outline)
+    assert (curve.cusps[0].tolist(), curve.repairs) == ([1, 0, 0], outline.repairs)
+    assert len(outline.repairs) == 1
 
 
 def test_as_curve_returns_a_curve_itself():

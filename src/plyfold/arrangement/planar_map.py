@@ -22,6 +22,7 @@ __all__ = [
     "borders_at_visits",
     "cell_boundaries",
     "checked_code",
+    "cycles_by_cell",
     "joined_cells",
     "left_windings",
     "next_darts",
@@ -191,7 +192,12 @@ def joined_cells(cycle_start: Ints, cycle_darts: Ints, same_cell: Ints) -> tuple
     size = np.diff(cycle_start)
     cycle_of_dart = np.empty_like(cycle_darts)
     cycle_of_dart[cycle_darts] = np.repeat(np.arange(len(size)), size)
-    cell = components(len(size), *cycle_of_dart[same_cell].T)
+    return cycles_by_cell(cycle_start, cycle_darts, components(len(size), *cycle_of_dart[same_cell].T))
+
+
+def cycles_by_cell(cycle_start: Ints, cycle_darts: Ints, cell: Ints) -> tuple[Ints, Ints]:
+    """Return the boundaries of cells as :func:`joined_cells` does, given the cell of each orbit."""
+    size = np.diff(cycle_start)
     order = np.lexsort((cycle_darts[cycle_start[:-1]], cell))
     darts = cycle_darts[np.repeat(cycle_start[order], size[order]) + count_each(size[order])]
     return np.append(0, np.cumsum(np.bincount(cell, weights=size).astype(np.int64))), darts

@@ -12,7 +12,6 @@ from plyfold.arrays import Ints
 from plyfold.clock import NO_LIMIT, Clock
 from plyfold.immersion.corners import feet
 from plyfold.immersion.gluings import OpenPart, open_around, open_parts
-from plyfold.immersion.obstructions import obstruction
 from plyfold.immersion.peeling import OutlineSeams, Peeled, outline_seams, peel, reasons
 from plyfold.immersion.search_map import SearchMap, search_map_of
 from plyfold.obstruction import Obstruction
@@ -37,7 +36,7 @@ def no_gluing(arranged: Arrangement, clock: Clock = NO_LIMIT) -> Obstruction:
     visits = sorted({*_visits(search_map, _contradicting(seams, clock)).tolist()})
     where = tuple((x, y) for x, y in arranged.visit_point[visits].tolist()) if arranged.outline else ()
     sentence = f"No immersion: {_in_words(arranged, visits)} contradict each other."
-    return obstruction(arranged, "no gluing", sentence, where, tuple(visits))
+    return Obstruction("no gluing", sentence, where, tuple(visits), arranged)
 
 
 def _contradicting(seams: OutlineSeams, clock: Clock) -> Ints:

@@ -17,7 +17,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrangement.planar_map import cell_boundaries, next_darts
+from plyfold.arrangement.maps import numbered_crossings
+from plyfold.arrangement.planar_map import cell_boundaries, cycles_by_cell, next_darts
 from plyfold.arrays import Bools, Ints
 from plyfold.immersion.immersion import Immersion, loop_characteristics
 from plyfold.ragged import count_each, starts_of
@@ -70,7 +71,7 @@ def draw_out_cusps(arrangement: Arrangement) -> DrawnOut:
         cell_darts=cell_darts,
         winding=winding,
         turning_numbers=tuple(loop_characteristics(arrangement)),
-        crossing_of_visit=np.full(len(partner), -1),
+        crossing_of_visit=numbered_crossings(partner),
         bridges=_renumbered(arrangement.bridges, border),
         cusp_index=np.zeros(len(partner), dtype=np.int64),
         outline=None,
@@ -114,10 +115,7 @@ def _cells(arrangement: Arrangement, border: Ints) -> tuple[Ints, Ints]:
 def _boundaries(following: Ints, outer: int, cell_of_dart: Ints) -> tuple[Ints, Ints]:
     """Return the boundaries of cells that have numbers already, cycles by their lowest darts."""
     start, darts = cell_boundaries(following, outer)
-    size, lowest = np.diff(start), darts[start[:-1]]
-    order = np.lexsort((lowest, cell_of_dart[lowest]))
-    darts_of_cell = np.bincount(cell_of_dart)
-    return np.append(0, np.cumsum(darts_of_cell)), darts[np.repeat(start[order], size[order]) + count_each(size[order])]
+    return cycles_by_cell(start, darts, cell_of_dart[darts[start[:-1]]])
 
 
 def _renumbered(darts: Ints | int, border: Ints) -> Ints:

@@ -18,7 +18,6 @@ from plyfold.immersion.grouping import (
     nth_grouping,
 )
 from plyfold.immersion.immersion import Immersion, require_memory_for_gluing
-from plyfold.immersion.obstructions import obstruction
 from plyfold.immersion.propagation import Conflict
 from plyfold.immersion.search_map import SearchMap, search_map_of
 from plyfold.immersion.sewing import glue_sheets
@@ -83,7 +82,7 @@ def no_grouping(arranged: Arrangement) -> Obstruction:
     else:
         sentence = f"No grouping: the ways out of {len(cells)} cells cannot be joined to borders without crossing."
     links = tuple(drawn_out.border_at(tree.link[cells]).tolist())
-    return obstruction(arranged, "no grouping", sentence, _places(arranged, cells, links), links)
+    return Obstruction("no grouping", sentence, _places(arranged, cells, links), links, arranged)
 
 
 def _places(arranged: Arrangement, cells: list[int], links: tuple[int, ...]) -> tuple[tuple[float, float], ...]:

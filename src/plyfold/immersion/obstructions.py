@@ -20,7 +20,6 @@ __all__ = [
     "loops_apart",
     "may_bound_disk",
     "negative_winding",
-    "obstruction",
     "require_curve_without_cusps",
     "visible_obstruction",
 ]
@@ -53,13 +52,6 @@ def visible_obstruction(arranged: Arrangement, connected: bool = False) -> Obstr
     return loops_apart(arranged) if found is None and connected else found
 
 
-def obstruction(
-    arranged: Arrangement, reason: str, sentence: str, where: tuple[tuple[float, float], ...], value: object
-) -> Obstruction:
-    """Return the obstruction of an outline, which its picture shows."""
-    return Obstruction(reason, sentence, where, value, arranged)
-
-
 def _impossible_cusps(arranged: Arrangement) -> Ints:
     """Return the visits at cusps with too few sheets on their left: one more than the index is needed."""
     if not arranged.cusp_index.any():
@@ -85,7 +77,7 @@ def impossible_cusp(arranged: Arrangement) -> Obstruction | None:
         f"No cusp of index {needed - 1} can be at {place}: it needs {needed} sheets on its left, and there "
         f"{'is' if sheets == 1 else 'are'} {sheets}."
     )
-    return obstruction(arranged, "cusp", sentence, where, sheets)
+    return Obstruction("cusp", sentence, where, sheets, arranged)
 
 
 def clusters_of_loops(arranged: Arrangement) -> Ints:
@@ -111,13 +103,8 @@ def impossible_turning(arranged: Arrangement, connected: bool = False) -> Obstru
         members = np.flatnonzero(cluster == number)
         chi, loops = int(turns[members].sum()), len(members)
         if chi > (2 - loops if connected else loops) or (loops - chi) % 2:
-            return obstruction(
-                arranged,
-                "turning number",
-                _turning_in_words(arranged, members, connected),
-                place_of_turning(arranged),
-                chi,
-            )
+            sentence = _turning_in_words(arranged, members, connected)
+            return Obstruction("turning number", sentence, place_of_turning(arranged), chi, arranged)
     return None
 
 
@@ -142,7 +129,7 @@ def loops_apart(arranged: Arrangement) -> Obstruction | None:
     if clusters == 1:
         return None
     sentence = f"No surface in one piece: the curves lie in {clusters} places apart from each other."
-    return obstruction(arranged, "pieces", sentence, (), clusters)
+    return Obstruction("pieces", sentence, (), clusters, arranged)
 
 
 def negative_winding(arranged: Arrangement) -> Obstruction | None:
@@ -154,4 +141,4 @@ def negative_winding(arranged: Arrangement) -> Obstruction | None:
     who = "curve winds" if arranged.n_loops == 1 else "curves wind"
     sentence = f"The {who} {winding} times around a cell, and cloth cannot cover it a negative number of times."
     where = (arranged.cell_point(lowest),) if arranged.outline else ()
-    return obstruction(arranged, "negative winding", sentence, where, winding)
+    return Obstruction("negative winding", sentence, where, winding, arranged)

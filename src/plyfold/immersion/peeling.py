@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrays import Ints
+from plyfold.arrays import Bools, Ints
 from plyfold.compiled import run_loop
 from plyfold.immersion.corners import NO_SEAM, corners, corners_at_feet
 from plyfold.immersion.dual_tree import grow_tree
@@ -62,18 +62,13 @@ class OutlineSeams:
     start: Ints
     around: Ints
     bottom: Ints
-    in_tree: np.ndarray[tuple[int], np.dtype[np.bool_]]
+    in_tree: Bools
     own: Ints
 
     @property
-    def is_border(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    def is_border(self) -> Bools:
         """Whether each seam is a border, with an own sheet, and no bridge."""
         return np.arange(len(self.size)) < self.arrangement.n_borders
-
-    @property
-    def choices(self) -> Ints:
-        """The links of the tree that ascend: there a sheet must be chosen."""
-        return np.flatnonzero(self.in_tree & (self.own < 0))
 
 
 def outline_seams(arrangement: Arrangement) -> OutlineSeams:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrangement.base_visit import begun_at, numbered_from
+from plyfold.arrangement.base_visit import begun_at, borders_numbered_back, numbered_from
 from plyfold.arrays import Ints
 from plyfold.immersion.curls import DrawnOut, draw_out_cusps, without_curls
 from plyfold.immersion.immersion import Immersion
@@ -51,7 +51,7 @@ class SearchMap:
 
 
 def search_map_of(arranged: Arrangement) -> SearchMap:
-    """Return the search_map of an outline. Cost: O(k + Σ m)."""
+    """Return the search map of an outline. Cost: O(k + Σ m)."""
     numbered = numbered_from(arranged, arranged.base_visit)
     return SearchMap(arranged, numbered, draw_out_cusps(numbered))
 
@@ -63,5 +63,5 @@ def _numbered_back(immersion: Immersion, arranged: Arrangement) -> Immersion:
         return immersion
     gluing = begun_at(immersion.gluing, int(np.searchsorted(immersion.gluing[:, 0], borders - base)))
     gluing[:, 0] = (gluing[:, 0] + base) % borders
-    own_sheet = begun_at(immersion.own_sheet, borders - base)
+    own_sheet = borders_numbered_back(arranged, immersion.own_sheet)
     return Immersion(arranged, immersion.sheet_cell, immersion.first_sheet, own_sheet, gluing)

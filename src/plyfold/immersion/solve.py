@@ -17,7 +17,7 @@ from plyfold.errors import InputError, TimeLimitError
 from plyfold.immersion.contradiction import no_gluing
 from plyfold.immersion.disks import count_disks, find_disks, list_disks, no_grouping, nth_disk
 from plyfold.immersion.immersion import Immersion
-from plyfold.immersion.obstructions import is_visibly_no_disk, may_bound_disk, obstruction, visible_obstruction
+from plyfold.immersion.obstructions import is_visibly_no_disk, may_bound_disk, visible_obstruction
 from plyfold.immersion.outlines import count_surfaces, find_surfaces, list_surfaces, nth_surface, random_surface
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.outline.given import OutlineLike
@@ -100,12 +100,12 @@ def find_immersion(
     try:
         arranged = watched_arrangement(curve, "perturb", watch)
         return next(watched_immersions(arranged, watch, connected), None) or _why_not(arranged, connected, watch)
-    except TimeLimitError:
+    except (TimeLimitError, TimeoutError):
         return _unknown("whether there is an immersion", clock)
 
 
 def _why_not(arranged: Arrangement, connected: bool, watch: Watch) -> Obstruction:
-    """Return the obstruction of an outline that has no immersion. May raise TimeLimitError."""
+    """Return the obstruction of an outline that has no immersion. May raise TimeLimitError or TimeoutError."""
     visible = visible_obstruction(arranged, connected)
     if visible is not None:
         return visible
@@ -113,7 +113,7 @@ def _why_not(arranged: Arrangement, connected: bool, watch: Watch) -> Obstructio
         return no_grouping(arranged)
     if connected and next(watched_immersions(arranged, watch), None) is not None:
         sentence = "No surface in one piece: all immersions are in several pieces."
-        return obstruction(arranged, "pieces", sentence, (), None)
+        return Obstruction("pieces", sentence, (), None, arranged)
     return no_gluing(arranged, watch.clock)
 
 

@@ -25,7 +25,7 @@ from plyfold.arrangement.base_visit import borders_numbered_back
 from plyfold.arrays import Ints
 from plyfold.clock import Clock, Watch
 from plyfold.errors import TimeLimitError
-from plyfold.immersion.obstructions import may_bound_disk, obstruction, visible_obstruction
+from plyfold.immersion.obstructions import may_bound_disk, visible_obstruction
 from plyfold.immersion.solve import bounds_disk, count_immersions, find_immersion, immersions, watched_immersions
 from plyfold.layering.layering import Layering, layering_of_levels
 from plyfold.layering.levels.casing import casing_of_visits
@@ -165,7 +165,7 @@ def _several_pieces(arranged: Arrangement, clauses: LevelClauses) -> Lacking:
 def _not_in_one_piece(found: Layering) -> Obstruction:
     pieces = tuple(piece.loops for piece in found.pieces)
     sentence = f"No embedding in one piece: those that there are fall into pieces, such as {len(pieces)}."
-    return obstruction(found.immersion.arrangement, "pieces", sentence, (), pieces)
+    return Obstruction("pieces", sentence, (), pieces, found.immersion.arrangement)
 
 
 def embeddings(curve: OutlineLike, over: npt.ArrayLike | None = None, connected: bool = False) -> Iterator[Layering]:

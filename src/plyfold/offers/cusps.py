@@ -18,7 +18,7 @@ from plyfold.arrangement.arrangement import Arrangement, watched_arrangement
 from plyfold.arrays import Floats, Ints
 from plyfold.clock import Clock, Watch
 from plyfold.errors import InputError, TimeLimitError
-from plyfold.immersion.obstructions import loops_apart, negative_winding, obstruction
+from plyfold.immersion.obstructions import loops_apart, negative_winding
 from plyfold.layering.embedding import find_embedding
 from plyfold.layering.levels.equations import LevelClauses, LevelEquations, clauses_of, level_equations
 from plyfold.layering.orders.search import undecided
@@ -133,7 +133,7 @@ def _no_such_turns(arranged: Arrangement, turns: int, most: int) -> Obstruction 
     times = "once" if arranged.euler_characteristic == 1 else f"{arranged.euler_characteristic} times"
     who = "the curve turns" if arranged.n_loops == 1 else f"the {arranged.n_loops} curves together turn"
     too_many = "No turns are" if turns <= 0 else f"{turns} turns, more than {most}, are"
-    return obstruction(arranged, "turning number", f"{too_many} too many: {who} {times}.", (), turns)
+    return Obstruction("turning number", f"{too_many} too many: {who} {times}.", (), turns, arranged)
 
 
 def _search(arranged: Arrangement, turns: int, connected: bool, clock: Clock) -> SuggestedCusps | Obstruction | Unknown:
@@ -148,7 +148,7 @@ def _search(arranged: Arrangement, turns: int, connected: bool, clock: Clock) ->
             if found:
                 return proposal
     sentence = f"No cusps for {turns} turns, one on a border at most, make it the outline of an embedded surface."
-    return obstruction(arranged, "no embedding", sentence, (), turns)
+    return Obstruction("no embedding", sentence, (), turns, arranged)
 
 
 def _as_given(arranged: Arrangement, index: Mapping[int, int]) -> SuggestedCusps:

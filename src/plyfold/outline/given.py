@@ -93,19 +93,17 @@ def as_curve(value: object) -> Curve:
     Raises
     ------
     CurveError
-        If the value is not a usable curve.
+        If the value is not a usable curve, or an outline of several loops.
     StrokeError
-        If the ends of an open geometry are too far apart.
-
-    Notes
-    -----
-    O(n log n).
+        As from :func:`as_outline`.
 
     Examples
     --------
     >>> import shapely
     >>> len(as_curve(shapely.box(0, 0, 1, 1)))
     4
+    >>> as_curve(Outline([[(0, 0), (1, 0), (0, 1)]]))
+    <Curve of 3 points>
     """
     outline = as_outline(value)
     if isinstance(outline, Curve):
@@ -148,11 +146,11 @@ def as_outline(value: object) -> Outline:
     <Outline of 2 loops, 8 points>
     """
     if isinstance(value, Outline):
-        return value if isinstance(value, Curve) or value.n_loops > 1 else value.curves[0]
+        return value if isinstance(value, Curve) or value.n_loops > 1 else outline_with(value)
     if isinstance(getattr(value, "geom_type", None), str):  # a GeoSeries has an array of them
         return _outline_of_geometry(cast("BaseGeometry", value))
     if hasattr(value, "outline"):
-        return _outline_of_owner(value.outline)
+        return as_outline(_outline_of_owner(value.outline))
     if are_several(value):
         return _outline_of_several(cast("Sequence[object]", value))
     return Curve(cast("npt.ArrayLike", value))

@@ -28,7 +28,6 @@ from plyfold.arrangement.base_visit import begun_at, numbered_from, visits_from_
 from plyfold.arrays import Bools, Ints, freeze
 from plyfold.clock import NO_LIMIT, Clock
 from plyfold.errors import PlyfoldError
-from plyfold.immersion.obstructions import obstruction
 from plyfold.memory import require_memory
 from plyfold.obstruction import Obstruction
 from plyfold.ragged import count_each, starts_of
@@ -388,4 +387,4 @@ def no_levels(arranged: Arrangement, clauses: LevelClauses, clock: Clock, becaus
     drawn = arranged.outline is not None
     places = np.concatenate([arranged.crossings[crossings], arranged.visit_point[cusps]]).tolist() if drawn else []
     where, value = tuple((x, y) for x, y in places), (*crossings, *(("cusp", visit) for visit in cusps))
-    return obstruction(arranged, "no embedding", sentence, where, value)
+    return Obstruction("no embedding", sentence, where, value, arranged)
