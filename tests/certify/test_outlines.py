@@ -13,6 +13,7 @@ from plyfold.certify import (
     check_surface,
     check_surface_mesh,
 )
+from plyfold.certify.surface import check_rounded
 from plyfold.errors import CertificateError
 from reference.triangles import meeting_pairs
 
@@ -260,3 +261,15 @@ def test_solid_stair_as_thick_at_its_vertex_as_elsewhere_cuts_itself():
     assert meeting_pairs(both, mesh)
     with pytest.raises(CertificateError):
         check_solid(both, mesh, 0.5)
+
+
+@pytest.mark.parametrize("row", [[99], [-1], [0.5]])
+def test_vertices_that_do_not_exist(row):
+    vertices, faces = stair_solid()
+    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    with pytest.raises(CertificateError, match="does not name vertices by whole numbers"):
+        check_solid(*solid(vertices, faces.tolist(), 0.5, tip=0), 0.5, tips=row)
+    with pytest.raises(CertificateError, match="does not name vertices by whole numbers"):
+        check_layered(vertices, faces, passing=[(0, 1, 2, *row)])
+    with pytest.raises(CertificateError, match="does not name vertices by whole numbers"):
+        check_rounded(square, square, [[0, 1, 2], [0, 2, 3]], [0, 1, 2, *row])

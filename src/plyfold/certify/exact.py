@@ -18,6 +18,7 @@ __all__ = [
     "Loops",
     "as_faces",
     "as_loops",
+    "as_vertices",
     "different",
     "finite",
     "next_along_loops",
@@ -121,6 +122,16 @@ def as_faces(faces: npt.ArrayLike, n_vertices: int) -> Ints:
     if twice.any():
         raise CertificateError(f"triangle {np.argmax(twice)} names a vertex twice")
     return triangles
+
+
+def as_vertices(numbers: npt.ArrayLike, n_vertices: int, what: str) -> Ints:
+    """Return numbers of vertices, all of which exist."""
+    array = np.asarray(numbers)
+    if not array.size:
+        return array.astype(np.int64)
+    if array.dtype.kind not in "iu" or array.min() < 0 or array.max() >= n_vertices:
+        raise CertificateError(f"{what} does not name vertices by whole numbers from 0 to {n_vertices - 1}")
+    return array.astype(np.int64)
 
 
 def different(points: Floats) -> tuple[Floats, Ints, Ints]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.certify.exact import Bools, Floats, Ints, as_faces, different, finite, pair_keys
+from plyfold.certify.exact import Bools, Floats, Ints, as_faces, as_vertices, different, finite, pair_keys
 from plyfold.certify.places import ExactPlaces, doubles, require_positive
 from plyfold.errors import CertificateError
 
@@ -167,7 +167,7 @@ class _Stacks:
 
 def _named_pairs(passing: npt.ArrayLike, edges: Ints, below: Ints) -> Ints:
     """Return the pairs of edges that may pass through each other, as numbers of edges."""
-    rows = np.asarray(passing, dtype=np.int64).reshape(-1, 2, 2)
+    rows = as_vertices(passing, len(below), "what may pass through each other").reshape(-1, 2, 2)
     backwards = below[rows[:, 0, 0]] > below[rows[:, 0, 1]]
     rows = np.where(backwards[:, None, None], rows[:, :, ::-1], rows)
     # The edges are sorted.

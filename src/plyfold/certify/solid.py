@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.certify.disk import closed_sides, require_pieces
-from plyfold.certify.exact import Floats, Ints, as_faces, finite, pair_keys
+from plyfold.certify.exact import Floats, Ints, as_faces, as_vertices, finite, pair_keys
 from plyfold.certify.layered import check_layered
 from plyfold.certify.places import doubles
 from plyfold.errors import CertificateError
@@ -77,7 +77,7 @@ def check_solid(
     require_pieces(closed_sides(triangles, len(positions)), len(positions), [(0, 2 * int(euler)) for euler in pieces])
     turn = doubles(positions[:, :2]).turn(triangles)
     upper, lower, walls = triangles[turn > 0], triangles[turn < 0], triangles[turn == 0]
-    top = _tops(positions, upper, lower, np.unique(np.asarray(tips, dtype=np.int64)))
+    top = _tops(positions, upper, lower, np.unique(as_vertices(tips, len(positions), "the row of tips")))
     _require_thickness(positions, top, thickness)
     _require_prisms(upper, top[lower])
     _require_walls(positions, walls, lower, top)

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.certify.disk import require_pieces, surface_sides
-from plyfold.certify.exact import Ints, as_faces, as_loops, finite
+from plyfold.certify.exact import Ints, as_faces, as_loops, as_vertices, finite
 from plyfold.certify.immersed import common_places, require_along_curve, require_immersed, walk_along, walked
 from plyfold.certify.layered import require_gap, require_layered, require_no_overlap
 from plyfold.certify.places import require_positive
@@ -111,7 +111,7 @@ def check_rounded(
     """
     near = finite(points, 2)
     faces = as_faces(triangles, len(near))
-    row = np.asarray(chain)
+    row = as_vertices(chain, len(near), "the chain")
     walk = walk_along(as_loops(loops), near, row, np.asarray([0, len(row)] if first is None else first))
     places = common_places(walk)
     require_along_curve(walk, places)
