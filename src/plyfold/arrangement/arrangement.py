@@ -84,6 +84,8 @@ class Arrangement:
         straight to the left of it. Borders and bridges together connect the boundary of every bounded cell.
     outline : Outline
         The loops as used, oriented and in general position; None if only the code is known.
+    given : Outline
+        The same loops, with the points that were moved where they were given; None if only the code is known.
     crossings : (k, 2) float
         Positions, rounded to double precision; (0, 2) if only the code is known.
     visit_edge : (visits,) int
@@ -122,6 +124,7 @@ class Arrangement:
     cusp_index: Ints
     bridges: Ints = field(default_factory=lambda: np.empty((0, 2), dtype=np.int64))
     outline: Outline | None = None
+    given: Outline | None = None
     crossings: Floats = field(default_factory=lambda: np.empty((0, 2)))
     visit_edge: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     marks: Floats = field(default_factory=lambda: np.empty((0, 2)))
@@ -561,7 +564,9 @@ def _of_curve(curve: Curve, general_position: Literal["perturb", "raise"], watch
     crossings = point[np.arange(len(point)) < used.code.partner]
     settled = {"exact_signs": visits.exact_signs, "reversed": turned_round}
     marked = with_marks(drawn, marks)
-    return Arrangement._of_map(marked, walked_round(marked), (turning,), separated, crossings=crossings, **settled)
+    given = curve.reversed() if turned_round else curve
+    drawing = {"given": given, "crossings": crossings}
+    return Arrangement._of_map(marked, walked_round(marked), (turning,), separated, **drawing, **settled)
 
 
 def _of_loops(outline: Outline, turned_round: bool, watch: Watch) -> Arrangement:
@@ -581,4 +586,4 @@ def _of_loops(outline: Outline, turned_round: bool, watch: Watch) -> Arrangement
     turning = polygon_turning_numbers(outline.points, outline.first_point)
     settled = {"exact_signs": visits.exact_signs, "reversed": turned_round}
     walk = walked if drawn is plain else walked_round(drawn)
-    return Arrangement._of_map(drawn, walk, turning, outline, crossings=crossings, **settled)
+    return Arrangement._of_map(drawn, walk, turning, outline, given=outline, crossings=crossings, **settled)

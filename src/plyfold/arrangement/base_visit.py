@@ -47,6 +47,7 @@ def numbered_from(arrangement: Arrangement, base: int) -> Arrangement:
         crossing_of_visit=begun_at(arrangement.crossing_of_visit, base),
         cusp_index=begun_at(arrangement.cusp_index, base),
         outline=None,
+        given=None,
         marks=np.empty((0, 2)),
         crossings=np.empty((0, 2)),
         visit_edge=np.empty(0, dtype=np.int64),

@@ -75,6 +75,7 @@ def draw_out_cusps(arrangement: Arrangement) -> DrawnOut:
         bridges=_renumbered(arrangement.bridges, border),
         cusp_index=np.zeros(len(partner), dtype=np.int64),
         outline=None,
+        given=None,
         crossings=np.empty((0, 2)),
         marks=np.empty((0, 2)),
         visit_edge=np.empty(0, dtype=np.int64),
