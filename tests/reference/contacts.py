@@ -165,6 +165,17 @@ def contacts(loops: Sequence[Loop]) -> set[tuple[int, int]]:
     }
 
 
+def with_vertices_at_cusps(loops: Sequence[Loop], cusps: Cusps) -> tuple[list[list[Point]], list[list[int]]]:
+    """The outline with a vertex on every edge where a cusp lies on it: there the edge can move, as the cusp stays."""
+    places = {p for loop, index in zip(loops, cusps, strict=True) for p, m in zip(loop, index, strict=True) if m}
+    longer, marks = [], []
+    for loop, index in zip(loops, cusps, strict=True):
+        chains = [touching_drawings.chain(edge, [(p, p) for p in places])[:-1] for edge in edges(loop)]
+        longer.append([p for chain in chains for p in chain])
+        marks.append([m for i, chain in enumerate(chains) for m in (index[i], *[0] * (len(chain) - 1))])
+    return longer, marks
+
+
 # ---- answers ---------------------------------------------------------------------------------------------------------
 
 
@@ -235,3 +246,62 @@ def starts(polygon: Sequence[Sequence[float]]) -> Iterator[list[Sequence[float]]
     for points in (list(polygon), list(polygon)[::-1]):
         for start in range(len(points)):
             yield points[start:] + points[:start]
+
+
+# ---- random outlines -------------------------------------------------------------------------------------------------
+
+
+def random_touching(rng: np.random.Generator, most: int = 9) -> list[tuple[int, int]]:
+    """A polygon on a small grid that touches itself, more often than not.
+
+    Some are random; the others grow from a triangle or from the whole square, by new vertices and by trips: from a
+    vertex to a triangle and back, or a triangle right at a vertex.
+    """
+    size, kind = int(rng.integers(3, 7)), rng.random()
+    if kind < 0.2:
+        return grid_points(rng, size, int(rng.integers(4, most + 1)))
+    polygon = [(0, 0), (size - 1, 0), (size - 1, size - 1), (0, size - 1)]
+    while kind < 0.6 and not turns(polygon := grid_points(rng, size, 3), 1):
+        pass
+    for _ in range(60):
+        longer = glued_or_with_trip(rng, polygon, size)
+        if len(longer) <= most and turns(longer, 1):
+            polygon = longer
+    return polygon
+
+
+def grid_points(rng: np.random.Generator, size: int, count: int) -> list[tuple[int, int]]:
+    """Points on a square grid."""
+    return [(int(x), int(y)) for x, y in rng.integers(0, size, (count, 2))]
+
+
+def glued_or_with_trip(rng: np.random.Generator, polygon: list[tuple[int, int]], size: int) -> list[tuple[int, int]]:
+    """A polygon with a new vertex on one edge, or with a triangle at one vertex, reached directly or by a way."""
+    v = int(rng.integers(len(polygon)))
+    start, rest = polygon[v], polygon[v + 1 :] + polygon[:v]
+    r, s, t = grid_points(rng, size, 3)
+    trips = [[start, r], [start, r, s, start], [start, r, s, t, r, start]]
+    return trips[int(rng.choice(3, p=[0.4, 0.2, 0.4]))] + rest
+
+
+def turns(polygon: Sequence[Sequence[float]], times: int) -> bool:
+    """Whether a polygon has no spikes and turns so many times to the left."""
+    points = exact(polygon)
+    return not any(is_spike(points, v) for v in range(len(points))) and turning(points) == times
+
+
+def random_touching_with_cusps(
+    rng: np.random.Generator, index: int, most: int = 9
+) -> tuple[list[tuple[int, int]], list[int]]:
+    """A polygon on a small grid that turns too often, and cusps at some of its vertices that make up for it."""
+    size = int(rng.integers(3, 6))
+    while not turns(polygon := grid_points(rng, size, int(rng.integers(4 + index, 7 + index))), 1 + index):
+        pass
+    for _ in range(20):
+        longer = glued_or_with_trip(rng, polygon, size)
+        if len(longer) <= most and turns(longer, 1 + index):
+            polygon = longer
+    cusps = [0] * len(polygon)
+    for _ in range(index):
+        cusps[int(rng.integers(len(polygon)))] += 1
+    return polygon, cusps
