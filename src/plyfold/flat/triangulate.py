@@ -8,20 +8,21 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrays import Floats, Ints
-from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError
+from plyfold.errors import InputError, NotImmersibleError
 from plyfold.flat.delaunay import delaunay_triangles, flip_edges
+from plyfold.flat.settle import Settled, settle, unsettled
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.halfedges import ends_of
 from plyfold.immersion.immersion import Immersion, require_immersion
 from plyfold.immersion.solve import find_immersion
 from plyfold.mesh.cells import refuse_max_area
-from plyfold.mesh.refine import drawn_outline
+from plyfold.mesh.refine import drawn_outline, given_outline
 from plyfold.outline.curve import Outline
 from plyfold.outline.given import OutlineLike, as_outline
 from plyfold.predicates import orient
 from plyfold.ragged import count_each
 
-__all__ = ["chosen_immersion", "glued_by_points", "triangulate"]
+__all__ = ["chosen_immersion", "cuts_of", "settled_by_points", "triangulate"]
 
 
 @overload
@@ -103,8 +104,9 @@ def triangulate(
     chosen = chosen_immersion(curve, immersion)
     if refine is not None:
         return _refined(chosen, refine)
-    faces = _input_order(chosen.arrangement)[sweep_triangles(chosen)]
-    return faces if isinstance(curve, Arrangement) else _faces_as_given(curve, faces, chosen.arrangement)
+    settled = settled_triangles(chosen)
+    faces = _input_order(chosen.arrangement)[settled.point[settled.faces]]
+    return faces if isinstance(curve, Arrangement | Outline) else as_outline(curve).rows[faces]
 
 
 def chosen_immersion(curve: OutlineLike, immersion: Immersion | None) -> Immersion:
@@ -120,20 +122,6 @@ def chosen_immersion(curve: OutlineLike, immersion: Immersion | None) -> Immersi
     if not (_same(drawn, curve) if isinstance(curve, Arrangement) else _draws(drawn, as_outline(curve))):
         raise InputError("the immersion belongs to another curve", hint="make it from the same arrangement")
     return immersion
-
-
-def _faces_as_given(curve: OutlineLike, faces: Ints, drawn: Arrangement) -> Ints:
-    """Give the points the numbers that the caller knows, and refuse triangles without area on his points."""
-    given = as_outline(curve)
-    if not np.array_equal(drawn_outline(drawn).points[_input_order(drawn)], given.points):
-        flat = faces[orient(*given.points[faces].swapaxes(0, 1)) <= 0]
-        if len(flat):
-            raise GeneralPositionError(
-                "strands touch, and where they were separated a triangle has no area on the points as given",
-                where=given.points[flat[0]],
-                hint="take the moved points: a = arrange(curve), then triangulate(a) and a.outline.points",
-            )
-    return faces if isinstance(curve, Outline) else given.rows[faces]
 
 
 def _same(drawn: Arrangement, other: Arrangement) -> bool:
@@ -180,19 +168,59 @@ def _refined(immersion: Immersion, max_area: float) -> tuple[Floats, Ints]:
     drawn = immersion.arrangement
     if isinstance(max_area, bool) or not isinstance(max_area, int | float | np.number):
         raise InputError(f"the largest area of a triangle must be a number, not {max_area!r}")
-    points, number = drawn_outline(drawn).points, _input_order(drawn)
-    refuse_max_area(points, max_area)
+    refuse_max_area(drawn_outline(drawn).points, max_area)
+    settled = settled_by_points(immersion)
+    points, number = _points_of_corners(given_outline(drawn), settled, _input_order(drawn))
     # Flips alone would take quadratic time where triangles are long.
-    round_triangles = delaunay_triangles(points, glued_by_points(immersion))
-    return _split_large(points[number], number[round_triangles], max_area)
+    round_triangles = delaunay_triangles(points[number], settled.faces)
+    return _split_large(points, number[round_triangles], max_area)
 
 
-def glued_by_points(immersion: Immersion) -> Ints:
-    """Return triangles of which the points tell the gluing; refuse those of which two sides join the same points.
+def _points_of_corners(given: Outline, settled: Settled, input_order: Ints) -> tuple[Floats, Ints]:
+    """Return the points of an outline in the order of the input, then those inside its edges at which it is cut.
+
+    Also the number of each corner among them.
+    """
+    points = np.empty_like(given.points)
+    points[input_order] = given.points
+    inside = settled.inside
+    number = np.where(inside, len(given) - 1 + np.cumsum(inside), input_order[settled.point])
+    return np.concatenate([points, given.points[settled.point[inside]]]), number
+
+
+def settled_triangles(immersion: Immersion) -> Settled:
+    """Return triangles of an immersed surface on the points as given, cut where it touches itself."""
+    faces, given = sweep_triangles(immersion), given_outline(immersion.arrangement)
+    if given is immersion.arrangement.outline:
+        return unsettled(faces, len(given))
+    _refuse_double_sides(immersion, faces)
+    return settle(given, faces)
+
+
+def settled_by_points(immersion: Immersion) -> Settled:
+    """Return the same; refuse triangles of which the corners do not tell the gluing."""
+    settled = settled_triangles(immersion)
+    _refuse_double_sides(immersion, settled.faces)
+    return settled
+
+
+def cuts_of(immersion: Immersion) -> Floats:
+    """Return where an immersed surface has no width on the points as given, shape (c, 2): in order along the outline.
+
+    Examples
+    --------
+    >>> from plyfold import find_immersion
+    >>> cuts_of(find_immersion([(0, 0), (1, 1), (2, 0), (2, 2), (1, 1), (0, 2)])).tolist()
+    [[1.0, 1.0]]
+    """
+    return given_outline(immersion.arrangement).points[settled_triangles(immersion).cuts]
+
+
+def _refuse_double_sides(immersion: Immersion, faces: Ints) -> None:
+    """Refuse triangles of which two sides join the same points.
 
     They are on the same line then, and leave their ends in the same direction: at both there is a cusp.
     """
-    faces = sweep_triangles(immersion)
     outline = drawn_outline(immersion.arrangement)
     if np.count_nonzero(np.concatenate(outline.cusps)) > 1:
         start, end = ends_of(faces)
@@ -203,7 +231,6 @@ def glued_by_points(immersion: Immersion) -> Ints:
                 where=outline.points[list(divmod(int(double[0]), len(outline)))],
                 hint="put a vertex on an edge near one of them",
             )
-    return faces
 
 
 def _split_large(points: Floats, faces: Ints, max_area: float) -> tuple[Floats, Ints]:
