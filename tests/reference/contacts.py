@@ -187,8 +187,9 @@ def turning(loop: Loop) -> int:
 
 def may_bound(loops: Sequence[Loop], cusps: Cusps = ()) -> bool:
     """Conditions that no small move changes: a disk turns once and less its cusps; no face has w < 0."""
-    drawn = touching_drawings.touching_drawing(loops, cusps)
-    return (len(loops) > 1 or turning(loops[0]) - sum(map(sum, cusps)) == 1) and min(drawn.winding) >= 0
+    if len(loops) == 1 and turning(loops[0]) - sum(map(sum, cusps)) != 1:
+        return False
+    return min(touching_drawings.touching_drawing(loops, cusps).winding) >= 0
 
 
 def count_strict(loops: Sequence[Loop], cusps: Cusps = ()) -> int:

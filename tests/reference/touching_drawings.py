@@ -17,7 +17,7 @@ from functools import cmp_to_key
 from itertools import pairwise, permutations
 from typing import NamedTuple
 
-from reference.crossings import Point, cross, dot, edges, minus, on_segment, side
+from reference.crossings import Point, cross, dot, edges, minus, side
 from reference.outline_gluings import dual_tree, edge_order
 
 
@@ -74,8 +74,9 @@ def chain(edge: tuple[Point, Point], others: Sequence[tuple[Point, Point]]) -> l
     p, q = edge
     found = {p, q}
     for r, s in others:
-        found |= {end for end in (r, s) if on_segment(p, q, end)}
-        if side(p, q, r) * side(p, q, s) < 0 and side(r, s, p) * side(r, s, q) < 0:
+        at_r, at_s = side(p, q, r), side(p, q, s)
+        found |= {end for end, at in ((r, at_r), (s, at_s)) if at == 0 and dot(minus(p, end), minus(q, end)) <= 0}
+        if at_r * at_s < 0 and side(r, s, p) * side(r, s, q) < 0:
             along, across = minus(q, p), minus(s, r)
             share = cross(minus(r, p), across) / cross(along, across)
             found.add((p[0] + share * along[0], p[1] + share * along[1]))
