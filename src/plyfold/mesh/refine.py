@@ -42,6 +42,7 @@ __all__ = [
     "chain_of",
     "constrained",
     "drawn_outline",
+    "given_outline",
     "left_of_chain",
     "noded_curve",
     "planar_mesh",
@@ -347,6 +348,12 @@ def drawn_outline(arrangement: Arrangement) -> Outline:
     if arrangement.outline is None:
         raise PlyfoldError("triangles need a drawing, and this arrangement is a Gauss code alone")
     return arrangement.outline
+
+
+def given_outline(arrangement: Arrangement) -> Outline:
+    """Return the outline of a drawing with its points where they were given; refuse a Gauss code."""
+    drawn = drawn_outline(arrangement)
+    return drawn if arrangement.given is None else arrangement.given
 
 
 def noded_curve(arrangement: Arrangement) -> NodedCurve:
