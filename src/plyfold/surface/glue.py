@@ -46,7 +46,7 @@ class LiftedMesh:
     sheet : (m,) int
         The sheet of each triangle.
     boundary : (b,) int
-        The vertices along the outline, loop after loop, each from its first point: 0, 1, …, b − 1.
+        The vertices along the boundary, 0, 1, …, b − 1, see :class:`~plyfold.mesh.sheets.SheetMesh`.
     first_boundary : (loops + 1,) int
         Where in this row each loop begins, and last its length.
     cusps : (c,) int
@@ -129,8 +129,8 @@ def stack_sheets(
         faces=glued.faces,
         sheet=glued.sheet,
         boundary=glued.boundary,
-        first_boundary=mesh.first_piece,
-        cusps=np.flatnonzero(np.isin(mesh.chain, cusps_of(immersion.arrangement))),
+        first_boundary=glued.first_boundary,
+        cusps=np.flatnonzero(np.isin(glued.boundary_piece, mesh.pieces_from(cusps_of(immersion.arrangement)))),
         level=level,
         stacked=stacked,
         passing=passing,

@@ -387,7 +387,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
 
 def _steps(cells: CellTriangulation, drawn: Arrangement) -> Steps:
     """Return the cells with steps at cusps, or as they are where double precision has no room for steps."""
-    cusps = cusps_of(drawn)
+    cusps = cells.places_of(cusps_of(drawn))
     with suppress(PrecisionError):
         steps = with_steps(cells, cusps)
         if steps.cells is not cells:
