@@ -133,11 +133,12 @@ def strands_of(outline: Outline) -> Strands:
 
     Examples
     --------
-    A square that is joined to a point outside by a double edge:
+    A square with a way to a point outside and back:
 
     >>> from plyfold.outline.curve import Curve
     >>> found = strands_of(Curve([(0, 0), (2, 0), (3, -1), (4, 0), (3, -1), (2, 0), (2, 2), (0, 2)]))
     >>> found.noding.times.tolist(), found.half_edge.tolist()
+    ([-1, 1, -1, 1, 0, 0], [2, 8, 10, 11, 9, 6, 5, 1])
     """
     points = outline.points
     start, end = points, points[outline.next_point]
@@ -220,9 +221,9 @@ class _Lines(NamedTuple):
 
 
 def _distinct_edges(start: Floats, end: Floats, times: Ints, all_parts: bool = False) -> tuple[_Lines, Ints]:
-    """Return the distinct edges with a length, and which of them each edge is; without those that are run back as often.
+    """Return the distinct edges with a length, and which of them each edge is.
 
-    With ``all_parts`` these are kept.
+    Those that are run back as often are left out, but with ``all_parts``.
     """
     (start, end), unit, origin, is_small_grid = _in_units(np.stack([start, end]))
     backward = _runs_backward(start, end)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -177,34 +178,38 @@ def _seams_across(immersion: Immersion, strips: Strips, seams: Seams) -> Seams:
     count = immersion.arrangement.winding[cell]
     row = starts_of(count) - immersion.first_sheet[cell]
     dart = np.repeat(np.arange(2 * borders), count)
-    sheet = np.arange(len(dart)) - row[dart]
-    # Seen along the border, dart 2j comes from its left and 2j + 1 from its right.
-    rightward = (dart % 2 == 1) == strips.backward[dart // 2]
     first, last = strips.ends_of_parts
-    place = np.where(rightward, last[dart // 2], first[dart // 2])
-    left_to_go = last[dart // 2] - first[dart // 2] + 1
-    return Seams(row, _across(strips, seams, sheet, place, rightward, left_to_go))
+    # Dart 2j comes from the left of border j; that may be the right of its part.
+    leftward = (dart % 2 == 1) != strips.backward[dart // 2]
+    ways = _Ways(np.where(leftward, first[dart // 2], last[dart // 2]), leftward, (last - first)[dart // 2] + 1)
+    return Seams(row, _followed(strips, seams, np.arange(len(dart)) - row[dart], ways))
 
 
 def _own_sheets(immersion: Immersion, strips: Strips, seams: Seams) -> Ints:
-    """Return the sheet beyond all borders on the left of each one whose own sheet it is."""
-    sheet = immersion.own_sheet[strips.moved_border]
+    """Return the sheet on the left of each border, and of all that run beside it, that ends at it; or −1."""
     first, last = strips.ends_of_parts
-    rightward = strips.backward
-    place = np.where(rightward, strips.place - 1, strips.place + 1)
-    return _across(
-        strips, seams, sheet, place, rightward, np.where(rightward, strips.place - first, last - strips.place)
-    )
+    leftward, place = ~strips.backward, strips.place
+    ways = _Ways(np.where(leftward, place + 1, place - 1), leftward, np.where(leftward, last - place, place - first))
+    return _followed(strips, seams, immersion.own_sheet[strips.moved_border], ways)
 
 
-def _across(strips: Strips, seams: Seams, sheet: Ints, place: Ints, rightward: Bools, count: Ints) -> Ints:  # noqa: PLR0917
-    """Follow sheets across so many borders in a row, from the one at some place on; −1 where they end."""
+class _Ways(NamedTuple):
+    """Ways across so many borders side by side, from the one at a place in their order, to the left or to the right."""
+
+    place: Ints
+    leftward: Bools
+    steps: Ints
+
+
+def _followed(strips: Strips, seams: Seams, sheet: Ints, ways: _Ways) -> Ints:
+    """Return the sheets that some lead to on their ways; −1 where they end."""
     found = sheet.copy()
-    for step in range(int(count.max(initial=0))):
-        going = np.flatnonzero((count > step) & (found >= 0))
-        right = rightward[going]
-        border = strips.order[place[going] + np.where(right, -step, step)]
-        dart = 2 * strips.moved_border[border] + (strips.backward[border] == right)
+    for step in range(int(ways.steps.max(initial=0))):
+        going = np.flatnonzero((ways.steps > step) & (found >= 0))
+        leftward = ways.leftward[going]
+        border = strips.order[ways.place[going] + np.where(leftward, step, -step)]
+        # From the right of a border comes its second dart.
+        dart = 2 * strips.moved_border[border] + (leftward != strips.backward[border])
         found[going] = seams.beyond(dart, found[going])
     return found
 
@@ -257,15 +262,13 @@ def _loops(label: Ints, along: Ints) -> tuple[Ints, Ints]:
     start, end = label[along], label[following(along)]
     from_vertex = np.empty(label.max() + 1, dtype=np.int64)
     from_vertex[start] = np.arange(len(along))
-    after = from_vertex[end].tolist()
-    order: list[int] = []
-    first = [0]
+    after, order, first = from_vertex[end].tolist(), [], [0]
     seen = [False] * len(after)
-    for piece in range(len(after)):
-        while not seen[piece]:
-            seen[piece] = True
-            order.append(piece)
-            piece = after[piece]
+    for at in range(len(after)):
+        while not seen[at]:
+            seen[at] = True
+            order.append(at)
+            at = after[at]  # noqa: PLW2901 - round the loop
         if len(order) > first[-1]:
             first.append(len(order))
     return np.array(order), np.array(first)

@@ -2,15 +2,14 @@
 
 An arrangement is that of the outline with its touching points moved apart, infinitely little. Given back where they
 were, strands fall on each other, and the thin cells between them vanish. So the cells of a mesh are the faces of the
-exact noding of the given points: each of them is a cell of the arrangement, or a part of one. Its *borders* are the strands cut at the
-nodes; across each of them some others run along it, in an order that the moved points tell. A sheet on one side goes on
-in the sheet on the other side that one comes to through all the thin cells, if there is a way. Where there is none,
-the sheet ends; and a sheet that lies in thin cells alone is gone.
+exact noding of the given points: each of them is a cell of the arrangement, or a part of one. Its *borders* are the
+strands cut at the nodes; along each of them others may run, side by side in an order that the moved points tell. A
+sheet on one side goes on in the one on the other side that it leads to through all the thin cells. Where it leads to
+none, it ends; and a sheet over thin cells alone is gone.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import cast
@@ -23,7 +22,6 @@ from plyfold.arrays import Bools, Floats, Ints, freeze
 from plyfold.errors import PrecisionError
 from plyfold.mesh.refine import NodedCurve, borders_passed, unit_square
 from plyfold.outline.curve import Outline
-from plyfold.ragged import count_each, starts_of
 
 __all__ = ["Strips", "is_moved", "noded_strips", "strips_of"]
 
@@ -76,7 +74,7 @@ class Strips:
     @property
     def backward(self) -> Bools:
         """Which borders run against the direction of their part."""
-        return self.strands.half_edge % 2 == 1
+        return np.asarray(self.strands.half_edge % 2 == 1)
 
     @property
     def ends_of_parts(self) -> tuple[Ints, Ints]:
@@ -135,73 +133,105 @@ def _drawn(outline: Outline | None) -> Outline:
 # ---- which borders of the arrangement run along a part, and in which order -------------------------------------------
 
 
+@dataclass(frozen=True, eq=False)
+class _Places:
+    """Places on the moved edges of an outline: where a line x = c or y = c meets them.
+
+    Parameters
+    ----------
+    row : (m,) int
+        The borders on the given points that the places are of.
+    edge : (m,) int
+        The edge of the outline.
+    axis : (m,) int
+        0 if x is given and 1 if y is; in this direction the edge is longer.
+    along : (m,) float
+        What is given.
+    """
+
+    row: Ints
+    edge: Ints
+    axis: Ints
+    along: Floats
+
+    def of(self, which: Ints) -> _Places:
+        return _Places(self.row[which], self.edge[which], self.axis[which], self.along[which])
+
+
 def _borders_in_order(arrangement: Arrangement, strands: Strands) -> tuple[Ints, Ints]:
     """Return the arrangement's border at each half-edge of the outline, and all of them part after part, in order."""
-    noding, half_edge = strands.noding, strands.half_edge
-    edge = np.repeat(np.arange(len(strands.first) - 1), np.diff(strands.first))
-    border, height = np.full((2, len(half_edge)), -1)
-    ends = noding.points[noding.ends]
-    step = ends[:, 1] - ends[:, 0]
-    axis = (np.abs(step[:, 1]) > np.abs(step[:, 0])).astype(np.int64)
-    rows = np.arange(len(ends))
-    open_parts = np.ones(len(ends), dtype=bool)
+    part = strands.half_edge // 2
+    several = np.bincount(part)[part] > 1
+    border, height = np.zeros((2, len(part)), dtype=np.int64)
+    left = np.arange(len(part))
     for share in _SHARES:
-        along = ends[rows, 0, axis] + share * step[rows, axis]
-        here = np.flatnonzero(open_parts[half_edge // 2])
-        there = axis[half_edge[here] // 2]
-        found, unsure = _borders_at(arrangement, edge[here], there, along[half_edge[here] // 2])
-        border[here] = found
-        height[here] = _heights(arrangement, edge[here], there, along[half_edge[here] // 2])
-        unsure |= _equal_in_part(half_edge[here] // 2, height[here])
-        open_parts[:] = False
-        open_parts[half_edge[here[unsure]] // 2] = True
-        if not open_parts.any():
-            break
-    if open_parts.any():
-        raise _moved_too_far(ends[open_parts].reshape(-1, 2))
-    # On an upright part that runs up, what is further right comes first.
-    turned = (axis == 1) & (step[:, 1] > 0)
-    height = np.where(turned[half_edge // 2], -height, height)
-    return border, np.lexsort((height, half_edge // 2))
+        places = _places(strands, left, share)
+        border[left], near = _borders_at(arrangement, places)
+        beside = np.flatnonzero(several[left])
+        height[left[beside]] = _heights(arrangement, places.of(beside))
+        near[beside] |= _equal_in_part(part[left[beside]], height[left[beside]])
+        left = np.flatnonzero(np.isin(part, part[left[near]]))
+        if not len(left):
+            step = _steps(strands)[part]
+            # Left of a part that runs up is where x is smaller.
+            upward = (np.abs(step[:, 1]) > np.abs(step[:, 0])) & (step[:, 1] > 0)
+            return border, np.lexsort((np.where(upward, -height, height), part))
+    raise _moved_too_far(strands.noding.points[strands.noding.ends[part[left]]].reshape(-1, 2))
 
 
-def _borders_at(arrangement: Arrangement, edge: Ints, axis: Ints, along: Floats) -> tuple[Ints, Bools]:
-    """Return the borders of places on edges, given by x or y; and which of them are too near a crossing to tell."""
-    points = _drawn(arrangement.outline).points
+def _steps(strands: Strands) -> Floats:
+    """Return how far x and y grow along each part."""
+    start, end = strands.noding.points[strands.noding.ends].swapaxes(0, 1)
+    return np.asarray(end - start)
+
+
+def _places(strands: Strands, row: Ints, share: float) -> _Places:
+    """Return places on borders, where so much of their parts is behind them."""
+    edge = np.repeat(np.arange(len(strands.first) - 1), np.diff(strands.first))
+    part, step = strands.half_edge[row] // 2, _steps(strands)
+    axis = (np.abs(step[part, 1]) > np.abs(step[part, 0])).astype(np.int64)
+    start = strands.noding.points[strands.noding.ends[part, 0], axis]
+    return _Places(row, edge[row], axis, start + share * step[part, axis])
+
+
+def _borders_at(arrangement: Arrangement, places: _Places) -> tuple[Ints, Bools]:
+    """Return the borders of the arrangement at places, and which of these are too near a visit to tell."""
+    border, near = np.zeros_like(places.row), np.zeros(len(places.row), dtype=bool)
+    for axis in (0, 1):
+        here = np.flatnonzero(places.axis == axis)
+        passed, near[here] = _visits_before(arrangement, axis, places.edge[here], places.along[here])
+        border[here] = borders_passed(arrangement, passed, places.edge[here])
+    return border, near
+
+
+def _visits_before(arrangement: Arrangement, axis: int, edge: Ints, along: Floats) -> tuple[Ints, Bools]:
+    """Return how many visits come before places on edges, on earlier edges too, and whether one may be there."""
     outline = _drawn(arrangement.outline)
-    step = points[outline.next_point] - points
-    visit_edge, visit_point = arrangement.visit_edge, arrangement.visit_point
-    border, unsure = np.empty_like(edge), np.zeros(len(edge), dtype=bool)
-    rounding = _ROUNDINGS * np.spacing(np.abs(points).max())
-    for which in (0, 1):
-        here = np.flatnonzero(axis == which)
-        sign = np.sign(step[:, which])
-        value = np.concatenate([sign[visit_edge] * visit_point[:, which], sign[edge[here]] * along[here]])
-        on_edge = np.concatenate([visit_edge, edge[here]])
-        order = np.lexsort((value, on_edge))
-        is_visit = order < len(visit_edge)
-        passed = np.empty(len(order), dtype=np.int64)
-        passed[order] = np.cumsum(is_visit)
-        border[here] = borders_passed(arrangement, passed[len(visit_edge) :], edge[here])
-        near = (np.diff(value[order]) <= rounding) & (np.diff(on_edge[order]) == 0) & (is_visit[1:] != is_visit[:-1])
-        close = np.zeros(len(order), dtype=bool)
-        close[order[1:][near]] = close[order[:-1][near]] = True
-        unsure[here] = close[len(visit_edge) :]
-    return border, unsure
+    sign = np.sign((outline.points[outline.next_point] - outline.points)[:, axis])
+    visits = arrangement.visit_edge
+    on_edge = np.concatenate([visits, edge])
+    value = sign[on_edge] * np.concatenate([arrangement.visit_point[:, axis], along])
+    order = np.lexsort((value, on_edge))
+    is_visit = order < len(visits)
+    close = np.diff(value[order]) <= _ROUNDINGS * np.spacing(np.abs(outline.points).max())
+    close &= (np.diff(on_edge[order]) == 0) & (is_visit[1:] != is_visit[:-1])
+    passed, near = np.zeros(len(order), dtype=np.int64), np.zeros(len(order), dtype=bool)
+    passed[order] = np.cumsum(is_visit)
+    near[order[1:]] = close
+    near[order[:-1]] |= close
+    return passed[len(visits) :], near[len(visits) :]
 
 
-def _heights(arrangement: Arrangement, edge: Ints, axis: Ints, along: Floats) -> Ints:
-    """Return ranks of y on moved edges at some x, or of x at some y. Exact."""
-    outline = _drawn(arrangement.outline)
-    start, end = outline.points[edge], outline.points[outline.next_point[edge]]
-    rows = np.arange(len(edge))
-    a, b = start[rows, axis], end[rows, axis]
-    p, q = start[rows, 1 - axis], end[rows, 1 - axis]
-    value = p + (along - a) / (b - a) * (q - p)
+def _heights(arrangement: Arrangement, places: _Places) -> Ints:
+    """Return ranks of y where x is given, or of x where y is. Exact."""
+    outline, rows = _drawn(arrangement.outline), np.arange(len(places.row))
+    start, end = outline.points[places.edge], outline.points[outline.next_point[places.edge]]
+    (a, p), (b, q) = ((point[rows, places.axis], point[rows, 1 - places.axis]) for point in (start, end))
+    value = p + (places.along - a) / (b - a) * (q - p)
     error = 16 * np.finfo(np.float64).eps * (np.abs(p) + np.abs(q)) + np.finfo(np.float64).tiny
 
     def exact(which: Ints) -> list[Fraction]:
-        numbers = np.stack([along, a, b, p, q], axis=1)[which].tolist()
+        numbers = np.stack([places.along, a, b, p, q], axis=1)[which].tolist()
         return [_height(*map(Fraction, row)) for row in numbers]
 
     return exact_ranks(value - error, value + error, exact)
