@@ -130,6 +130,11 @@ class Surface:
         """The outline of the surface, with all its loops and cusps, on the points as they were given."""
         return given_outline(self.layering.immersion.arrangement)
 
+    @property
+    def n_layers(self) -> int:
+        """The highest level of a triangle's sheet: over no place lie more sheets."""
+        return int(self.layering.level[self.sheet].max())
+
     def check(self) -> None:
         """Prove the surface right with the independent checkers of :mod:`plyfold.certify`.
 

@@ -160,7 +160,7 @@ def _refuse_thickness(surface: Surface, thickness: float) -> None:
         raise InputError(f"the thickness must be a positive number, not {thickness!r}")
     if len(surface.passing):
         raise InputError("a surface that passes through itself bounds no solid", where=surface.intersections[0][:1])
-    if surface.layering.level.max() > 1 and thickness >= surface.gap:
+    if surface.n_layers > 1 and thickness >= surface.gap:
         raise InputError(
             f"sheets that lie over each other are {surface.gap:g} apart, and cannot be {thickness:g} thick",
             hint="make the thickness smaller, or lift the curve with a larger gap",
