@@ -28,6 +28,7 @@ __all__ = [
     "orient",
     "parameter_along_edge",
     "turn",
+    "whole_numbers",
 ]
 
 
@@ -242,7 +243,7 @@ def exact_crossings(ends: Floats, axis: int) -> list[Fraction]:
     >>> exact_crossings(np.array([[[0.0, 0.0]], [[3.0, 1.0]], [[0.5, 0.0]], [[0.5, 9.0]]]), axis=1)
     [Fraction(1, 6)]
     """
-    (p, q, r, s), unit = _whole(ends)
+    (p, q, r, s), unit = whole_numbers(ends)
     along, across, between = q - p, s - r, r - p
     below = along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]
     above = between[:, 0] * across[:, 1] - between[:, 1] * across[:, 0]
@@ -250,7 +251,7 @@ def exact_crossings(ends: Floats, axis: int) -> list[Fraction]:
     return [Fraction(n, m) * unit for n, m in zip(numerator.tolist(), below.tolist(), strict=True)]
 
 
-def _whole(numbers: Floats) -> tuple[npt.NDArray[np.object_], Fraction]:
+def whole_numbers(numbers: Floats) -> tuple[npt.NDArray[np.object_], Fraction]:
     """Return doubles as whole numbers, however large, of a power of two."""
     mantissa, exponent = np.frexp(numbers)
     least = int(exponent.min())

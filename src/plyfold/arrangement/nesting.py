@@ -1,4 +1,4 @@
-"""Several closed curves in one plane: their visits to all crossings, and in which cell of the others each group lies.
+"""Several closed curves in one plane: in which cell of the others each group of them lies that hangs together.
 
 Loops that cross hang together in groups. Within a group everything is as for one curve. A group lies in one cell of the
 others; exact point location says in which: from its leftmost vertex straight to the left.
@@ -6,7 +6,6 @@ others; exact point location says in which: from its leftmost vertex straight to
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -14,12 +13,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement.crossings import Visits, edge_ends, find_contacts, order_visits
-from plyfold.arrangement.general_position import touching_places
+from plyfold.arrangement.crossings import Visits, edge_ends
 from plyfold.arrangement.marks import Mark
-from plyfold.arrays import Bools, Floats, Ints
+from plyfold.arrangement.meetings import Polyline
+from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.errors import GeneralPositionError
 from plyfold.graphs import components
 from plyfold.predicates import cross_sign, exact_parameter
 from plyfold.ragged import starts_of
@@ -34,12 +32,10 @@ _EDGES_IN_BOX = 8
 
 @dataclass(frozen=True, eq=False)
 class Nest:
-    """Where several loops meet, and how those lie to each other that do not.
+    """How several loops lie to each other that do not meet.
 
     Parameters
     ----------
-    visits : Visits
-        Along one loop after the other; edges are counted over all loops.
     first_visit : (loops + 1,) int
         The number of each loop's first visit, and last the number of visits.
     outside : (o,) int
@@ -52,32 +48,29 @@ class Nest:
         Where each bridge starts and ends.
     """
 
-    visits: Visits
     first_visit: Ints
     outside: Ints
     bridges: Ints
     feet: list[tuple[Mark, Mark]]
 
 
-def nest(loops: Sequence[Floats], watch: Watch = UNWATCHED) -> Nest:
-    """Find the crossings of several closed polylines with themselves and each other, and which lies inside which.
+def nest(polyline: Polyline, visits: Visits, watch: Watch = UNWATCHED) -> Nest:
+    """Find which of several closed polylines in general position lies inside which, given their visits.
 
     Raises
     ------
-    GeneralPositionError
-        If a vertex lies on another edge or three edges meet in a point. Nothing is moved.
     TimeLimitError
         If the time is over.
 
     Notes
     -----
-    As for one curve, plus O(n) for each group.
+    O(n) for each group.
     """
-    polyline = _one_after_the_other(loops)
-    visits = _visits(polyline, watch)
-    first_visit = np.searchsorted(polyline.loop[visits.edge], np.arange(len(loops) + 1))
-    loop = polyline.loop[visits.edge]
-    group = components(len(loops), loop, loop[visits.partner])
+    start = np.flatnonzero(~polyline.is_jump)
+    visits = replace(visits, edge=start[visits.edge])
+    loop, n_loops = polyline.loop[visits.edge], int(polyline.loop[-1]) + 1
+    first_visit = np.searchsorted(loop, np.arange(n_loops + 1))
+    group = components(n_loops, loop, loop[visits.partner])
     plan = _Plan(polyline, visits, first_visit, group[polyline.loop])
     outside, bridges, feet = [], [], []
     for number, corner in enumerate(_corners(plan)):
@@ -90,73 +83,11 @@ def nest(loops: Sequence[Floats], watch: Watch = UNWATCHED) -> Nest:
             bridges.append((dart, 2 * plan.border(beyond, foot.at) + _is_upward(polyline, beyond)))
             feet.append((_foot_at_vertex(plan, corner), foot))
     return Nest(
-        visits=replace(visits, edge=visits.edge - loop),
         first_visit=first_visit,
         outside=np.array(outside),
         bridges=np.array(bridges, dtype=np.int64).reshape(-1, 2),
         feet=feet,
     )
-
-
-# ---- one polyline --------------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, eq=False)
-class _Polyline:
-    """All loops as one polyline: each ends with a copy of its first point, and a *jump* leads from there to the next.
-
-    Parameters
-    ----------
-    points : (n, 2) float
-    loop : (n,) int
-        The loop of each point and of the edge that starts there.
-    vertex : (n,) int
-        The first point of the loop for the copies of it, and each other point itself.
-    is_jump : (n,) bool
-        True where the edge that starts at a point is a jump.
-    """
-
-    points: Floats
-    loop: Ints
-    vertex: Ints
-    is_jump: Bools
-
-
-def _one_after_the_other(loops: Sequence[Floats]) -> _Polyline:
-    lengths = np.array([len(points) + 1 for points in loops])
-    last = np.cumsum(lengths) - 1
-    vertex = np.arange(int(lengths.sum()))
-    vertex[last] -= lengths - 1
-    return _Polyline(
-        points=np.concatenate([part for points in loops for part in (points, points[:1])]),
-        loop=np.repeat(np.arange(len(loops)), lengths),
-        vertex=vertex,
-        is_jump=np.isin(np.arange(len(vertex)), last),
-    )
-
-
-def _visits(polyline: _Polyline, watch: Watch) -> Visits:
-    """Return the visits to all crossings along one loop after the other; refuse loops that touch."""
-    found = find_contacts(polyline.points, watch, np.flatnonzero(polyline.is_jump))
-    touches = _own_touches_left_out(polyline, found.touches)
-    contacts = replace(found, touches=touches)
-    visits = order_visits(polyline.points, contacts)
-    if len(touches) or len(visits.triple):
-        raise GeneralPositionError(
-            f"the curves are not in general position (vertices on other edges: {len(np.unique(touches[:, 0]))}, "
-            f"meetings of three edges: {len(visits.triple)})",
-            where=touching_places(polyline.points, contacts, visits),
-            hint="move these vertices: several loops are not moved apart, as one is",
-        )
-    return visits
-
-
-def _own_touches_left_out(polyline: _Polyline, touches: Ints) -> Ints:
-    """Leave out the touches of jumps, and those of edges that share the point with which a loop begins and ends."""
-    vertex, edge = polyline.vertex[touches[:, 0]], touches[:, 1]
-    following = polyline.vertex[(edge + 1) % len(polyline.vertex)]
-    kept = ~polyline.is_jump[edge] & (vertex != edge) & (vertex != following)
-    return np.stack([vertex[kept], edge[kept]], axis=1)
 
 
 # ---- point location ------------------------------------------------------------------------------------------------
@@ -169,7 +100,7 @@ class _Plan:
     Loops that hang together by crossings are a group; ``group`` has that of each edge.
     """
 
-    polyline: _Polyline
+    polyline: Polyline
     visits: Visits
     first_visit: Ints
     group: Ints
@@ -253,7 +184,7 @@ def _foot_on_edge(plan: _Plan, edge: int, corner: int, number: int) -> Mark:
     return Mark(edge - loop, share, tie, _visits_passed(plan, edge, share, upward), loop, point)
 
 
-def _is_upward(polyline: _Polyline, edge: int) -> bool:
+def _is_upward(polyline: Polyline, edge: int) -> bool:
     return bool(polyline.points[edge, 1] < polyline.points[edge + 1, 1])
 
 

@@ -19,7 +19,6 @@ from plyfold.mesh.refine import drawn_outline
 from plyfold.outline.curve import Outline
 from plyfold.outline.given import OutlineLike, as_outline
 from plyfold.predicates import orient
-from plyfold.ragged import count_each
 
 __all__ = ["chosen_immersion", "glued_by_points", "triangulate"]
 
@@ -167,12 +166,8 @@ def _alike(used: Outline, given: Outline, points: Floats) -> bool:
 
 def _input_order(drawn: Arrangement) -> Ints:
     """Return the number that each point of the arrangement's outline has in the input."""
-    outline = drawn_outline(drawn)
-    length = np.diff(outline.first_point)
-    place = count_each(length)
-    return np.repeat(outline.first_point[:-1], length) + (
-        -place % np.repeat(length, length) if drawn.reversed else place
-    )
+    drawn_outline(drawn)
+    return drawn.numbers
 
 
 def _refined(immersion: Immersion, max_area: float) -> tuple[Floats, Ints]:
