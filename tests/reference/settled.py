@@ -1,4 +1,4 @@
-"""Whether pieces of triangles are a surface as an outline was given, in rational numbers: by chains of directed segments.
+"""Whether triangles are a surface as an outline was given, in rational numbers: by chains of directed segments.
 
 Triangles cover each place as often as closed curves wind round it if their sides, added up, are the curves: a function
 that is zero far away and changes across segments by what the segments say is known everywhere.
@@ -27,21 +27,32 @@ def sides(corners: Sequence[Point]) -> list[Segment]:
     return list(zip(corners, [*corners[1:], corners[0]], strict=True))
 
 
-def are_the_same(one: Iterable[Segment], other: Iterable[Segment]) -> bool:
-    """Whether directed segments add up to the same as others, where opposite directions cancel each other."""
-    count: Counter[Segment] = Counter()
-    for segment, times in [*((s, 1) for s in one), *((s, -1) for s in other)]:
+def parts(segments: Iterable[Segment], ends: Iterable[Point]) -> Counter[Segment]:
+    """How often each part of directed segments is run, where they are cut at some points."""
+    cuts, count = set(ends), Counter()
+    for start, end in segments:
         # On a line, points are in the order of their coordinates.
-        rises = segment[0] < segment[1]
-        count[segment if rises else segment[::-1]] += times if rises else -times
-    left = {segment: times for segment, times in count.items() if times}
-    ends = {end for segment in left for end in segment}
-    parts: Counter[Segment] = Counter()
-    for segment, times in left.items():
-        inside = sorted(end for end in ends if lies_on(end, segment))
-        for part in pairwise(inside):
-            parts[part] += times
-    return not any(parts.values())
+        inside = sorted((p for p in cuts if lies_on(p, (start, end))), reverse=start > end)
+        count.update(pairwise(inside))
+    return count
+
+
+def ends_of(*segments: Iterable[Segment]) -> set[Point]:
+    return {end for some in segments for segment in some for end in segment}
+
+
+def are_the_same(one: Sequence[Segment], other: Sequence[Segment]) -> bool:
+    """Whether directed segments add up to the same as others, where opposite directions cancel each other."""
+    ends = ends_of(one, other)
+    count, expected = parts(one, ends), parts(other, ends)
+    keys = {*count, *expected}
+    return all(count[s] - count[s[::-1]] == expected[s] - expected[s[::-1]] for s in keys)
+
+
+def are_among(some: Sequence[Segment], others: Sequence[Segment]) -> bool:
+    """Whether directed segments are parts of others, none of which is used twice."""
+    ends = ends_of(some, others)
+    return parts(some, ends) <= parts(others, ends)
 
 
 def lies_on(point: Point, segment: Segment) -> bool:

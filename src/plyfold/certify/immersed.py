@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from plyfold.certify.disk import Sides, disk_sides, surface_sides
 from plyfold.certify.exact import Bools, Floats, Ints, Loops, as_loops, different, finite, next_along_loops
-from plyfold.certify.places import ExactPlaces, on_edges, require_positive
+from plyfold.certify.places import ExactPlaces, are_crossing, on_edges, require_positive
 from plyfold.errors import CertificateError
 
 __all__ = [
@@ -192,7 +192,7 @@ def walk_along(outline: Loops, near: Floats, loop: Ints, first: Ints) -> Walk:
 def common_places(walk: Walk) -> ExactPlaces:
     """Return exact places on the curve's edges that are the same for all vertices given as the same doubles.
 
-    Where there are vertices between the points of two edges, the place is where these edges cross.
+    Where there are vertices between the points of two edges that are not parallel, the place is where these cross.
     """
     near, _, place = different(walk.near)
     is_point = walk.is_point
@@ -202,8 +202,14 @@ def common_places(walk: Walk) -> ExactPlaces:
     given[place[points]] = True
     edges[place[points]] = walk.edges[points]
     at, edge = np.unique(np.stack([place[walk.loop], walk.edge], axis=1)[between], axis=0).T
-    rank = np.arange(len(at)) - np.searchsorted(at, at)
-    used = (rank < 2) & ~given[at]
+    first = np.searchsorted(at, at)
+    crossing = np.flatnonzero(are_crossing(walk.outline.edges, edge[first], edge))
+    # Of those that cross the first edge the first one.
+    crossing = crossing[np.unique(at[crossing], return_index=True)[1]]
+    used = first == np.arange(len(at))
+    used[crossing] = True
+    used &= ~given[at]
+    rank = (first < np.arange(len(at))).astype(np.int64)
     edges[at[used], rank[used]] = edge[used]
     places = on_edges(near, edges, walk.outline.edges, given)
     _require_on(places, *(numbers[~used | np.isinf(places.off[at])] for numbers in (at, edge)))

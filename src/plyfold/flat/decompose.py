@@ -14,7 +14,8 @@ from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import InputError, PrecisionError
 from plyfold.flat.delaunay import delaunay_triangles
 from plyfold.flat.layers import signed_layers
-from plyfold.flat.triangulate import chosen_immersion, settled_by_points
+from plyfold.flat.settle import settled_by_points
+from plyfold.flat.triangulate import chosen_immersion
 from plyfold.graphs import components, spanning_tree
 from plyfold.halfedges import ends_of, glued_pairs
 from plyfold.immersion.immersion import Immersion
@@ -61,9 +62,9 @@ def decompose(
     Returns
     -------
     list of shapely.Polygon, or a pair of such lists
-        Polygons, counter-clockwise, whose corners are points of the outline; those of a disk are simple and have no
-        holes. Together they cover each place as often as the outline winds round it. A curve without overlaps gives one
-        polygon.
+        Polygons, counter-clockwise, whose corners are points of the outline as they were given; those of a disk are
+        simple and have no holes. Together they cover each place as often as the outline winds round it. A curve without
+        overlaps gives one polygon, and one that touches itself some that do not.
 
         If ``signed``, the polygons that count once, and those that count −1 times: they add up to the winding numbers
         of the points as given. They are the layers {w ≥ 1}, {w ≥ 2}, … and {w ≤ −1}, {w ≤ −2}, … without their holes,

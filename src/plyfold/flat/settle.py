@@ -23,13 +23,16 @@ from typing import NamedTuple
 import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
-from plyfold.errors import GeneralPositionError, PlyfoldError
+from plyfold.errors import InputError, PlyfoldError, PrecisionError
+from plyfold.flat.sweep import sweep_triangles
 from plyfold.graphs import components
-from plyfold.halfedges import before, following, twins_of
+from plyfold.halfedges import before, ends_of, following, twins_of
+from plyfold.immersion.immersion import Immersion
+from plyfold.mesh.refine import drawn_outline, given_outline
 from plyfold.outline.curve import Outline
 from plyfold.predicates import Coordinates, as_coordinates, orient, turn
 
-__all__ = ["Settled", "settle", "unsettled"]
+__all__ = ["Settled", "cuts_of", "settle", "settled_by_points", "settled_triangles"]
 
 
 class Settled(NamedTuple):
@@ -71,9 +74,68 @@ class _Surface(NamedTuple):
     touching: set[int]
 
 
-def unsettled(faces: Ints, n: int) -> Settled:
-    """Return triangles on n points of an outline that does not touch itself: they stay as they are."""
+def settled_triangles(immersion: Immersion) -> Settled:
+    """Return triangles of an immersed surface on the points of its outline as given, cut where it touches itself.
+
+    Raises
+    ------
+    InputError
+        If the outline touches itself, and two sides of triangles join the same two cusps.
+
+    Notes
+    -----
+    Signs and places are exact. As :func:`sweep_triangles`; where strands touch also O(n log n), some steps for each
+    triangle without area, and at worst some for each pair of these on a line.
+    """
+    faces, arrangement = sweep_triangles(immersion), immersion.arrangement
+    given = given_outline(arrangement)
+    if np.array_equal(given.points, drawn_outline(arrangement).points):
+        return _as_it_is(faces, len(given))
+    _refuse_double_sides(given, _as_it_is(faces, len(given)))
+    return settle(given, faces)
+
+
+def _as_it_is(faces: Ints, n: int) -> Settled:
+    """Return triangles on n points of an outline that stay as they are."""
     return Settled(faces, np.arange(n), np.zeros(n, dtype=bool), np.empty(0, dtype=np.int64))
+
+
+def settled_by_points(immersion: Immersion) -> Settled:
+    """Return the same; refuse any triangles of which the corners do not tell how they are glued."""
+    settled = settled_triangles(immersion)
+    _refuse_double_sides(given_outline(immersion.arrangement), settled)
+    return settled
+
+
+def cuts_of(immersion: Immersion) -> Floats:
+    """Return the places at which an immersed surface has no width on the points as given, shape (c, 2).
+
+    They are places of points of the outline, in order along it: where two parts of the boundary have come together, in
+    a pinch or along a neck.
+
+    Examples
+    --------
+    >>> from plyfold import find_immersion
+    >>> cuts_of(find_immersion([(0, 0), (1, 1), (2, 0), (2, 2), (1, 1), (0, 2)])).tolist()
+    [[1.0, 1.0]]
+    """
+    return given_outline(immersion.arrangement).points[settled_triangles(immersion).cuts]
+
+
+def _refuse_double_sides(given: Outline, settled: Settled) -> None:
+    """Refuse triangles of which two sides join the same corners.
+
+    They are on the same line then, and leave their ends in the same direction: at both there is a cusp.
+    """
+    if np.count_nonzero(np.concatenate(given.cusps)) > 1:
+        start, end = ends_of(settled.faces)
+        key, times = np.unique(start * len(settled.point) + end, return_counts=True)
+        if len(double := key[times > 1]):
+            raise InputError(
+                "two sides of triangles join the same two cusps",
+                where=given.points[settled.point[list(divmod(int(double[0]), len(settled.point)))]],
+                hint="put a vertex on an edge near one of them",
+            )
 
 
 def settle(given: Outline, faces: Ints) -> Settled:
@@ -88,12 +150,12 @@ def settle(given: Outline, faces: Ints) -> Settled:
 
     Raises
     ------
-    GeneralPositionError
-        If a triangle turned over: then the points were moved too far.
+    PrecisionError
+        If a triangle has turned over: the points were moved by too much.
 
     Notes
     -----
-    Signs and places are exact. O(n log n), and a flip for each pair of flat triangles on a line at worst.
+    Signs and places are exact. O(n log n), and some steps for each pair of flat triangles on a line at worst.
 
     Examples
     --------
@@ -101,17 +163,18 @@ def settle(given: Outline, faces: Ints) -> Settled:
 
     >>> from plyfold.outline.curve import Curve
     >>> bow = Curve([(0, 0), (1, 1), (2, 0), (2, 2), (1, 1), (0, 2)])
-    >>> settle(bow, np.array([(0, 1, 5), (1, 4, 5), (1, 2, 4), (2, 3, 4)]))
+    >>> settle(bow, np.array([(0, 1, 5), (1, 4, 5), (1, 2, 4), (2, 3, 4)])).faces.tolist()
+    [[0, 4, 5], [2, 3, 1]]
     """
     sign = orient(*given.points[faces].swapaxes(0, 1))
     if (sign < 0).any():
-        raise GeneralPositionError(
-            "strands touch, and where they were moved apart a triangle turned over",
+        raise PrecisionError(
+            "touching strands were moved apart by more than there is room for",
             where=given.points[faces[sign < 0][0]],
             hint="move these points by hand",
         )
     if (sign > 0).all():
-        return unsettled(faces, len(given))
+        return _as_it_is(faces, len(given))
     return _numbered(given, _without_flat_triangles(given.points, faces, np.flatnonzero(sign == 0)))
 
 

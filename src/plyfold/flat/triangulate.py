@@ -10,9 +10,7 @@ from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import InputError, NotImmersibleError
 from plyfold.flat.delaunay import delaunay_triangles, flip_edges
-from plyfold.flat.settle import Settled, settle, unsettled
-from plyfold.flat.sweep import sweep_triangles
-from plyfold.halfedges import ends_of
+from plyfold.flat.settle import Settled, settled_by_points, settled_triangles
 from plyfold.immersion.immersion import Immersion, require_immersion
 from plyfold.immersion.solve import find_immersion
 from plyfold.mesh.cells import refuse_max_area
@@ -21,7 +19,7 @@ from plyfold.outline.curve import Outline
 from plyfold.outline.given import OutlineLike, as_outline
 from plyfold.predicates import orient
 
-__all__ = ["chosen_immersion", "cuts_of", "settled_by_points", "triangulate"]
+__all__ = ["chosen_immersion", "triangulate"]
 
 
 @overload
@@ -51,11 +49,16 @@ def triangulate(
     -------
     faces : (n − 2χ, 3) int
         Rows of three points of the outline, by their number in the arrays that were given, one after the other,
-        counter-clockwise (exactly, and strictly); χ is the Euler characteristic, 1 for a disk. Glued along their common
-        sides they are a surface, immersed in the plane, with the outline as its boundary. A curve that runs clockwise
-        keeps its numbers; the triangles are counter-clockwise all the same.
-    points, faces : (m, 2) float and (m' , 3) int
-        With ``refine``; the first n points are the outline's.
+        counter-clockwise (exactly, and strictly, where the points were given); χ is the Euler characteristic, 1 for a
+        disk. Glued along their common sides they are a surface, immersed in the plane, with the outline as its
+        boundary. A curve that runs clockwise keeps its numbers; the triangles are counter-clockwise all the same.
+
+        A surface that touches itself (``immersion.touches``) is cut there, and falls into pieces. Then n counts every
+        corner of every piece, and χ is that of all pieces together. Where a point touches the inside of an edge, it is
+        a corner on both sides.
+    points, faces : (m, 2) float and (m', 3) int
+        With ``refine``. The first points are the outline's; those that touch the inside of an edge where the surface is
+        cut follow, once more for each piece with a corner there, so that pieces have no vertex in common.
 
     Raises
     ------
@@ -67,7 +70,7 @@ def triangulate(
         If ``refine`` is no positive number or makes too many triangles, or the immersion is one of another outline;
         with ``refine``, also if two sides of triangles join the same two cusps.
     GeneralPositionError
-        If strands touch, and a triangle of the separated strands has no area on the points as they were given.
+        If touching strands cannot be moved apart by as little as it takes to see how the surface lies.
 
     Notes
     -----
@@ -80,9 +83,8 @@ def triangulate(
     the points of the outline let them; :func:`~plyfold.map_disk` divides the outline too.
 
     Points that repeat the one before them are left out (see :class:`~plyfold.Curve`): they do not count, and no face
-    has them. If vertices had to be moved into general position, the triangles are those of the moved curve. They are
-    returned if they are triangles of the points as given, too; given an arrangement, they are always those of
-    ``arrangement.curve``, the moved points.
+    has them. Where strands touch, the triangles are those of strands that are infinitely little apart, without the ones
+    that have no area.
 
     References
     ----------
@@ -99,6 +101,13 @@ def triangulate(
     >>> points, faces = triangulate([(0, 0), (6, 0), (0, 6)], refine=4.0)
     >>> len(points) > 3
     True
+
+    Two triangles that meet in a point, and two that a neck joins, where the outline runs there and back:
+
+    >>> triangulate([(0, 0), (1, 1), (2, 0), (2, 2), (1, 1), (0, 2)]).tolist()
+    [[0, 4, 5], [1, 2, 3]]
+    >>> triangulate([(0, 0), (1, 1), (2, 1), (3, 0), (3, 2), (2, 1), (1, 1), (0, 2)]).tolist()
+    [[0, 6, 7], [2, 3, 4]]
     """
     chosen = chosen_immersion(curve, immersion)
     if refine is not None:
@@ -127,28 +136,23 @@ def _same(drawn: Arrangement, other: Arrangement) -> bool:
     """Tell whether two arrangements are of the same points."""
     if drawn.outline is None or other.outline is None:
         return drawn is other
-    return drawn.reversed == other.reversed and _alike(drawn.outline, other.outline, other.outline.points)
+    return drawn.reversed == other.reversed and _alike(drawn.outline, other.outline, np.arange(len(other.outline)))
 
 
-def _draws(drawn: Arrangement, given: Outline) -> bool:
-    """Tell whether an arrangement is that of the given outline, but for points moved into general position."""
-    if drawn.outline is None:
+def _draws(drawn: Arrangement, outline: Outline) -> bool:
+    """Tell whether an arrangement is that of an outline."""
+    if drawn.outline is None or len(drawn.outline) != len(outline):
         return False
-    used = drawn.outline.reversed() if drawn.reversed else drawn.outline
-    moved = {repair.where for repair in drawn.outline.repairs}
-    where = [(x, y) in moved for x, y in given.points.tolist()] if moved else np.zeros(len(given), dtype=bool)
-    expected = (
-        np.where(np.array(where)[:, None], used.points, given.points) if len(used) == len(given) else given.points
-    )
-    return _alike(used, given, expected)
+    number = _input_order(drawn)
+    return _alike(given_outline(drawn), outline, number)
 
 
-def _alike(used: Outline, given: Outline, points: Floats) -> bool:
-    """Tell whether an outline has given points, and the loops and cusps of another one."""
+def _alike(used: Outline, outline: Outline, number: Ints) -> bool:
+    """Tell whether an outline has the loops and cusps of another one, where its points have some numbers."""
     return (
-        np.array_equal(used.points, points)
-        and np.array_equal(used.first_point, given.first_point)
-        and np.array_equal(np.concatenate(used.cusps), np.concatenate(given.cusps))
+        np.array_equal(used.first_point, outline.first_point)
+        and np.array_equal(used.points, outline.points[number])
+        and np.array_equal(np.concatenate(used.cusps), np.concatenate(outline.cusps)[number])
     )
 
 
@@ -181,51 +185,6 @@ def _points_of_corners(given: Outline, settled: Settled, input_order: Ints) -> t
     inside = settled.inside
     number = np.where(inside, len(given) - 1 + np.cumsum(inside), input_order[settled.point])
     return np.concatenate([points, given.points[settled.point[inside]]]), number
-
-
-def settled_triangles(immersion: Immersion) -> Settled:
-    """Return triangles of an immersed surface on the points as given, cut where it touches itself."""
-    faces, given = sweep_triangles(immersion), given_outline(immersion.arrangement)
-    if given is immersion.arrangement.outline:
-        return unsettled(faces, len(given))
-    _refuse_double_sides(immersion, faces)
-    return settle(given, faces)
-
-
-def settled_by_points(immersion: Immersion) -> Settled:
-    """Return the same; refuse triangles of which the corners do not tell the gluing."""
-    settled = settled_triangles(immersion)
-    _refuse_double_sides(immersion, settled.faces)
-    return settled
-
-
-def cuts_of(immersion: Immersion) -> Floats:
-    """Return where an immersed surface has no width on the points as given, shape (c, 2): in order along the outline.
-
-    Examples
-    --------
-    >>> from plyfold import find_immersion
-    >>> cuts_of(find_immersion([(0, 0), (1, 1), (2, 0), (2, 2), (1, 1), (0, 2)])).tolist()
-    [[1.0, 1.0]]
-    """
-    return given_outline(immersion.arrangement).points[settled_triangles(immersion).cuts]
-
-
-def _refuse_double_sides(immersion: Immersion, faces: Ints) -> None:
-    """Refuse triangles of which two sides join the same points.
-
-    They are on the same line then, and leave their ends in the same direction: at both there is a cusp.
-    """
-    outline = drawn_outline(immersion.arrangement)
-    if np.count_nonzero(np.concatenate(outline.cusps)) > 1:
-        start, end = ends_of(faces)
-        key, times = np.unique(start * len(outline) + end, return_counts=True)
-        if len(double := key[times > 1]):
-            raise InputError(
-                "two sides of triangles join the same two cusps",
-                where=outline.points[list(divmod(int(double[0]), len(outline)))],
-                hint="put a vertex on an edge near one of them",
-            )
 
 
 def _split_large(points: Floats, faces: Ints, max_area: float) -> tuple[Floats, Ints]:
