@@ -15,6 +15,8 @@ import pytest
 import plyfold as pf
 from plyfold.certify import check_limit, check_pieces
 from plyfold.errors import CurveError
+from plyfold.mesh.cells import triangulate_cells
+from plyfold.mesh.sheets import glue_copies
 from reference.contacts import (
     Answer,
     answer,
@@ -72,13 +74,19 @@ def judge_move(polygon: Points, count: int) -> None:
 
 
 def certified(outline: pf.Outline) -> bool:
-    """Whether an outline bounds anything; if it does, the certificate must be right."""
+    """Whether an outline bounds anything; if it does, the certificates must be right."""
     drawn = pf.arrange(outline)
-    if not pf.find_immersion(drawn):
+    immersion = pf.find_immersion(drawn)
+    if not immersion:
         return False
     loops, cusps = list(drawn.given.loops), list(drawn.given.cusps)
     check_limit(loops, list(drawn.outline.loops), pf.triangulate(drawn.outline), cusps)
     check_pieces(loops, outline.points, pf.triangulate(outline), cusps)
+    mesh = triangulate_cells(drawn)
+    if mesh.strips:
+        sheets = glue_copies(immersion, mesh)
+        edge = np.searchsorted(mesh.strips.strands.first, mesh.chain_border[sheets.boundary_piece], side="right") - 1
+        check_pieces(loops, mesh.points[sheets.planar_vertex], sheets.faces, cusps, sheets.boundary, edge)
     return True
 
 
