@@ -104,6 +104,15 @@ def test_cusps():
     assert {(0, 0), (0, 1)} <= set(found)
 
 
+def test_a_zigzag_is_a_cusp_only_where_it_is_marked():
+    """Both of its tips turn right; unmarked they are spikes, and the limaçon turns twice."""
+    limacon = [(2, 0), (0, 2), (-2, 0), (0, -2), (2, 0.5), (0, 1), (-1, 0), (0, -1)]
+    zigzag = [*limacon[:6], (-0.75, 0.25), (-0.25, 0.75), *limacon[6:]]
+    assert pf.count_immersions(zigzag) == 0
+    for tip in (6, 7):
+        assert pf.bounds_disk(pf.Curve(zigzag, cusps={tip: 1}))
+
+
 @settings(max_examples=60, deadline=None)
 @given(touching_outlines())
 def test_any_outline(outline):
