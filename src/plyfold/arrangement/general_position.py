@@ -13,8 +13,16 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from plyfold.arrangement.crossings import Contacts, Visits
-from plyfold.arrangement.infinitesimal import begin_to_move, order_along_edges, signed_crossings, signed_pairs
+from plyfold.arrangement.infinitesimal import (
+    Motion,
+    begin_to_move,
+    order_along_edges,
+    same_outside,
+    signed_crossings,
+    signed_pairs,
+)
 from plyfold.arrangement.meetings import Polyline, as_polyline, meetings, visits_along
+from plyfold.arrangement.nesting import nest, same_nest
 from plyfold.arrangement.noding import node_outline
 from plyfold.arrangement.outward import are_moved, outward_vectors, winds_backward
 from plyfold.arrangement.spikes import without_spikes
@@ -235,11 +243,21 @@ def _shown(touching: _Touching, points: Floats) -> GeneralPosition | Ints:
         return np.unique(undecided)
     visits = visits_along(polyline, found)
     in_order, together = order_along_edges(motion, visits)
-    if len(together) or len(visits.triple) or not in_order.all():
+    right = in_order.all() and len(visits.triple) == 0
+    if len(together) or not (right and _lie_alike(motion, polyline, visits)):
         return np.unique(together)
     repairs = *given.repairs, *_moves(given.points, points)
     outline = outline_of_points(points, given.loop_of_point, np.concatenate(given.cusps), given.rows, repairs)
     return GeneralPosition(outline, given, np.arange(len(given)), polyline, visits, False)
+
+
+def _lie_alike(motion: Motion, polyline: Polyline, visits: Visits) -> bool:
+    """Tell whether moved loops show their outside where it is, and lie in each other, as when they begin to move."""
+    if not polyline.is_jump.any():
+        return same_outside(motion, polyline.points)
+    number = polyline.vertex - polyline.loop
+    begun = replace(polyline, points=motion.points[number])
+    return same_nest(nest(polyline, visits), nest(begun, visits, exact=motion.moved[number]))
 
 
 def _steps(points: Floats) -> list[float]:

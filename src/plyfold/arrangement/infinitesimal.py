@@ -10,18 +10,14 @@ a bound on the rounding, is asked so.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
 from plyfold.arrangement.crossings import Contacts, Visits
-from plyfold.arrays import Bools, Floats, Ints, Signs
+from plyfold.arrays import Bools, Floats, Ints, Signs, Wholes
 from plyfold.predicates import orient, parameter_along_edge, whole_numbers
 
-__all__ = ["Motion", "begin_to_move", "order_along_edges", "signed_crossings", "signed_pairs"]
-
-Wholes: TypeAlias = npt.NDArray[np.object_]
+__all__ = ["Motion", "begin_to_move", "order_along_edges", "same_outside", "signed_crossings", "signed_pairs"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,6 +123,20 @@ def order_along_edges(motion: Motion, visits: Visits) -> tuple[Bools, Ints]:
     order = _order(motion, triples)
     in_order[unsure] = order < 0
     return in_order, triples[order == 0]
+
+
+def same_outside(motion: Motion, points: Floats) -> bool:
+    """Tell whether a loop has its leftmost vertex, and turns there, as it does when its points have begun to move.
+
+    That says on which side of it the outside is, given its crossings.
+    """
+    lowest = np.flatnonzero(motion.points[:, 0] == motion.points[:, 0].min()).tolist()
+    corner = min(lowest, key=lambda point: motion.moved[point].tolist())
+    before = int(np.flatnonzero(motion.next_point == corner)[0])
+    around = np.array([before, corner, motion.next_point[corner]])
+    a, b, c = motion.moved[around]
+    turn = _signs(_cross(b - a, c - b))
+    return corner == int(np.lexsort(points.T[::-1])[0]) and bool(turn == orient(*points[around]))
 
 
 def _order(motion: Motion, triples: Ints) -> Signs:
