@@ -116,7 +116,7 @@ class Surface:
         freeze(self)
 
     def __repr__(self) -> str:
-        triangles, sheets = counted(len(self.faces), "triangle"), counted(self.layering.immersion.n_sheets, "sheet")
+        triangles, sheets = counted(len(self.faces), "triangle"), counted(self.n_sheets, "sheet")
         return f"<Surface: {triangles} in {sheets}>"
 
     @property
@@ -129,6 +129,11 @@ class Surface:
     def outline(self) -> Outline:
         """The outline of the surface, with all its loops and cusps, on the points as they were given."""
         return given_outline(self.layering.immersion.arrangement)
+
+    @property
+    def n_sheets(self) -> int:
+        """Number of sheets that triangles are in: all of the immersion, but over cells between points that touch."""
+        return len(np.unique(self.sheet))
 
     @property
     def n_layers(self) -> int:
