@@ -6,7 +6,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
-from nightly.contacts import certified, judge_as_placed
+from nightly.contacts import certified, judge_as_placed, without_touches
 from plyfold.errors import CurveError
 from reference.contacts import (
     answer,
@@ -61,13 +61,23 @@ def judge(outline):
     """The answers about an outline without spikes at cusps; return the numbers of surfaces."""
     counts = reference_counts(outline)
     if counts is not None:
-        assert (bool(pf.count_immersions(outline)), pf.count_immersions(outline)) == (counts[1] > 0, counts[1])
+        drawn = pf.arrange(outline)
+        assert (without_touches(drawn), pf.count_immersions(drawn)) == counts
         certified(outline)
     return counts
 
 
 @pytest.mark.parametrize("name", KNOWN)
-def test_all_positions_of_the_page_from_every_start(name):
+def test_all_positions_of_the_page_from_some_starts(name):
+    expected = answer(KNOWN[name])
+    for number, placed in enumerate(positions(KNOWN[name])):
+        for changed in list(starts(placed))[number % 4 :: 4]:
+            judge_as_placed(changed, expected)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", KNOWN)
+def test_every_start_in_every_position(name):
     expected = answer(KNOWN[name])
     for placed in positions(KNOWN[name]):
         for changed in starts(placed):
@@ -75,7 +85,7 @@ def test_all_positions_of_the_page_from_every_start(name):
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_random_polygons_from_every_start(seed):
+def test_random_polygons_from_many_starts(seed):
     polygon = random_touching(np.random.default_rng(seed), most=7)
     expected = answer(polygon)
     for number, placed in enumerate(positions(polygon)):
@@ -91,13 +101,13 @@ def test_scales_and_places(scale, shift):
 
 
 def test_several_loops():
-    found = [judge(pf.Outline(random_touching_loops(np.random.default_rng(seed)))) for seed in range(25)]
+    found = [judge(pf.Outline(random_touching_loops(np.random.default_rng(seed)))) for seed in range(18)]
     assert {(0, 0), (0, 1), (1, 1)} <= set(found)
 
 
 def test_cusps():
     found = []
-    for seed in range(40):
+    for seed in range(30):
         polygon, cusps = random_touching_with_cusps(np.random.default_rng(seed), 1)
         if contacts([exact(polygon)]):
             found.append(judge(pf.Outline([polygon], [cusps])))
@@ -113,14 +123,14 @@ def test_a_zigzag_is_a_cusp_only_where_it_is_marked():
         assert pf.bounds_disk(pf.Curve(zigzag, cusps={tip: 1}))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(touching_outlines())
 def test_any_outline(outline):
     assume(any(without_spikes(exact(loop)) for loop in outline.loops))
     judge(outline)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(touching_outlines(), st.data())
 def test_any_outline_with_a_cusp(outline, data):
     assume(all(without_spikes(exact(loop)) == exact(loop) for loop in outline.loops))
