@@ -18,7 +18,6 @@ from plyfold.mesh.refine import drawn_outline, given_outline
 from plyfold.outline.curve import Outline
 from plyfold.outline.given import OutlineLike, as_outline
 from plyfold.predicates import orient
-from plyfold.ragged import count_each
 
 __all__ = ["chosen_immersion", "triangulate"]
 
@@ -159,12 +158,8 @@ def _alike(used: Outline, outline: Outline, number: Ints) -> bool:
 
 def _input_order(drawn: Arrangement) -> Ints:
     """Return the number that each point of the arrangement's outline has in the input."""
-    outline = drawn_outline(drawn)
-    length = np.diff(outline.first_point)
-    place = count_each(length)
-    return np.repeat(outline.first_point[:-1], length) + (
-        -place % np.repeat(length, length) if drawn.reversed else place
-    )
+    drawn_outline(drawn)
+    return drawn.numbers
 
 
 def _refined(immersion: Immersion, max_area: float) -> tuple[Floats, Ints]:
