@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any, Literal, cast
@@ -11,7 +11,7 @@ from typing import Any, Literal, cast
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.general_position import in_general_position
+from plyfold.arrangement.general_position import GeneralPosition, in_general_position
 from plyfold.arrangement.leftmost import leftmost_crossing
 from plyfold.arrangement.maps import (
     CellWalk,
@@ -37,7 +37,7 @@ from plyfold.arrays import Bools, Floats, Ints, freeze
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GaussCodeError, InputError, PlyfoldError
 from plyfold.graphs import components
-from plyfold.outline.curve import Curve, Outline
+from plyfold.outline.curve import Curve, Outline, backward_numbers
 from plyfold.outline.given import Coded, CurveLike, OutlineLike, are_several, as_outline
 
 __all__ = ["Arrangement", "CurveLike", "arrange", "require_one_loop", "watched_arrangement"]
@@ -85,7 +85,10 @@ class Arrangement:
     outline : Outline
         The loops as used, oriented and in general position; None if only the code is known.
     given : Outline
-        The same loops, with the points that were moved where they were given; None if only the code is known.
+        The same points in the same order where they were given; None if only the code is known.
+    numbers : (points,) int
+        The number that each point of them has in the outline that came in: another one if the outline was turned round,
+        or if spikes were taken out.
     crossings : (k, 2) float
         Positions, rounded to double precision; (0, 2) if only the code is known.
     visit_edge : (visits,) int
@@ -125,6 +128,7 @@ class Arrangement:
     bridges: Ints = field(default_factory=lambda: np.empty((0, 2), dtype=np.int64))
     outline: Outline | None = None
     given: Outline | None = None
+    numbers: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     crossings: Floats = field(default_factory=lambda: np.empty((0, 2)))
     visit_edge: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     marks: Floats = field(default_factory=lambda: np.empty((0, 2)))
@@ -536,11 +540,7 @@ def watched_arrangement(curve: OutlineLike, general_position: Literal["perturb",
         return Arrangement.from_gauss(given.partner, given.ccw, given.outer)
     if are_several(curve) and len(several := cast("Sequence[CurveLike]", curve)) == 1:
         return watched_arrangement(several[0], general_position, watch)
-    outline = as_outline(curve)
-    if isinstance(outline, Curve):
-        return _of_curve(outline, general_position, watch)
-    arranged = _of_loops(outline, False, watch)
-    return arranged if arranged.winding.max() > 0 else _of_loops(outline.reversed(), True, watch)
+    return _arranged(in_general_position(as_outline(curve), general_position, watch), watch)
 
 
 def require_one_loop(arranged: Arrangement, what: str = "this") -> None:
@@ -552,27 +552,39 @@ def require_one_loop(arranged: Arrangement, what: str = "this") -> None:
         )
 
 
-def _of_curve(curve: Curve, general_position: Literal["perturb", "raise"], watch: Watch) -> Arrangement:
-    separated, visits = in_general_position(curve, general_position, watch)
+def _arranged(placed: GeneralPosition, watch: Watch) -> Arrangement:
+    if placed.outline.n_loops == 1:
+        return _of_curve(placed, watch)
+    arranged = _of_loops(placed, watch)
+    if placed.turned_round is not None or arranged.winding.max() > 0:
+        return arranged
+    backward = in_general_position(placed.outline.reversed(), "raise", watch)
+    numbers = placed.numbers[backward_numbers(placed.outline.first_point)]
+    return _of_loops(replace(backward, numbers=numbers, turned_round=True), watch)
+
+
+def _of_curve(placed: GeneralPosition, watch: Watch) -> Arrangement:
     watch.step()
+    outline, given, numbers, visits = placed.outline, placed.given, placed.numbers, placed.visits
     edge, point = visits.edge, visits.point
-    used, turning, turned_round = oriented(visits.partner, visits.ccw, outer_dart(separated.points, edge))
+    outer, is_directed = outer_dart(outline.points, edge), placed.turned_round is not None
+    used, turning, turned_round = oriented(visits.partner, visits.ccw, outer, is_directed)
     if turned_round:
-        separated, edge, point = separated.reversed(), len(separated) - 1 - edge[::-1], point[::-1]
+        outline = given = outline.reversed()
+        numbers = numbers[backward_numbers(outline.first_point)]
+        edge, point = len(outline) - 1 - edge[::-1], point[::-1]
     drawn = used._replace(code=used.code._replace(edge=edge))
-    marks = cusps_of_outline(separated, edge)
     crossings = point[np.arange(len(point)) < used.code.partner]
-    settled = {"exact_signs": visits.exact_signs, "reversed": turned_round}
-    marked = with_marks(drawn, marks)
-    given = curve.reversed() if turned_round else curve
-    drawing = {"given": given, "crossings": crossings}
-    return Arrangement._of_map(marked, walked_round(marked), (turning,), separated, **drawing, **settled)
+    marked = with_marks(drawn, cusps_of_outline(outline, edge))
+    settled = {"exact_signs": visits.exact_signs, "reversed": turned_round or bool(placed.turned_round)}
+    drawing = {"given": given, "numbers": numbers, "crossings": crossings}
+    return Arrangement._of_map(marked, walked_round(marked), (turning,), outline, **drawing, **settled)
 
 
-def _of_loops(outline: Outline, turned_round: bool, watch: Watch) -> Arrangement:
+def _of_loops(placed: GeneralPosition, watch: Watch) -> Arrangement:
     """Return the arrangement of several loops as they are directed."""
-    found = nest(outline.loops, watch)
-    visits = found.visits
+    outline, visits = placed.outline, placed.visits
+    found = nest(placed.polyline, visits, watch)
     left = windings_of_loops(visits.partner, visits.ccw, found.first_visit, found.outside, found.bridges)
     none = np.zeros(len(visits.partner), dtype=np.int64)
     code = Code(visits.partner, visits.ccw, found.first_visit, left, visits.edge, none)
@@ -584,6 +596,7 @@ def _of_loops(outline: Outline, turned_round: bool, watch: Watch) -> Arrangement
     drawn = with_marks(plain, cusps_of_outline(outline, visits.edge), feet, is_left)
     crossings = visits.point[np.arange(len(visits.point)) < visits.partner]
     turning = polygon_turning_numbers(outline.points, outline.first_point)
-    settled = {"exact_signs": visits.exact_signs, "reversed": turned_round}
+    settled = {"exact_signs": visits.exact_signs, "reversed": bool(placed.turned_round)}
     walk = walked if drawn is plain else walked_round(drawn)
-    return Arrangement._of_map(drawn, walk, turning, outline, given=outline, crossings=crossings, **settled)
+    drawing = {"given": placed.given, "numbers": placed.numbers, "crossings": crossings}
+    return Arrangement._of_map(drawn, walk, turning, outline, **drawing, **settled)

@@ -1,4 +1,4 @@
-"""Several closed curves in one plane: their visits to all crossings, and in which cell of the others each group lies.
+"""Several closed curves in one plane: in which cell of the others each group of them lies that hangs together.
 
 Loops that cross hang together in groups. Within a group everything is as for one curve. A group lies in one cell of the
 others; exact point location says in which: from its leftmost vertex straight to the left.
@@ -6,7 +6,6 @@ others; exact point location says in which: from its leftmost vertex straight to
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -14,32 +13,29 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement.crossings import Visits, edge_ends, find_contacts, order_visits
-from plyfold.arrangement.general_position import touching_places
+from plyfold.arrangement.crossings import Visits, edge_ends
 from plyfold.arrangement.marks import Mark
-from plyfold.arrays import Bools, Floats, Ints
+from plyfold.arrangement.meetings import Polyline
+from plyfold.arrays import Bools, Floats, Ints, Wholes
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.errors import GeneralPositionError
 from plyfold.graphs import components
-from plyfold.predicates import cross_sign, exact_parameter
+from plyfold.predicates import Place, exact_cross, orient
 from plyfold.ragged import starts_of
 
 if TYPE_CHECKING:
     from shapely import STRtree
 
-__all__ = ["Nest", "nest"]
+__all__ = ["Nest", "nest", "same_nest"]
 
 _EDGES_IN_BOX = 8
 
 
 @dataclass(frozen=True, eq=False)
 class Nest:
-    """Where several loops meet, and how those lie to each other that do not.
+    """How several loops lie to each other that do not meet.
 
     Parameters
     ----------
-    visits : Visits
-        Along one loop after the other; edges are counted over all loops.
     first_visit : (loops + 1,) int
         The number of each loop's first visit, and last the number of visits.
     outside : (o,) int
@@ -52,33 +48,39 @@ class Nest:
         Where each bridge starts and ends.
     """
 
-    visits: Visits
     first_visit: Ints
     outside: Ints
     bridges: Ints
     feet: list[tuple[Mark, Mark]]
 
 
-def nest(loops: Sequence[Floats], watch: Watch = UNWATCHED) -> Nest:
-    """Find the crossings of several closed polylines with themselves and each other, and which lies inside which.
+def nest(polyline: Polyline, visits: Visits, watch: Watch = UNWATCHED, exact: Wholes | None = None) -> Nest:
+    """Find which of several closed polylines in general position lies inside which, given their visits.
+
+    Parameters
+    ----------
+    polyline : Polyline
+    visits : Visits
+    watch : Watch, optional
+    exact : (n, 2) object, optional
+        Places of its points in whole numbers of some unit, to which ``polyline.points`` are near: nearer than doubles
+        could tell. By default, those are exact.
 
     Raises
     ------
-    GeneralPositionError
-        If a vertex lies on another edge or three edges meet in a point. Nothing is moved.
     TimeLimitError
         If the time is over.
 
     Notes
     -----
-    As for one curve, plus O(n) for each group.
+    O(n) for each group.
     """
-    polyline = _one_after_the_other(loops)
-    visits = _visits(polyline, watch)
-    first_visit = np.searchsorted(polyline.loop[visits.edge], np.arange(len(loops) + 1))
-    loop = polyline.loop[visits.edge]
-    group = components(len(loops), loop, loop[visits.partner])
-    plan = _Plan(polyline, visits, first_visit, group[polyline.loop])
+    start = np.flatnonzero(~polyline.is_jump)
+    visits = replace(visits, edge=start[visits.edge])
+    loop, n_loops = polyline.loop[visits.edge], int(polyline.loop[-1]) + 1
+    first_visit = np.searchsorted(loop, np.arange(n_loops + 1))
+    group = components(n_loops, loop, loop[visits.partner])
+    plan = _Plan(polyline, visits, first_visit, group[polyline.loop], exact)
     outside, bridges, feet = [], [], []
     for number, corner in enumerate(_corners(plan)):
         watch.step()
@@ -87,10 +89,9 @@ def nest(loops: Sequence[Floats], watch: Watch = UNWATCHED) -> Nest:
             outside.append(dart)
         else:
             foot = _foot_on_edge(plan, beyond, corner, number)
-            bridges.append((dart, 2 * plan.border(beyond, foot.at) + _is_upward(polyline, beyond)))
+            bridges.append((dart, 2 * plan.border(beyond, foot.at) + _is_upward(plan, beyond)))
             feet.append((_foot_at_vertex(plan, corner), foot))
     return Nest(
-        visits=replace(visits, edge=visits.edge - loop),
         first_visit=first_visit,
         outside=np.array(outside),
         bridges=np.array(bridges, dtype=np.int64).reshape(-1, 2),
@@ -98,65 +99,13 @@ def nest(loops: Sequence[Floats], watch: Watch = UNWATCHED) -> Nest:
     )
 
 
-# ---- one polyline --------------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, eq=False)
-class _Polyline:
-    """All loops as one polyline: each ends with a copy of its first point, and a *jump* leads from there to the next.
-
-    Parameters
-    ----------
-    points : (n, 2) float
-    loop : (n,) int
-        The loop of each point and of the edge that starts there.
-    vertex : (n,) int
-        The first point of the loop for the copies of it, and each other point itself.
-    is_jump : (n,) bool
-        True where the edge that starts at a point is a jump.
-    """
-
-    points: Floats
-    loop: Ints
-    vertex: Ints
-    is_jump: Bools
-
-
-def _one_after_the_other(loops: Sequence[Floats]) -> _Polyline:
-    lengths = np.array([len(points) + 1 for points in loops])
-    last = np.cumsum(lengths) - 1
-    vertex = np.arange(int(lengths.sum()))
-    vertex[last] -= lengths - 1
-    return _Polyline(
-        points=np.concatenate([part for points in loops for part in (points, points[:1])]),
-        loop=np.repeat(np.arange(len(loops)), lengths),
-        vertex=vertex,
-        is_jump=np.isin(np.arange(len(vertex)), last),
-    )
-
-
-def _visits(polyline: _Polyline, watch: Watch) -> Visits:
-    """Return the visits to all crossings along one loop after the other; refuse loops that touch."""
-    found = find_contacts(polyline.points, watch, np.flatnonzero(polyline.is_jump))
-    touches = _own_touches_left_out(polyline, found.touches)
-    contacts = replace(found, touches=touches)
-    visits = order_visits(polyline.points, contacts)
-    if len(touches) or len(visits.triple):
-        raise GeneralPositionError(
-            f"the curves are not in general position (vertices on other edges: {len(np.unique(touches[:, 0]))}, "
-            f"meetings of three edges: {len(visits.triple)})",
-            where=touching_places(polyline.points, contacts, visits),
-            hint="move these vertices: several loops are not moved apart, as one is",
-        )
-    return visits
-
-
-def _own_touches_left_out(polyline: _Polyline, touches: Ints) -> Ints:
-    """Leave out the touches of jumps, and those of edges that share the point with which a loop begins and ends."""
-    vertex, edge = polyline.vertex[touches[:, 0]], touches[:, 1]
-    following = polyline.vertex[(edge + 1) % len(polyline.vertex)]
-    kept = ~polyline.is_jump[edge] & (vertex != edge) & (vertex != following)
-    return np.stack([vertex[kept], edge[kept]], axis=1)
+def same_nest(one: Nest, other: Nest) -> bool:
+    """Tell whether loops lie to each other in the same way, as far as bridges from the same vertices tell."""
+    marks = [[mark for feet in nest.feet for mark in feet] for nest in (one, other)]
+    orders = [sorted(range(len(found)), key=lambda at: found[at][:3]) for found in marks]
+    places = [[(mark.edge, mark.tie, mark.at) for mark in found] for found in marks]
+    same_darts = np.array_equal(one.outside, other.outside) and np.array_equal(one.bridges, other.bridges)
+    return same_darts and places[0] == places[1] and orders[0] == orders[1]
 
 
 # ---- point location ------------------------------------------------------------------------------------------------
@@ -166,13 +115,25 @@ def _own_touches_left_out(polyline: _Polyline, touches: Ints) -> Ints:
 class _Plan:
     """The polyline with its visits, to find the border at a place.
 
-    Loops that hang together by crossings are a group; ``group`` has that of each edge.
+    Loops that hang together by crossings are a group; ``group`` has that of each edge. ``exact`` are places to which
+    the points are near, see :func:`nest`.
     """
 
-    polyline: _Polyline
+    polyline: Polyline
     visits: Visits
     first_visit: Ints
     group: Ints
+    exact: Wholes | None
+
+    def place(self, point: int) -> Place:
+        """Return where a point is."""
+        x, y = (self.polyline.points if self.exact is None else self.exact)[point].tolist()
+        return Fraction(x), Fraction(y)
+
+    def is_above(self, points: Ints, other: int) -> Bools:
+        """Tell which points lie higher than another one."""
+        y = (self.polyline.points if self.exact is None else self.exact)[:, 1]
+        return np.asarray(y[points] > y[other], dtype=bool)
 
     @cached_property
     def ends(self) -> Floats:
@@ -215,22 +176,32 @@ class _Plan:
 
 def _corners(plan: _Plan) -> list[int]:
     """Return the leftmost vertex of each group, the lowest of several, from left to right."""
-    x, y = plan.polyline.points.T
+    x, y = plan.polyline.points.T if plan.exact is None else map(_ranks, plan.exact.T)
     order = np.lexsort([y, x])
     order = order[~plan.polyline.is_jump[order]]
     corners: list[int] = order[np.sort(np.unique(plan.group[order], return_index=True)[1])].tolist()
     return corners
 
 
+def _ranks(numbers: Wholes) -> Ints:
+    return np.unique(numbers, return_inverse=True)[1].ravel()
+
+
 def _outer_dart(plan: _Plan, corner: int) -> int:
     """Return the dart that has the outside of its group on its left at a leftmost vertex."""
-    points = plan.polyline.points
     is_first = corner == 0 or plan.polyline.is_jump[corner - 1]
     # The first vertex of a loop comes again at its end.
     last = int(np.searchsorted(plan.polyline.loop, plan.polyline.loop[corner], side="right")) - 1
-    before, here, after = points[[(last if is_first else corner) - 1, corner, corner + 1]]
+    before = (last if is_first else corner) - 1
     border = plan.border(corner, int(np.searchsorted(plan.visits.edge, corner)))
-    return 2 * border + int(cross_sign(before, here, here, after) > 0)
+    return 2 * border + _turns_left(plan, before, corner, corner + 1)
+
+
+def _turns_left(plan: _Plan, before: int, here: int, after: int) -> bool:
+    if plan.exact is None:
+        return bool(orient(*plan.polyline.points[[before, here, after]]) > 0)
+    p, q, r = (plan.place(point) for point in (before, here, after))
+    return exact_cross(p, q, q, r) > 0
 
 
 def _foot_at_vertex(plan: _Plan, corner: int) -> Mark:
@@ -245,16 +216,17 @@ def _foot_on_edge(plan: _Plan, edge: int, corner: int, number: int) -> Mark:
 
     Later ones, which come from further right, are higher if the vertices have one height: they pass above.
     """
-    height, loop = float(plan.polyline.points[corner, 1]), int(plan.polyline.loop[edge])
-    (start_x, start_y), (end_x, end_y) = plan.ends[edge].tolist()
-    share, upward = (Fraction(height) - Fraction(start_y)) / (Fraction(end_y) - Fraction(start_y)), start_y < end_y
+    loop, upward = int(plan.polyline.loop[edge]), _is_upward(plan, edge)
+    (_, height), (_, start), (_, end) = (plan.place(point) for point in (corner, edge, edge + 1))
+    share = (height - start) / (end - start)
     tie = 2 + number if upward else -2 - number
-    point = (start_x + float(share) * (end_x - start_x), height)
+    (start_x, _), (end_x, _) = plan.ends[edge].tolist()
+    point = (start_x + float(share) * (end_x - start_x), float(plan.polyline.points[corner, 1]))
     return Mark(edge - loop, share, tie, _visits_passed(plan, edge, share, upward), loop, point)
 
 
-def _is_upward(polyline: _Polyline, edge: int) -> bool:
-    return bool(polyline.points[edge, 1] < polyline.points[edge + 1, 1])
+def _is_upward(plan: _Plan, edge: int) -> bool:
+    return bool(plan.is_above(np.array([edge + 1]), edge)[0])
 
 
 def _met_on_the_left(plan: _Plan, corner: int) -> int | None:
@@ -265,13 +237,17 @@ def _met_on_the_left(plan: _Plan, corner: int) -> int | None:
     """
     x, height = plan.polyline.points[corner].tolist()
     near = plan.near(np.array([(plan.leftmost, height), (x, height)]))
-    low = plan.ends[near, :, 1] <= height
-    met = near[(plan.group[near] != plan.group[corner]) & ~plan.polyline.is_jump[near] & (low[:, 0] != low[:, 1])]
-    nearest, is_sure = _nearest(plan.ends[met], x, height, met)
-    if is_sure:
-        return nearest[0]
-    places = {edge: _place_and_slope(plan.ends[edge], height) for edge in nearest}
-    passed = [edge for edge, (place, _) in places.items() if place < x]
+    near = near[(plan.group[near] != plan.group[corner]) & ~plan.polyline.is_jump[near]]
+    met = near[plan.is_above(near, corner) != plan.is_above(near + 1, corner)]
+    if plan.exact is None:
+        nearest, is_sure = _nearest(plan.ends[met], x, height, met)
+        if is_sure:
+            return nearest[0]
+    else:
+        nearest = met.tolist()
+    here, level = plan.place(corner)
+    places = {edge: _place_and_slope(plan.place(edge), plan.place(edge + 1), level) for edge in nearest}
+    passed = [edge for edge, (place, _) in places.items() if place < here]
     return max(passed, key=places.__getitem__, default=None)
 
 
@@ -285,17 +261,18 @@ def _nearest(ends: Floats, x: float, height: float, edges: Ints) -> tuple[list[i
     return edges[nearest].tolist(), np.count_nonzero(nearest) == 1 and bool(left[nearest].all())
 
 
-def _place_and_slope(edge: Floats, height: float) -> tuple[Fraction, Fraction]:
+def _place_and_slope(start: Place, end: Place, height: Fraction) -> tuple[Fraction, Fraction]:
     """Return the x at which an edge passes a height, and the growth of x with the height."""
-    (x, y), (end_x, end_y) = [[Fraction(value) for value in point] for point in edge.tolist()]
+    (x, y), (end_x, end_y) = start, end
     slope = (end_x - x) / (end_y - y)
-    return x + (Fraction(height) - y) * slope, slope
+    return x + (height - y) * slope, slope
 
 
 def _visits_passed(plan: _Plan, edge: int, share: Fraction, upward: bool) -> int:
     """Return how many visits come before the place on an edge a little above a share of it."""
-    ends, visits = plan.ends, plan.visits
+    visits, (start, end) = plan.visits, (plan.place(edge), plan.place(edge + 1))
     first, last = np.searchsorted(visits.edge, [edge, edge + 1]).tolist()
-    other = visits.edge[visits.partner[first:last]].tolist()
-    places = [exact_parameter(*ends[edge], *ends[crossing]) for crossing in other]
+    others = visits.edge[visits.partner[first:last]].tolist()
+    crossed = [(plan.place(other), plan.place(other + 1)) for other in others]
+    places = [exact_cross(start, p, p, q) / exact_cross(start, end, p, q) for p, q in crossed]
     return int(first) + sum(place < share or (upward and place == share) for place in places)

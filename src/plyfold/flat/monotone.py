@@ -54,9 +54,10 @@ class Triangles(NamedTuple):
 
 
 class MonotonePolygons(NamedTuple):
-    """The places of vertices, polygons of them, and their triangles."""
+    """The places of vertices, also before they were moved apart, polygons of them, and their triangles."""
 
     places: Coordinates
+    given: Coordinates
     stacks: Stacks
     output: Triangles
 
@@ -114,9 +115,16 @@ def cut_off(polygons: MonotonePolygons, polygon: int, vertex: int) -> int:
     while stacks.before[entry] >= 0:
         near, far = stacks.vertex[entry], stacks.vertex[stacks.before[entry]]
         second, third = (vertex, near) if above else (near, vertex)
-        if turn(polygons.places, far, second, third) <= 0:
+        if not _turns_left(polygons, far, second, third):
             break
         triangle = count_up(polygons.output.counts, TRIANGLES)
         faces[triangle][0], faces[triangle][1], faces[triangle][2] = far, second, third
         entry = stacks.before[entry]
     return entry
+
+
+@called_from_loops
+def _turns_left(polygons: MonotonePolygons, a: int, b: int, c: int) -> bool:
+    """Tell whether the way from a over b to c turns left while the vertices are moved apart by infinitely little."""
+    side = turn(polygons.given, a, b, c)
+    return bool(side > 0 or (side == 0 and turn(polygons.places, a, b, c) > 0))

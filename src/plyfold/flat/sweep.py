@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from plyfold.arrays import Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.compiled import called_from_loops, run_loop
 from plyfold.errors import PlyfoldError
 from plyfold.flat.monotone import (
@@ -36,8 +36,9 @@ from plyfold.flat.monotone import (
 )
 from plyfold.flat.sweep_line import SkipList, SweepPlan, empty_skip_list, link_above, sweep_order, sweep_plan, unlink
 from plyfold.immersion.immersion import Immersion
-from plyfold.mesh.refine import borders_at_points, drawn_outline
+from plyfold.mesh.refine import borders_at_points, drawn_outline, given_outline
 from plyfold.mesh.sheets import seams_of, twisted_bridges
+from plyfold.outline.curve import Outline
 from plyfold.predicates import Coordinates, as_coordinates, turn
 
 __all__ = ["sweep_triangles"]
@@ -123,7 +124,8 @@ def sweep_triangles(immersion: Immersion) -> Ints:
     Returns
     -------
     (n − 2χ, 3) int
-        Counter-clockwise, exactly; χ is the Euler characteristic.
+        Counter-clockwise, exactly, where the outline's points were given; those that have no area there, where they
+        are. χ is the Euler characteristic.
 
     Notes
     -----
@@ -141,7 +143,11 @@ def sweep_triangles(immersion: Immersion) -> Ints:
     ahead = drawing.rank[:n] < drawing.rank[drawing.following[:n]]
     starts = int((ahead > ahead[drawing.preceding]).sum())
     turns = int((drawing.cusp + 1)[drawing.cusp > 0].sum())
-    given = (as_coordinates(plan.points), drawing, *_room(n, starts, turns, len(plan.bridges)))
+    given = (
+        *_coordinates(plan.points, given_outline(immersion.arrangement)),
+        drawing,
+        *_room(n, starts, turns, len(plan.bridges)),
+    )
     triangles = n - 2 * immersion.euler_characteristic
     # Room for one more: if there were more, that would be seen.
     output = run_loop(_swept, len(drawing.order), given, empty_triangles(triangles + 1))
@@ -183,6 +189,15 @@ def _drawing(immersion: Immersion, plan: SweepPlan) -> _Drawing:
     )
 
 
+def _coordinates(points: Floats, given: Outline) -> tuple[Coordinates, Coordinates]:
+    """Return the coordinates of points, and of the outline's points among them where they were given: alike."""
+    if np.array_equal(points[: len(given)], given.points):
+        places = as_coordinates(points)
+        return places, places
+    both, n = as_coordinates(np.concatenate([points, given.points])), len(points)
+    return Coordinates(both.x[:n], both.y[:n], both.scratch), Coordinates(both.x[n:], both.y[n:], both.scratch)
+
+
 def _room(n: int, starts: int, turns: int, bridges: int) -> tuple[SkipList, _Strands, _Intervals, Stacks]:
     """Return empty tables for an outline of n vertices, at some of which the line first meets it, and of some cusps."""
 
@@ -198,10 +213,13 @@ def _room(n: int, starts: int, turns: int, bridges: int) -> tuple[SkipList, _Str
     )
 
 
-def _swept(given: tuple[Coordinates, _Drawing, SkipList, _Strands, _Intervals, Stacks], output: Triangles) -> int:
+def _swept(
+    given: tuple[Coordinates, Coordinates, _Drawing, SkipList, _Strands, _Intervals, Stacks], output: Triangles
+) -> int:
     """Sweep; return how many triangles there are."""
-    places, drawing, nodes, strands, intervals, stacks = given
-    sweep = _Sweep(places, drawing, nodes, strands, intervals, MonotonePolygons(places, stacks, output))
+    places, given_places, drawing, nodes, strands, intervals, stacks = given
+    polygons = MonotonePolygons(places, given_places, stacks, output)
+    sweep = _Sweep(places, drawing, nodes, strands, intervals, polygons)
     rank, n = drawing.rank, len(drawing.cusp)
     for event in drawing.order:
         if event >= n:

@@ -122,7 +122,7 @@ def _materials(surface: Surface) -> tuple[Material, ...]:
 def _layer_colours(surface: Surface) -> Floats:
     """Return the colour of each vertex: the mean over the triangles around it, each in the colour of its layer."""
     level = surface.layering.level
-    shades = np.array([rgb(layer_colour(number + 1, int(level.max()))) for number in range(level.max())])
+    shades = np.array([rgb(layer_colour(number + 1, surface.n_layers)) for number in range(surface.n_layers)])
     total = summed_at_vertices(shades[level[surface.sheet] - 1], surface.faces, len(surface.vertices))
     return np.asarray(total / np.bincount(surface.faces.ravel(), minlength=len(total))[:, None])
 

@@ -11,6 +11,7 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
+from plyfold.errors import PrecisionError
 from plyfold.graphs import components, ways_from
 from plyfold.halfedges import ends_of, following
 from plyfold.immersion.immersion import Immersion
@@ -46,7 +47,7 @@ class LiftedMesh:
     sheet : (m,) int
         The sheet of each triangle.
     boundary : (b,) int
-        The vertices along the outline, loop after loop, each from its first point: 0, 1, …, b − 1.
+        The vertices along the boundary, 0, 1, …, b − 1, see :class:`~plyfold.mesh.sheets.SheetMesh`.
     first_boundary : (loops + 1,) int
         Where in this row each loop begins, and last its length.
     cusps : (c,) int
@@ -129,8 +130,8 @@ def stack_sheets(
         faces=glued.faces,
         sheet=glued.sheet,
         boundary=glued.boundary,
-        first_boundary=mesh.first_piece,
-        cusps=np.flatnonzero(np.isin(mesh.chain, cusps_of(immersion.arrangement))),
+        first_boundary=glued.first_boundary,
+        cusps=np.flatnonzero(np.isin(glued.boundary_piece, mesh.pieces_from(cusps_of(immersion.arrangement)))),
         level=level,
         stacked=stacked,
         passing=passing,
@@ -162,13 +163,40 @@ def _stacks(immersion: Immersion, sheet_level: Ints, mesh: CellTriangulation, gl
     repeated = np.repeat(top[at], sheets[at])
     sheet = glued.first_sheet[repeated // 3] + count_each(sheets[at])
     stacked_vertex = vertex[glued.lifted(repeated, sheet)]
-    level = np.empty(len(planar_vertex), dtype=np.int64)
+    level = np.full(len(planar_vertex), -1)
     level[stacked_vertex] = sheet_level[sheet] - 1
+    # But where the outline touches itself.
+    torn = np.unique(planar_vertex[level < 0])
     order = np.lexsort((level, planar_vertex))
     if len(stacked_vertex) > len(level):
         level[order] = count_each(np.bincount(planar_vertex))
     above = np.flatnonzero(np.diff(planar_vertex[order]) == 0)
-    return level, np.stack([order[above], order[above + 1]], axis=1)
+    stacked = np.stack([order[above], order[above + 1]], axis=1)
+    return _stacks_where_torn(sheet_level, mesh, glued, torn, level, stacked) if len(torn) else (level, stacked)
+
+
+def _stacks_where_torn(  # noqa: PLR0913, PLR0917
+    sheet_level: Ints, mesh: CellTriangulation, glued: SheetMesh, torn: Ints, level: Ints, stacked: Ints
+) -> tuple[Ints, Ints]:
+    """Return levels and pairs, those over some points from all triangles around."""
+    is_torn = np.zeros(len(mesh.points), dtype=bool)
+    is_torn[torn] = True
+    corner = np.flatnonzero(is_torn[mesh.triangles.ravel()])
+    following = np.append(glued.first_copy[1:], len(glued.faces))
+    count = (following - glued.first_copy)[corner // 3]
+    repeated = np.repeat(corner, count)
+    sheet = glued.first_sheet[repeated // 3] + count_each(count)
+    order = np.lexsort((sheet_level[sheet], repeated))
+    vertex = glued.faces.ravel()[glued.lifted(repeated, sheet)][order]
+    above = np.flatnonzero((np.diff(repeated[order]) == 0) & (np.diff(vertex) != 0))
+    pairs = np.unique(np.stack([vertex[above], vertex[above + 1]], axis=1), axis=0)
+    level[is_torn[glued.planar_vertex]] = 0
+    for _ in range(len(pairs) + 1):
+        lower, upper = pairs[level[pairs[:, 0]] >= level[pairs[:, 1]]].T
+        if not len(lower):
+            return level, np.concatenate([stacked[~is_torn[glued.planar_vertex[stacked[:, 0]]]], pairs])
+        np.maximum.at(level, upper, level[lower] + 1)
+    raise PrecisionError("cyc", where=mesh.points[glued.planar_vertex[lower[:1]]])
 
 
 # ---- where sheets pass through each other ----------------------------------------------------------------------------
