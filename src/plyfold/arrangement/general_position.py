@@ -37,8 +37,8 @@ __all__ = ["GeneralPosition", "in_general_position", "number_of_ways", "separate
 # Sizes of moves as fractions of the drawing's: smaller ones where strands crowd.
 _STEPS = [2.0**-exponent for exponent in range(20, 49, 4)]
 # A step is so many times the rounding of the coordinates at least, so that there are directions to choose from.
-_LEAST_STEP = 64
-_LARGEST_STEP = 2.0**-9
+_LEAST_STEP = 16
+_LARGEST_STEP = 2.0**-4
 _ATTEMPTS = 12
 
 
