@@ -394,7 +394,8 @@ def given_outline(arrangement: Arrangement) -> Outline:
 
 def is_moved(arrangement: Arrangement) -> bool:
     """Tell whether points of a drawing were moved apart."""
-    return not np.array_equal(given_outline(arrangement).points, drawn_outline(arrangement).points)
+    given = given_outline(arrangement)
+    return given is not arrangement.outline and not np.array_equal(given.points, drawn_outline(arrangement).points)
 
 
 def noded_curve(arrangement: Arrangement) -> NodedCurve:

@@ -23,7 +23,7 @@ from plyfold.errors import PrecisionError
 from plyfold.mesh.refine import NodedCurve, borders_passed, unit_square
 from plyfold.outline.curve import Outline
 
-__all__ = ["Strips", "is_moved", "noded_strips", "strips_of"]
+__all__ = ["Strips", "noded_strips", "strips_of"]
 
 # Where on a part strands are compared, as shares of its length: at the first one where all are apart.
 _SHARES = (0.4375, 0.59375, 0.296875, 0.71875, 0.515625)
@@ -82,12 +82,6 @@ class Strips:
         part = self.strands.half_edge // 2
         along = part[self.order]
         return np.searchsorted(along, part, side="left"), np.searchsorted(along, part, side="right") - 1
-
-
-def is_moved(arrangement: Arrangement) -> bool:
-    """Tell whether points of a drawing have been moved apart."""
-    outline, given = arrangement.outline, arrangement.given
-    return outline is not given and outline is not None and not np.array_equal(outline.points, _drawn(given).points)
 
 
 def strips_of(arrangement: Arrangement) -> Strips:

@@ -10,7 +10,7 @@ from plyfold.arrangement.polylines import polygon_turning_numbers
 from plyfold.arrays import Floats, Ints
 from plyfold.graphs import components
 from plyfold.halfedges import ends_of
-from plyfold.mesh.strips import is_moved
+from plyfold.mesh.refine import is_moved
 from plyfold.surface.glue import cusps_of
 
 if TYPE_CHECKING:
