@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import plyfold as pf
 from plyfold.certify import check_pieces
-from plyfold.errors import CurveError, NotImmersibleError
+from plyfold.errors import CurveError, GeneralPositionError, NotImmersibleError
 from plyfold.flat.settle import Settled, cuts_of, settle, settled_triangles
 from plyfold.mesh.refine import given_outline
 from reference import random_curves
@@ -222,7 +222,7 @@ def test_loops_and_cusps():
     for loops, cusps in random_loops(seed=5, count=500):
         try:
             immersion = pf.find_immersion(pf.Outline(loops, cusps))
-        except CurveError:
+        except (CurveError, GeneralPositionError):  # an edge that runs over a cusp that stays
             continue
         if immersion:
             drawn, settled = immersion.arrangement.given, settled_triangles(immersion)

@@ -394,8 +394,8 @@ def given_outline(arrangement: Arrangement) -> Outline:
 
 def is_moved(arrangement: Arrangement) -> bool:
     """Tell whether points of a drawing were moved apart."""
-    given = given_outline(arrangement)
-    return given is not arrangement.outline and not np.array_equal(given.points, drawn_outline(arrangement).points)
+    outline, given = drawn_outline(arrangement), given_outline(arrangement)
+    return outline is not given and not np.array_equal(outline.points, given.points)
 
 
 def noded_curve(arrangement: Arrangement) -> NodedCurve:
