@@ -30,6 +30,7 @@ __all__ = [
     "add_command",
     "add_outputs",
     "add_time_limit",
+    "arrange_outline",
     "prepare",
     "read_arrangement",
     "read_as_given",
@@ -79,9 +80,15 @@ def add_outputs(command: argparse.ArgumentParser, endings: str) -> None:
 
 def read_arrangement(options: argparse.Namespace, watch: Stopwatch, clock: Clock | None = None) -> Arrangement:
     """Return the arrangement of the drawing that is named."""
+    return arrange_outline(read_outline(options, watch), options, watch, clock)
+
+
+def arrange_outline(
+    outline: Outline, options: argparse.Namespace, watch: Stopwatch, clock: Clock | None = None
+) -> Arrangement:
+    """Return the arrangement of an outline that was read."""
     from plyfold.arrangement.arrangement import watched_arrangement
 
-    outline = read_outline(options, watch)
     load_libraries(FOR_CROSSINGS, watch)
     return watched_arrangement(outline, options.general_position, Watch(clock or Clock(None), watch))
 
