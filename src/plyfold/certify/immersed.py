@@ -20,6 +20,7 @@ __all__ = [
     "common_places",
     "require_along_curve",
     "require_immersed",
+    "turns_too_many",
     "walk_along",
     "walked",
 ]
@@ -295,28 +296,39 @@ def _positions_in_loop(points: Floats, walk: Floats) -> list[int]:
 def _require_turns(sides: Sides, walk: Walk, places: ExactPlaces) -> None:
     """Check that the triangles turn once round each inner vertex, and fill the angle at each boundary vertex.
 
-    Full turns are counted as passages through the direction of +x: from a direction in [π, 2π) to one in [0, π). The
-    fan at a boundary vertex goes from its outgoing edge to its incoming one, and round the vertex once more for each
-    cusp.
+    The fan at a boundary vertex turns less than once, and once more for each cusp.
     """
-    upward, loop = _upward(places, sides.start, sides.end), walk.loop
+    loop = walk.loop
+    turns, spikes = turns_too_many(sides, loop, loop[walk.after], places)
+    turns[loop[walk.at]] -= walk.outline.cusps
+    wrong = turns != 0
+    wrong[spikes] = True
+    if wrong.any():
+        how = "not often enough" if (turns < 0)[np.argmax(wrong)] else "too often"
+        raise CertificateError(f"the triangles at a vertex turn round it {how}", where=places.near[wrong])
+
+
+def turns_too_many(sides: Sides, loop: Ints, after: Ints, places: ExactPlaces) -> tuple[Ints, Ints]:
+    """Return how many full turns too many the triangles make round each vertex; and the tips of spikes on the boundary.
+
+    Too many are more than one turn at an inner vertex. At those on the boundary, which are given with the vertices that
+    follow, the fan goes from the outgoing edge to the incoming one, and too many are the full turns that it makes
+    besides. At the tip of a spike, where these edges lie on one another, one full turn is due. Full turns are counted
+    as passages through the direction of +x: from a direction in [π, 2π) to one in [0, π).
+    """
+    upward = _upward(places, sides.start, sides.end)
     # A triangle's corner sweeps from the side that leaves it to the one that arrives, reversed.
     passages = np.bincount(sides.start[~upward & ~upward[sides.previous]], minlength=len(places.near))
-    after, before = loop[walk.after], np.empty_like(loop)
-    before[walk.after] = loop
+    before = np.empty(len(places.near), dtype=np.int64)
+    before[after] = loop
+    before = before[loop]
     outgoing, incoming = _upward(places, loop, after), _upward(places, loop, before)
     same = np.flatnonzero(outgoing == incoming)
     turn = places.cross_sign(loop[same], after[same], loop[same], before[same])
     expected = np.ones(len(places.near), dtype=np.int64)
     expected[loop] = incoming
     expected[loop[same]] = turn <= 0
-    expected[loop[walk.at]] += walk.outline.cusps
-    wrong = passages != expected
-    wrong[loop[same]] |= turn == 0
-    if wrong.any():
-        few = (passages < expected)[np.argmax(wrong)]
-        how = "not often enough" if few else "too often"
-        raise CertificateError(f"the triangles at a vertex turn round it {how}", where=places.near[wrong])
+    return passages - expected, loop[same[turn == 0]]
 
 
 def _upward(places: ExactPlaces, start: Ints, end: Ints) -> Bools:
