@@ -65,6 +65,7 @@ def test_public_names():
         "paper",
         "read",
         "ribbon",
+        "ribbon_layering",
         "sample_immersion",
         "save",
         "suggest_cusps",
