@@ -11,6 +11,7 @@ from plyfold.cli.inputs import (
     NO_DISK,
     add_command,
     add_outputs,
+    add_repair,
     prepare,
     read_arrangement,
     read_as_given,
@@ -38,6 +39,7 @@ def add_flat_commands(commands: Any) -> None:
     """Add the subcommands to a parser."""
     split = add_command(commands, "split", _split, "cut a disk into simple polygons, or any curves into cells or fills")
     add_outputs(split, ".geojson .wkt .svg")
+    add_repair(split)
     what = split.add_mutually_exclusive_group()
     what.add_argument(
         "--cells",
@@ -55,6 +57,7 @@ def add_flat_commands(commands: Any) -> None:
         commands, "triangulate", _triangulate, "cut a disk into triangles on the points of the curve"
     )
     add_outputs(triangles, ".obj .csv")
+    add_repair(triangles)
     unwrap = add_command(commands, "unwrap", _unwrap, "map a disk one-to-one onto the round disk: texture coordinates")
     add_outputs(unwrap, ".obj .ply .glb")
     unwrap.add_argument(
