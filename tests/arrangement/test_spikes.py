@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import plyfold as pf
-from plyfold.arrangement.spikes import spikes, without_spikes
+from plyfold.arrangement.spikes import tips, without_spikes
 from plyfold.errors import CurveError
 from reference import contacts as reference
 from reference.crossings import exact
@@ -54,6 +54,15 @@ def test_a_marked_cusp_is_no_spike():
         assert drawn.euler_characteristic == 0
 
 
+def test_a_cusp_at_a_tip_has_an_angle_of_360_degrees_that_one_sees():
+    """A spiral stair that goes round the origin twice and ends where it began."""
+    stair = [(0, 0), (4, 0), (0, 4), (-4, 0), (0, -4), (5, 0), (0, 5), (-5, 0), (0, -5), (6, 0)]
+    for start in range(len(stair)):
+        points = stair[start:] + stair[:start]
+        assert pf.bounds_disk(pf.Curve(points, cusps={(-start) % len(stair): 1}))
+        assert not pf.bounds_disk(pf.Curve(points, cusps={(-start) % len(stair): 2}))
+
+
 def test_nothing_is_left():
     with pytest.raises(CurveError, match="nothing is left"):
         pf.arrange([(0, 0), (4, 0), (4, 3), (9, 9), (4, 3), (4, 0)])
@@ -77,7 +86,7 @@ def test_what_is_left_does_not_depend_on_the_start(points, start):
         except CurveError:
             assert not expected
             continue
-        assert len(spikes(left)) == 0
+        assert not tips(left).any()
         assert corners(exact(left.points.tolist())) == expected
     assert len(curve) >= len(expected)
 
