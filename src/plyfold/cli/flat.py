@@ -6,16 +6,17 @@ import argparse
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from plyfold.cli.drawing import read_outline
 from plyfold.cli.inputs import (
     DISK,
     NO_DISK,
     add_command,
     add_outputs,
+    add_repair,
     arrange_outline,
     prepare,
     read_arrangement,
     read_as_given,
+    read_drawing,
     refuse_outputs,
     say_notes,
     write_texts,
@@ -40,6 +41,7 @@ def add_flat_commands(commands: Any) -> None:
     """Add the subcommands to a parser."""
     split = add_command(commands, "split", _split, "cut a disk into simple polygons, or any curves into cells or fills")
     add_outputs(split, ".geojson .wkt .svg")
+    add_repair(split)
     what = split.add_mutually_exclusive_group()
     what.add_argument(
         "--cells",
@@ -57,6 +59,7 @@ def add_flat_commands(commands: Any) -> None:
         commands, "triangulate", _triangulate, "cut a disk into triangles on the points of the curve"
     )
     add_outputs(triangles, ".obj .csv")
+    add_repair(triangles)
     unwrap = add_command(commands, "unwrap", _unwrap, "map a disk one-to-one onto the round disk: texture coordinates")
     add_outputs(unwrap, ".obj .ply .glb")
     unwrap.add_argument(
@@ -126,7 +129,7 @@ def _triangulate(options: argparse.Namespace) -> int:
 
     watch = Stopwatch()
     refuse_outputs(options, tuple(TRIANGLE_WRITERS))
-    outline = read_outline(options, watch)
+    outline = read_drawing(options, watch)
     arranged = arrange_outline(outline, options, watch)
     say_notes(arranged.outline)
     watch("triangulating")
