@@ -179,3 +179,10 @@ def test_tops_of_touching_solids_belong_to_their_triangles():
         check_solid(spoiled, solid.faces, 0.5, pieces=(1, 1), touching=True)
     with pytest.raises(CertificateError, match="alternate"):
         check_solid(solid.vertices, solid.faces[:, ::-1], 0.5, pieces=(1, 1), touching=True)
+
+
+def test_a_strand_across_a_double_edge():
+    # It crosses the slit at x = 1/3, which is no double.
+    surface = pf.lift(pf.Outline([KEYHOLE, [(0, 1), (1, 4), (-2, 4)]]), triangles=100)
+    surface.check()
+    assert surface.n_layers == 2
