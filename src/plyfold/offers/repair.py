@@ -18,7 +18,7 @@ from plyfold.obstruction import Obstruction, Unknown
 from plyfold.offers.areas import Measure
 from plyfold.offers.greedy import Caps, flips, made_until
 from plyfold.offers.redrawn import Pen, pen_for, redrawn, traced
-from plyfold.offers.rerouted import Move, Plan, Rerouted, plan_of
+from plyfold.offers.rerouted import Move, Plan, Rerouted, Run, plan_of
 from plyfold.offers.unneeded import needed
 from plyfold.options import refuse_unless_number
 from plyfold.outline.curve import Outline
@@ -56,6 +56,8 @@ class SmallChange(Repair):
     polygons : tuple of (m, 2) float
         What it went round: outside of all of them no place has another winding number. How often they wind round a
         place is, exactly, by how much its winding number grew.
+    strands : tuple of (m, 2) float
+        The loop that was left out, or the two sides of the lens, from crossing to crossing.
 
     Examples
     --------
@@ -67,6 +69,7 @@ class SmallChange(Repair):
     region: float = 0.0
     layers: float = 0.0
     polygons: tuple[Floats, ...] = field(default=(), repr=False, compare=False)
+    strands: tuple[Floats, ...] = field(default=(), repr=False, compare=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -232,18 +235,17 @@ def _found(plan: Plan, caps: Caps, all_lenses: bool, clock: Clock) -> Repaired |
     made = made_until(plan, caps, all_lenses, trial, clock)
     if made is None:
         return None
-    moves = needed(plan, made, trial, clock)
+    moves = needed(plan, caps, made, trial, clock)
     assert trial.pen is not None
     assert trial.outline is not None
-    before = trial.pen.given.repairs
+    before = [repair for repair in trial.pen.given.repairs if repair.kind != SPIKE]
     changes, left = _changes(plan, trial.pen, moves)
-    spikes = tuple(SmallChange(*_fields(repair)) for repair in before if repair.kind == SPIKE)
-    outline = outline_with(trial.outline, repairs=(*before, *changes))
-    return Repaired(outline, (*spikes, *changes), *_in_all(plan, left))
+    changes = (*_spikes(trial.pen.given), *changes)
+    return Repaired(outline_with(trial.outline, repairs=(*before, *changes)), changes, *_in_all(plan, left))
 
 
-def _fields(repair: Repair) -> tuple[str, tuple[float, float], float]:
-    return repair.kind, repair.where, repair.size
+def _spikes(given: Outline) -> list[SmallChange]:
+    return [SmallChange(SPIKE, repair.where, repair.size) for repair in given.repairs if repair.kind == SPIKE]
 
 
 def _changes(plan: Plan, pen: Pen, moves: Sequence[Move]) -> tuple[tuple[SmallChange, ...], Rerouted]:
@@ -252,12 +254,16 @@ def _changes(plan: Plan, pen: Pen, moves: Sequence[Move]) -> tuple[tuple[SmallCh
     for move in moves:
         effect = left.effect(move)
         region, layers = _parts(plan, left.winding, effect.times)
-        ends = [pen.crossing(visit) for visit in move.visits]
-        inside = [pen.along(left.darts(run), left.parted, False).places for run in move.runs]
-        size = diagonal(np.concatenate([ends, *inside]))
+        strands = tuple(_strand(pen, left, run) for run in move.runs)
+        size, where = diagonal(np.concatenate(strands)), min(pen.crossing(visit) for visit in move.visits)
         polygons = traced(pen, left, move, effect)
-        changes.append(SmallChange(LENS if move.is_lens else LOOP, min(ends), size, region, layers, polygons))
+        changes.append(SmallChange(LENS if move.is_lens else LOOP, where, size, region, layers, polygons, strands))
     return tuple(changes), left
+
+
+def _strand(pen: Pen, left: Rerouted, run: Run) -> Floats:
+    inside = pen.along(left.darts(run), left.parted, False).places
+    return np.concatenate([[pen.crossing(run.start)], inside, [pen.crossing(run.end)]])
 
 
 def _in_all(plan: Plan, left: Rerouted) -> tuple[float, float]:
@@ -292,7 +298,7 @@ def _beyond(plan: Plan, caps: Caps, clock: Clock) -> Obstruction:
     if made is None:
         sentence = f"Leaving out loops and undoing lenses does not make it the outline of {what} where {may}."
         return Obstruction("repair", sentence, (), None, plan.drawn)
-    moves = needed(plan, made, trial, clock)
+    moves = needed(plan, _NO_CAPS, made, trial, clock)
     assert trial.pen is not None
     changes, left = _changes(plan, trial.pen, moves)
     region, layers = _in_all(plan, left)
