@@ -11,36 +11,36 @@ from typing import Any, Literal, cast
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.general_position import GeneralPosition, in_general_position
+from plyfold.arrangement.drawn import DrawnMap, drawn_map
+from plyfold.arrangement.general_position import (
+    in_general_position,
+    separated,
+    touching_points,
+)
 from plyfold.arrangement.leftmost import leftmost_crossing
 from plyfold.arrangement.maps import (
     CellWalk,
-    Code,
     Map,
     cell_of_each_dart,
-    in_bounded_cells,
     numbered_crossings,
     oriented,
-    outer_dart,
     walked_round,
 )
-from plyfold.arrangement.marks import cusps_of_outline, cusps_on_borders, with_marks
-from plyfold.arrangement.nesting import nest
+from plyfold.arrangement.marks import cusps_on_borders, with_marks
 from plyfold.arrangement.planar_map import (
     borders_at_visits,
     checked_code,
-    windings_of_loops,
 )
-from plyfold.arrangement.polylines import inner_points, polygon_turning_numbers, total_winding
+from plyfold.arrangement.polylines import inner_points, total_winding
 from plyfold.arrangement.theorems import theorems_of
 from plyfold.arrays import Bools, Floats, Ints, freeze
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GaussCodeError, InputError, PlyfoldError
 from plyfold.graphs import components
-from plyfold.outline.curve import Curve, Outline, backward_numbers
+from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.given import Coded, CurveLike, OutlineLike, are_several, as_outline
 
-__all__ = ["Arrangement", "CurveLike", "arrange", "require_one_loop", "watched_arrangement"]
+__all__ = ["Arrangement", "CurveLike", "arrange", "moved_inward", "require_one_loop", "watched_arrangement"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,6 +184,10 @@ class Arrangement:
                 hint="check partner and ccw: this code belongs to a curve on a surface with handles",
             )
         return arranged
+
+    @classmethod
+    def _of_drawing(cls, found: DrawnMap) -> Arrangement:
+        return cls._of_map(found.drawn, found.walked, found.turning, found.outline, **found.more)
 
     @classmethod
     def _of_map(
@@ -342,6 +346,19 @@ class Arrangement:
         """The boundary of each cell: its darts in order, walked with the cell on the left, cycle after cycle."""
         darts = self.cell_darts.tolist()
         return tuple(tuple(darts[low:high]) for low, high in pairwise(self.cell_start.tolist()))
+
+    @cached_property
+    def contacts(self) -> Ints:
+        """The points of :attr:`given` that lie on other edges or on each other.
+
+        Examples
+        --------
+        >>> arrange([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)]).contacts.tolist()
+        [2, 5]
+        """
+        if self.given is None or self.given is self.outline:
+            return np.empty(0, dtype=np.int64)
+        return touching_points(self.given)
 
     @cached_property
     def base_visit(self) -> int:
@@ -540,7 +557,26 @@ def watched_arrangement(curve: OutlineLike, general_position: Literal["perturb",
         return Arrangement.from_gauss(given.partner, given.ccw, given.outer)
     if are_several(curve) and len(several := cast("Sequence[CurveLike]", curve)) == 1:
         return watched_arrangement(several[0], general_position, watch)
-    return _arranged(in_general_position(as_outline(curve), general_position, watch), watch)
+    placed = in_general_position(as_outline(curve), general_position, watch)
+    return Arrangement._of_drawing(drawn_map(placed, watch))
+
+
+def moved_inward(arranged: Arrangement) -> Arrangement:
+    """Return the arrangement of the same outline with the points in contact moved inward, in place of outward.
+
+    It bounds a surface just when the outline as given does in the strict sense: with all angles as one sees them. An
+    arrangement without contacts is returned as it is.
+
+    Examples
+    --------
+    >>> pinched = arrange([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)])
+    >>> pinched.winding.tolist(), moved_inward(pinched).winding.tolist()
+    ([0, 1], [0, -1, 1, 1])
+    """
+    if arranged.given is None or len(arranged.contacts) == 0:
+        return arranged
+    placed = replace(separated(arranged.given, -1), numbers=arranged.numbers, turned_round=arranged.reversed)
+    return Arrangement._of_drawing(drawn_map(placed, UNWATCHED))
 
 
 def require_one_loop(arranged: Arrangement, what: str = "this") -> None:
@@ -550,53 +586,3 @@ def require_one_loop(arranged: Arrangement, what: str = "this") -> None:
             f"{what} is there for one closed curve alone, and the outline has {arranged.n_loops} loops",
             hint="give one of its loops",
         )
-
-
-def _arranged(placed: GeneralPosition, watch: Watch) -> Arrangement:
-    if placed.outline.n_loops == 1:
-        return _of_curve(placed, watch)
-    arranged = _of_loops(placed, watch)
-    if placed.turned_round is not None or arranged.winding.max() > 0:
-        return arranged
-    backward = in_general_position(placed.outline.reversed(), "raise", watch)
-    numbers = placed.numbers[backward_numbers(placed.outline.first_point)]
-    return _of_loops(replace(backward, numbers=numbers, turned_round=True), watch)
-
-
-def _of_curve(placed: GeneralPosition, watch: Watch) -> Arrangement:
-    watch.step()
-    outline, given, numbers, visits = placed.outline, placed.given, placed.numbers, placed.visits
-    edge, point = visits.edge, visits.point
-    outer, is_directed = outer_dart(outline.points, edge), placed.turned_round is not None
-    used, turning, turned_round = oriented(visits.partner, visits.ccw, outer, is_directed)
-    if turned_round:
-        outline = given = outline.reversed()
-        numbers = numbers[backward_numbers(outline.first_point)]
-        edge, point = len(outline) - 1 - edge[::-1], point[::-1]
-    drawn = used._replace(code=used.code._replace(edge=edge))
-    crossings = point[np.arange(len(point)) < used.code.partner]
-    marked = with_marks(drawn, cusps_of_outline(outline, edge))
-    settled = {"exact_signs": visits.exact_signs, "reversed": turned_round or bool(placed.turned_round)}
-    drawing = {"given": given, "numbers": numbers, "crossings": crossings}
-    return Arrangement._of_map(marked, walked_round(marked), (turning,), outline, **drawing, **settled)
-
-
-def _of_loops(placed: GeneralPosition, watch: Watch) -> Arrangement:
-    """Return the arrangement of several loops as they are directed."""
-    outline, visits = placed.outline, placed.visits
-    found = nest(placed.polyline, visits, watch)
-    left = windings_of_loops(visits.partner, visits.ccw, found.first_visit, found.outside, found.bridges)
-    none = np.zeros(len(visits.partner), dtype=np.int64)
-    code = Code(visits.partner, visits.ccw, found.first_visit, left, visits.edge, none)
-    plain = Map(code, found.outside, found.bridges)
-    walked = walked_round(plain)
-    inner = in_bounded_cells(plain, walked)
-    feet = [mark for number in inner for mark in found.feet[number]]
-    is_left = found.bridges[inner] % 2 == 0
-    drawn = with_marks(plain, cusps_of_outline(outline, visits.edge), feet, is_left)
-    crossings = visits.point[np.arange(len(visits.point)) < visits.partner]
-    turning = polygon_turning_numbers(outline.points, outline.first_point)
-    settled = {"exact_signs": visits.exact_signs, "reversed": bool(placed.turned_round)}
-    walk = walked if drawn is plain else walked_round(drawn)
-    drawing = {"given": placed.given, "numbers": placed.numbers, "crossings": crossings}
-    return Arrangement._of_map(drawn, walk, turning, outline, **drawing, **settled)

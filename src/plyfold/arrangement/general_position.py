@@ -13,8 +13,16 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from plyfold.arrangement.crossings import Contacts, Visits
-from plyfold.arrangement.infinitesimal import begin_to_move, order_along_edges, signed_crossings, signed_pairs
-from plyfold.arrangement.meetings import Polyline, as_polyline, meetings, visits_along
+from plyfold.arrangement.infinitesimal import (
+    MovingPoints,
+    begin_to_move,
+    order_along_edges,
+    same_outside,
+    signed_crossings,
+    signed_pairs,
+)
+from plyfold.arrangement.meetings import JoinedLoops, joined_loops, meetings, visits_along
+from plyfold.arrangement.nesting import nest, same_nest
 from plyfold.arrangement.noding import node_outline
 from plyfold.arrangement.outward import are_moved, outward_vectors, winds_backward
 from plyfold.arrangement.spikes import without_spikes
@@ -23,7 +31,7 @@ from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GeneralPositionError, InputError
 from plyfold.outline.curve import Outline, Repair, backward_numbers, outline_of_points
 
-__all__ = ["GeneralPosition", "in_general_position", "moved_inward", "touching_points"]
+__all__ = ["GeneralPosition", "in_general_position", "separated", "touching_points"]
 
 # Sizes of moves as fractions of the drawing's: smaller ones where strands crowd.
 _STEPS = [2.0**-exponent for exponent in range(20, 49, 4)]
@@ -44,7 +52,7 @@ class GeneralPosition:
         The same points in the same order where they were given, without spikes.
     numbers : (points,) int
         The number that each point has in the outline that came in.
-    polyline : Polyline
+    joined : JoinedLoops
     visits : Visits
         Of the outline in general position.
     turned_round : bool or None
@@ -55,7 +63,7 @@ class GeneralPosition:
     outline: Outline
     given: Outline
     numbers: Ints
-    polyline: Polyline
+    joined: JoinedLoops
     visits: Visits
     turned_round: bool | None
 
@@ -89,12 +97,12 @@ def in_general_position(
     """
     if policy not in ("perturb", "raise"):
         raise InputError(f'general_position must be "perturb" or "raise", not {policy!r}')
-    polyline = _polyline(outline)
-    contacts = meetings(polyline, watch)
+    joined = _joined(outline)
+    contacts = meetings(joined, watch)
     if policy == "raise" or len(contacts.touches) == 0:
-        visits = visits_along(polyline, contacts)
+        visits = visits_along(joined, contacts)
         if len(contacts.touches) == 0 and len(visits.triple) == 0:
-            return GeneralPosition(outline, outline, np.arange(len(outline)), polyline, visits, None)
+            return GeneralPosition(outline, outline, np.arange(len(outline)), joined, visits, None)
         if policy == "raise":
             raise _not_general(outline, contacts, visits)
     left, kept = without_spikes(outline)
@@ -114,8 +122,8 @@ def _not_general(outline: Outline, contacts: Contacts, visits: Visits) -> Genera
     )
 
 
-def _polyline(outline: Outline) -> Polyline:
-    return as_polyline(outline.points, outline.first_point)
+def _joined(outline: Outline) -> JoinedLoops:
+    return joined_loops(outline.points, outline.first_point)
 
 
 def _places(outline: Outline, contacts: Contacts, visits: Visits) -> list[tuple[float, float]]:
@@ -130,7 +138,7 @@ def _directed(outline: Outline, watch: Watch) -> GeneralPosition:
     """Turn an outline round if its surface lies on the right, and move its points outward."""
     turned_round = winds_backward(outline, node_outline(outline))
     if not turned_round:
-        return _separated(outline, 1, watch)
+        return separated(outline, 1, watch)
     numbers = backward_numbers(outline.first_point)
     parts = (
         outline.points[numbers],
@@ -138,21 +146,13 @@ def _directed(outline: Outline, watch: Watch) -> GeneralPosition:
         np.concatenate(outline.cusps)[numbers],
         outline.rows[numbers],
     )
-    moved = _separated(outline_of_points(*parts, outline.repairs), 1, watch)
+    moved = separated(outline_of_points(*parts, outline.repairs), 1, watch)
     return replace(moved, numbers=numbers[moved.numbers], turned_round=True)
-
-
-def moved_inward(given: Outline, watch: Watch = UNWATCHED) -> GeneralPosition:
-    """Return an outline that has no spikes and its surface on the left with touching strands moved inward.
-
-    It bounds a surface just when the outline as given does in the strict sense: with all angles as one sees them.
-    """
-    return _separated(given, -1, watch)
 
 
 def touching_points(outline: Outline) -> Ints:
     """Return the points of an outline that lie on foreign edges or on each other."""
-    return np.unique(meetings(_polyline(outline)).touches[:, 0])
+    return np.unique(meetings(_joined(outline)).touches[:, 0])
 
 
 # ---- moves -----------------------------------------------------------------------------------------------------------
@@ -167,12 +167,21 @@ class _Touching(NamedTuple):
     watch: Watch
 
 
-def _separated(given: Outline, sense: int, watch: Watch) -> GeneralPosition:
-    """Move the points in contact until doubles show what infinitely small moves do.
+def separated(given: Outline, sense: int, watch: Watch = UNWATCHED) -> GeneralPosition:
+    """Return an outline with its points in contact moved outward (``sense`` 1) or inward (−1), as little as need be.
 
+    Parameters
+    ----------
+    given : Outline
+        Without spikes, and with the surface on its left.
+    sense : int
+    watch : Watch, optional
+
+    Notes
+    -----
     Where three edges meet inside all of them, whichever way they part will do; so their ends move, too.
     """
-    touching = _Touching(given, meetings(_polyline(given), watch), sense, watch)
+    touching = _Touching(given, meetings(_joined(given), watch), sense, watch)
     stays, movers = _points_to_move(given, touching.contacts)
     scatter = 0
     while scatter < _ATTEMPTS:
@@ -183,7 +192,7 @@ def _separated(given: Outline, sense: int, watch: Watch) -> GeneralPosition:
         movers, scatter = np.union1d(movers, more), scatter + (len(more) == 0)
     raise GeneralPositionError(
         "strands touch or overlap, and are too crowded to be moved apart",
-        where=_places(given, touching.contacts, visits_along(_polyline(given), touching.contacts)),
+        where=_places(given, touching.contacts, visits_along(_joined(given), touching.contacts)),
         hint="move these vertices by hand",
     )
 
@@ -228,18 +237,28 @@ def _shown(touching: _Touching, points: Floats) -> GeneralPosition | Ints:
     given, contacts, _, watch = touching
     motion = begin_to_move(given.points, points, given.next_point)
     wanted, undecided = signed_crossings(motion, contacts)
-    polyline = as_polyline(points, given.first_point)
-    found = meetings(polyline, watch)
+    joined = joined_loops(points, given.first_point)
+    found = meetings(joined, watch)
     shown = signed_pairs(found.edges, found.from_right, len(points))
     if len(undecided) or len(found.touches) or not np.array_equal(wanted, shown):
         return np.unique(undecided)
-    visits = visits_along(polyline, found)
+    visits = visits_along(joined, found)
     in_order, together = order_along_edges(motion, visits)
-    if len(together) or len(visits.triple) or not in_order.all():
+    right = in_order.all() and len(visits.triple) == 0
+    if len(together) or not (right and _lie_alike(motion, joined, visits)):
         return np.unique(together)
     repairs = *given.repairs, *_moves(given.points, points)
     outline = outline_of_points(points, given.loop_of_point, np.concatenate(given.cusps), given.rows, repairs)
-    return GeneralPosition(outline, given, np.arange(len(given)), polyline, visits, False)
+    return GeneralPosition(outline, given, np.arange(len(given)), joined, visits, False)
+
+
+def _lie_alike(motion: MovingPoints, joined: JoinedLoops, visits: Visits) -> bool:
+    """Tell whether moved loops show their outside where it is, and lie in each other, as when they begin to move."""
+    if not joined.is_jump.any():
+        return same_outside(motion, joined.points)
+    number = joined.vertex - joined.loop
+    begun = replace(joined, points=motion.points[number])
+    return same_nest(nest(joined, visits), nest(begun, visits, exact=motion.moved[number]))
 
 
 def _steps(points: Floats) -> list[float]:

@@ -7,6 +7,7 @@ from typing import overload
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, arrange
+from plyfold.arrangement.spikes import without_spikes
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import InputError, NotImmersibleError
 from plyfold.flat.delaunay import delaunay_triangles, flip_edges
@@ -113,7 +114,7 @@ def triangulate(
     if refine is not None:
         return _refined(chosen, refine)
     settled = settled_triangles(chosen)
-    faces = _input_order(chosen.arrangement)[settled.point[settled.faces]]
+    faces = chosen.arrangement.numbers[settled.point[settled.faces]]
     return faces if isinstance(curve, Arrangement | Outline) else as_outline(curve).rows[faces]
 
 
@@ -141,10 +142,12 @@ def _same(drawn: Arrangement, other: Arrangement) -> bool:
 
 def _draws(drawn: Arrangement, outline: Outline) -> bool:
     """Tell whether an arrangement is that of an outline."""
-    if drawn.outline is None or len(drawn.outline) != len(outline):
+    if drawn.outline is None:
         return False
-    number = _input_order(drawn)
-    return _alike(given_outline(drawn), outline, number)
+    left, kept = (outline, np.arange(len(outline))) if len(drawn.numbers) == len(outline) else without_spikes(outline)
+    if not np.array_equal(np.sort(drawn.numbers), kept):
+        return False
+    return _alike(given_outline(drawn), left, np.searchsorted(kept, drawn.numbers))
 
 
 def _alike(used: Outline, outline: Outline, number: Ints) -> bool:
@@ -156,12 +159,6 @@ def _alike(used: Outline, outline: Outline, number: Ints) -> bool:
     )
 
 
-def _input_order(drawn: Arrangement) -> Ints:
-    """Return the number that each point of the arrangement's outline has in the input."""
-    drawn_outline(drawn)
-    return drawn.numbers
-
-
 def _refined(immersion: Immersion, max_area: float) -> tuple[Floats, Ints]:
     """Triangulate with added points."""
     drawn = immersion.arrangement
@@ -169,22 +166,22 @@ def _refined(immersion: Immersion, max_area: float) -> tuple[Floats, Ints]:
         raise InputError(f"the largest area of a triangle must be a number, not {max_area!r}")
     refuse_max_area(drawn_outline(drawn).points, max_area)
     settled = settled_by_points(immersion)
-    points, number = _points_of_corners(given_outline(drawn), settled, _input_order(drawn))
+    points, number = _points_of_corners(given_outline(drawn), settled, drawn.numbers)
     # Flips alone would take quadratic time where triangles are long.
     round_triangles = delaunay_triangles(points[number], settled.faces)
     return _split_large(points, number[round_triangles], max_area)
 
 
-def _points_of_corners(given: Outline, settled: Settled, input_order: Ints) -> tuple[Floats, Ints]:
+def _points_of_corners(given: Outline, settled: Settled, numbers: Ints) -> tuple[Floats, Ints]:
     """Return the points of an outline in the order of the input, then those inside its edges at which it is cut.
 
-    Also the number of each corner among them.
+    Also the number of each corner among them. ``numbers`` are those of the points in the input.
     """
-    points = np.empty_like(given.points)
-    points[input_order] = given.points
+    order = np.argsort(numbers)
+    place = np.argsort(order)
     inside = settled.inside
-    number = np.where(inside, len(given) - 1 + np.cumsum(inside), input_order[settled.point])
-    return np.concatenate([points, given.points[settled.point[inside]]]), number
+    number = np.where(inside, len(given) - 1 + np.cumsum(inside), place[settled.point])
+    return np.concatenate([given.points[order], given.points[settled.point[inside]]]), number
 
 
 def _split_large(points: Floats, faces: Ints, max_area: float) -> tuple[Floats, Ints]:

@@ -11,7 +11,7 @@ from typing import Any, overload
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement, arrange, watched_arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrange, moved_inward, watched_arrangement
 from plyfold.clock import UNWATCHED, Clock, Watch
 from plyfold.errors import InputError, TimeLimitError
 from plyfold.immersion.contradiction import no_gluing
@@ -206,12 +206,15 @@ def _count(arranged: Arrangement, connected: bool, watch: Watch) -> int:
     return 0 if surfaces is None else count_surfaces(surfaces, connected, watch.begin("counting the immersions"))
 
 
-def bounds_disk(curve: OutlineLike) -> bool:
+def bounds_disk(curve: OutlineLike, touching: bool = True) -> bool:
     """Tell whether an outline is that of a disk of cloth laid flat on a table.
 
     Parameters
     ----------
     curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of curves
+    touching : bool, optional
+        Whether a disk may touch itself, in a point or along a strand that is walked twice: then the outline is a limit
+        of outlines of disks, though it may not be one itself.
 
     Returns
     -------
@@ -223,8 +226,11 @@ def bounds_disk(curve: OutlineLike) -> bool:
     --------
     >>> bounds_disk([(0, 0), (2, 2), (2, 0), (0, 2)])
     False
+    >>> two_triangles = [(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)]
+    >>> bounds_disk(two_triangles), bounds_disk(two_triangles, touching=False)
+    (True, False)
     """
-    arranged = arrange(curve)
+    arranged = arrange(curve) if touching else moved_inward(arrange(curve))
     return not is_visibly_no_disk(arranged) and find_disks(arranged) is not None
 
 
