@@ -306,3 +306,15 @@ def random_touching_with_cusps(
     for _ in range(index):
         cusps[int(rng.integers(len(polygon)))] += 1
     return polygon, cusps
+
+
+def random_touching_loops(rng: np.random.Generator) -> list[list[tuple[int, int]]]:
+    """Two or three loops on a small grid without spikes; often a square, so that something may be bounded."""
+    size, loops = int(rng.integers(3, 6)), []
+    if rng.random() < 0.8:
+        loops.append([(0, 0), (size - 1, 0), (size - 1, size - 1), (0, size - 1)])
+    count = int(rng.integers(2, 4))
+    while len(loops) < count:
+        loop = grid_points(rng, size, int(rng.integers(3, 6)))
+        loops += [loop] if any(turns(loop, times) for times in (-1, 1)) else []
+    return loops
