@@ -28,6 +28,7 @@ __all__ = [
     "offer_in_words",
     "repair_lines",
     "surface_in_words",
+    "touches_of",
     "verdict",
     "words",
 ]
@@ -230,14 +231,21 @@ def _surface(immersion: Immersion) -> dict[str, Any]:
     ]
     return {
         "surface": surface_in_words(immersion.pieces),
-        "touches": _touches(immersion),
+        "touches": touches_of(immersion),
         "pieces": pieces,
         "euler_characteristic": immersion.euler_characteristic,
         "sheets": immersion.n_sheets,
     }
 
 
-def _touches(immersion: Immersion) -> list[list[float]]:
+def touches_of(immersion: Immersion) -> list[list[float]]:
+    """Return where a surface touches itself; nothing, if the outline also bounds a surface in the strict sense.
+
+    Examples
+    --------
+    >>> touches_of(find_immersion([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)]))
+    [[1.0, 1.0]]
+    """
     if not immersion.touches or find_immersion(moved_inward(immersion.arrangement)):
         return []
     return [list(place) for place in immersion.touches]

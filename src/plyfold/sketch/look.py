@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import asdict
 from hashlib import blake2s
 from time import perf_counter
@@ -11,14 +12,15 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.gauss import GaussCode
+from plyfold.arrangement.noding import node_outline
 from plyfold.draw.placement import border_line, cusps_drawn, label_circle, outer_ring_first
 from plyfold.immersion.blank_word import blank_word
 from plyfold.immersion.immersion import Immersion
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.offers.kinks import Kink, find_kink
-from plyfold.outline.curve import Curve
+from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.direction import even_odd_directions, sense
-from plyfold.report import A_DISK, Words, surface_in_words, words
+from plyfold.report import A_DISK, Words, surface_in_words, touches_of, words
 from plyfold.sketch.drawings import arranged, first_immersion, immersion_count
 from plyfold.sketch.schema import VERSION, Look
 
@@ -27,7 +29,7 @@ __all__ = ["look_at"]
 _LONGEST_WORD = 60
 _LABEL_TOLERANCE = 0.02
 _MOST_TURNS_OFFERED = 3
-_NOTHING_WRONG: dict[str, Any] = {"reason": None, "where": [], "kink": None, "cusps_may_help": False}
+_NOTHING_WRONG: dict[str, Any] = {"reason": None, "where": [], "touches": [], "kink": None, "cusps_may_help": False}
 
 
 def look_at(question: Look) -> dict[str, Any]:
@@ -56,19 +58,22 @@ def look_at(question: Look) -> dict[str, Any]:
     """
     began = perf_counter()
     drawn = arranged(question.strokes)
-    outline = drawn.outline
+    outline, given = drawn.outline, drawn.given
     assert outline is not None
+    assert given is not None
     return {
         "version": VERSION,
-        "loops": [_loop(curve) for curve in outline.curves],
+        "loops": [_loop(curve) for curve in given.curves],
         "cusps": _cusps(drawn),
         "repairs": [{"kind": r.kind, "where": list(r.where), "size": r.size} for r in outline.repairs],
+        "contacts": _contacts(drawn, given),
         "reversed": drawn.reversed,
         "turning_numbers": list(drawn.turning_numbers),
         "crossings": drawn.crossings.tolist(),
         "borders": [_border(drawn, border) for border in range(drawn.n_borders)],
         "visits": np.stack([drawn.border_before, drawn.border_after], axis=1).tolist(),
         "cells": [_cell(drawn, cell) for cell in range(1, drawn.n_cells)],
+        "cells_by_winding": _cells_by_winding(drawn, given),
         "verdict": _verdict(question, drawn),
         "code": _code(drawn),
         **_texts(drawn),
@@ -87,6 +92,17 @@ def _loop(curve: Curve) -> dict[str, Any]:
 def _cusps(drawn: Arrangement) -> list[dict[str, Any]]:
     places, indices = cusps_drawn(drawn)
     return [{"where": place, "index": index} for place, index in zip(places.tolist(), indices, strict=True)]
+
+
+def _contacts(drawn: Arrangement, given: Outline) -> list[list[float]]:
+    """Return the places of points that lie on other edges or on each other, each once, from left to right."""
+    return [[x, y] for x, y in np.unique(given.points[drawn.contacts], axis=0).tolist()]
+
+
+def _cells_by_winding(drawn: Arrangement, given: Outline) -> list[list[int]]:
+    """Return how many cells of the drawing have each winding number; those that only moves make do not count."""
+    winding = drawn.winding if given is drawn.outline else node_outline(given).winding
+    return [[number, count] for number, count in sorted(Counter(winding[1:].tolist()).items())]
 
 
 def _border(drawn: Arrangement, border: int) -> list[list[float]]:
@@ -137,11 +153,12 @@ def _undecided(unknown: Unknown) -> dict[str, Any]:
 
 
 def _immersed(question: Look, found: Immersion) -> dict[str, Any]:
-    count = immersion_count(question.strokes)
+    count, touches = immersion_count(question.strokes), touches_of(found)
     return {
         "immersible": True,
         "immersions": None if count is None else str(count),
-        **asdict(words(count, surface=surface_in_words(found.pieces))),
+        "touches": touches,
+        **asdict(words(count, surface=surface_in_words(found.pieces), touches=bool(touches))),
     }
 
 

@@ -12,6 +12,7 @@ from typing import Any, NoReturn, TypeAlias, TypeVar, cast
 from plyfold.errors import InputError
 
 __all__ = [
+    "DOCUMENT_VERSION",
     "MOST_BYTES",
     "MOST_POINTS",
     "VERSION",
@@ -30,7 +31,10 @@ __all__ = [
     "read_question",
 ]
 
-VERSION = 2
+VERSION = 3
+"""Of questions and answers."""
+DOCUMENT_VERSION = 2
+"""Of what is kept, shared and put into files: documents of versions before it open, too."""
 MOST_BYTES = 16 * 2**20
 MOST_POINTS = 50_000
 _MOST_TRIANGLES = 200_000
@@ -171,7 +175,7 @@ def read_question(kind: type[Q], data: Any) -> Q:
 
     Examples
     --------
-    >>> read_question(Look, {"version": 2, "points": [[0, 0], [1, 0], [0, 1]]}).strokes[0].closed
+    >>> read_question(Look, {"version": 3, "points": [[0, 0], [1, 0], [0, 1]]}).strokes[0].closed
     True
     """
     question = _object(data, "the question")
@@ -195,8 +199,10 @@ def read_document(data: Any) -> Document:
     """
     document = _object(data, "the document")
     version = document.get("plyfold")
-    if isinstance(version, bool) or version not in range(1, VERSION + 1):
-        _refuse(f"the document has the version {version!r}, and this is {VERSION}", "open it with a newer plyfold")
+    if isinstance(version, bool) or version not in range(1, DOCUMENT_VERSION + 1):
+        _refuse(
+            f"the document has the version {version!r}, and this is {DOCUMENT_VERSION}", "open it with a newer plyfold"
+        )
     strokes = _strokes(document.get("strokes"), "document.strokes")
     return Document(strokes, _image(document.get("image")), _view(document.get("view", {})))
 
@@ -211,7 +217,7 @@ def document_data(document: Document) -> dict[str, Any]:
     """
     image = document.image
     return {
-        "plyfold": VERSION,
+        "plyfold": DOCUMENT_VERSION,
         "strokes": [_stroke_data(stroke) for stroke in document.strokes],
         "image": image and {"href": image.href, "place": image.place and list(image.place), "opacity": image.opacity},
         "view": dict(document.view),

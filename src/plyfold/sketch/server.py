@@ -24,7 +24,7 @@ from plyfold.sketch.workers import Question, Workers
 
 __all__ = ["SketchServer", "objection"]
 
-_API = "/api/v2/"
+_API = "/api/v3/"
 _SECONDS = {"gallery": 20.0, "look": 20.0, "cusps": 20.0, "lie": 20.0, "surface": 60.0, "export": 120.0, "open": 30.0}
 _ASKED = ("look", "cusps", "lie", "surface", "export", "open")
 _SUPERSEDING = ("look", "cusps", "lie", "surface")

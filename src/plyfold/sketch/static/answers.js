@@ -2,9 +2,11 @@
 // is no surface, whether cusps would help. The newest drawing wins: whatever is still on its way for an older one is
 // cancelled.
 
-import { VERSION } from "./document.js";
 import { errorShown, isAnswered, shown } from "./store.js";
 
+/** Of what page and server say to each other: PROTOCOL.md. */
+export const PROTOCOL = 3;
+export const addressOf = (question) => `/api/v${PROTOCOL}/${question}`;
 const PAGE = crypto.getRandomValues(new Uint32Array(2)).join("-");
 const TRIANGLES = 3000;
 const NO_SURFACE = "There is no surface with this outline.";
@@ -19,7 +21,7 @@ const AWAY = { kind: "away", where: [], hint: "start plyfold sketch again; the d
 export async function ask(question, body, signal) {
   try {
     const headers = { "Content-Type": "application/json", "X-Plyfold-Page": PAGE };
-    const response = await fetch(`/api/v2/${question}`, { method: "POST", headers, body: JSON.stringify({ version: VERSION, ...body }), signal });
+    const response = await fetch(addressOf(question), { method: "POST", headers, body: JSON.stringify({ version: PROTOCOL, ...body }), signal });
     const answer = await response.json();
     if (answer.error?.kind !== "superseded") return answer;
     return signal && !signal.aborted ? ask(question, body, signal) : null;
@@ -67,15 +69,15 @@ async function look(store, question, signal) {
 }
 
 async function offer(store, question, signal) {
-  const found = await question("cusps", { loops: store.state.answer.loops }, signal);
+  const found = await question("cusps", { strokes: store.state.answered.strokes }, signal);
   if (found && !signal.aborted) store.set({ offer: found, asking: false });
 }
 
 async function lie(store, question, signal) {
-  const { answer, immersion, layering, lie: former } = store.state;
+  const { answer, answered, immersion, layering, lie: former } = store.state;
   if (!answer?.loops) return;
   const before = former && former.immersion !== immersion ? former.immersion : null;
-  const found = await question("lie", { loops: answer.loops, immersion, layering, before }, signal);
+  const found = await question("lie", { strokes: answered.strokes, immersion, layering, before }, signal);
   if (!found || signal.aborted) return;
   if (found.error) {
     store.set({ lie: null, mesh: null, unlifted: found.error.sentence, asking: false });
@@ -86,9 +88,9 @@ async function lie(store, question, signal) {
 }
 
 async function lift(store, question, signal) {
-  const { answer, lie: found, immersion, layering, gap } = store.state;
+  const { answered, lie: found, immersion, layering, gap } = store.state;
   if (!found?.sheets) return store.set({ asking: false });
-  const body = { loops: answer.loops, immersion, layering, gap, triangles: TRIANGLES, allow_intersections: found.layerable === false };
+  const body = { strokes: answered.strokes, immersion, layering, gap, triangles: TRIANGLES, allow_intersections: found.layerable === false };
   const lifted = await question("surface", body, signal);
   if (!lifted || signal.aborted) return undefined;
   const unlifted = (found.obstruction ?? lifted.obstruction ?? lifted.error)?.sentence ?? null;

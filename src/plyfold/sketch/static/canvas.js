@@ -6,7 +6,7 @@ import { joins } from "./document.js";
 import { distance, middle, minus } from "./geometry.js";
 import { hoverAt } from "./hover.js";
 import { paint } from "./painting.js";
-import { answerShown, errorShown, lieShown, offerShown, shown, smallKink } from "./store.js";
+import { answerShown, errorShown, lieShown, offerShown, shown, smallKink, touchesShown } from "./store.js";
 import { TOOLS, cancel } from "./tools.js";
 
 const REACH = { mouse: 9, pen: 12, touch: 20 };
@@ -49,6 +49,7 @@ function pictureOf({ store, size }, theme, image) {
   return {
     size: size(), camera, theme, document, image, tool, path, selected, cursor, hover, snap, answer, lie: lieShown(state),
     kink: smallKink(state),
+    touches: touchesShown(state),
     offered: offerShown(state)?.cusps ?? [],
     joins: answer ? joins(document.strokes, answer.repairs) : [],
     openEnds: errorShown(state)?.where ?? [],

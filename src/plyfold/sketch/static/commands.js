@@ -1,12 +1,12 @@
 // What can be done to the page: small steps that actions, tools and dialogs share. Each takes the page,
 // {store, size(), question(), place, former, writing}, and changes its store.
 
-import { SILENT, ask } from "./answers.js";
+import { PROTOCOL, SILENT, addressOf, ask } from "./answers.js";
 import { fitted } from "./camera.js";
 import { crossingCode } from "./crossings.js";
 import { indexAt, nextIndex } from "./cusps.js";
 import {
-  EMPTY, VERSION, addStroke, allPoints, ends, isEmpty, joins, markCusp, paths, reversed, rounded, vertexAt, withImage, withTurned,
+  EMPTY, addStroke, allPoints, ends, isEmpty, joins, markCusp, paths, reversed, rounded, vertexAt, withImage, withTurned,
 } from "./document.js";
 import { begin, record, redo, undo } from "./history.js";
 import { complete, keepNewPicture, save, settingsOf, whole } from "./keeping.js";
@@ -163,7 +163,7 @@ export function fit({ store, size }) {
 /** Open a file that was chosen or dropped. */
 export async function openFile(page, file) {
   const headers = { "X-File-Name": encodeURIComponent(file.name), "X-Plyfold-Page": "open" };
-  const response = await fetch("/api/v2/open", { method: "POST", headers, body: file }).catch(() => null);
+  const response = await fetch(addressOf("open"), { method: "POST", headers, body: file }).catch(() => null);
   const answer = await response?.json();
   if (!answer || answer.error) return tell(page, answer?.error.sentence ?? SILENT);
   const { document: { strokes, image } } = answer;
@@ -219,8 +219,8 @@ export const copy = (text) => navigator.clipboard.writeText(text).then(() => tru
 export async function exportAs(page, format) {
   const { immersion, layering, gap } = page.store.state;
   tell(page, `Writing ${format.toUpperCase()} …`);
-  const body = JSON.stringify({ version: VERSION, document: complete(page), format, immersion, layering, gap });
-  const response = await fetch("/api/v2/export", { method: "POST", headers: { "Content-Type": "application/json" }, body }).catch(() => null);
+  const body = JSON.stringify({ version: PROTOCOL, document: complete(page), format, immersion, layering, gap });
+  const response = await fetch(addressOf("export"), { method: "POST", headers: { "Content-Type": "application/json" }, body }).catch(() => null);
   if (!response?.ok || response.headers.get("Content-Disposition") === null) {
     const answer = await response?.json().catch(() => null);
     return tell(page, answer?.error?.sentence ?? SILENT);

@@ -1,7 +1,7 @@
 // The page put together: the store, the answers, the pictures, the keys, and the drawing that it begins with.
 
 import { actionNamed } from "./actions.js";
-import { followAnswers } from "./answers.js";
+import { addressOf, followAnswers } from "./answers.js";
 import { button, fillButtons, listenToKeys } from "./buttons.js";
 import { createCanvas } from "./canvas.js";
 import { copy, finishPath, fit, openDrawing, openFile, openShapes, tell } from "./commands.js";
@@ -68,7 +68,7 @@ async function restore() {
   if (hasDrawing(location.hash)) return openLink();
   if (sessionStorage.getItem("plyfold.started")) return undefined;
   sessionStorage.setItem("plyfold.started", "yes");
-  const given = await fetch("/api/v2/start").then((response) => response.json()).catch(() => ({}));
+  const given = await fetch(addressOf("start")).then((response) => response.json()).catch(() => ({}));
   return given.document && openShapes(page, given);
 }
 

@@ -3,6 +3,7 @@
  *
  * picture = {size: {width, height}, camera, theme, document, joins: [[a, b]..], openEnds: [[x, y]..],
  *            answer: to `look` or null, lie: to `lie` or null,           both about this very document
+ *            touches: [[x, y]..],                                        where the surface touches itself
  *            offered: [{where, index}..],                                cusps that would help
  *            tool, path: points being placed, next: where the next one would be, selected: {stroke, vertex},
  *            cursor: [x, y] of the keyboard, hover: {cell, sheets, border}, kink: small or null, snap, image: loaded picture or null}
@@ -13,6 +14,7 @@ import { toDrawing, toScreen } from "./camera.js";
 import { onWinding, sheetColour, windingColour } from "./colours.js";
 import { allCusps } from "./document.js";
 import { distance } from "./geometry.js";
+import { SPIKE } from "./notes.js";
 
 const TURN = 2 * Math.PI;
 const SPACING = 22;
@@ -143,6 +145,9 @@ function paintAnswer(scene) {
   scene.kink?.lobes.forEach((lobe) => line(scene, lobe, { closed: true, colour: theme.wrong, width: 4 }));
   answer.crossings.forEach((place) => paintDot(scene, place, 3, theme.accent));
   answer.cells.forEach((cell) => paintNumber(scene, cell));
+  answer.repairs.filter(({ kind }) => kind === SPIKE).forEach((spike) => paintRing(scene, spike.where, [3, 4]));
+  answer.contacts.forEach((place) => paintDiamond(scene, place, 4.5, theme.paper, theme.ink));
+  scene.touches.forEach((place) => paintDiamond(scene, place, 8, theme.touch, theme.paper));
   [...where, ...(lie?.obstruction?.where ?? [])].forEach((place) => paintCross(scene, place));
 }
 
@@ -219,11 +224,21 @@ function paintCross(scene, place) {
   }
 }
 
-function paintRing({ context, theme, at }, place) {
+function paintRing({ context, theme, at }, place, dash = []) {
   context.beginPath();
   context.arc(...at(place), 8, 0, TURN);
-  Object.assign(context, { lineWidth: 2.5, strokeStyle: theme.accent });
-  context.stroke();
+  stroke({ context }, { colour: theme.accent, dash });
+}
+
+/** A contact, large and filled where the surface touches itself: its shape tells it from crossings and cusps. */
+function paintDiamond({ context, at }, place, radius, ground, rim) {
+  const [x, y] = at(place);
+  context.beginPath();
+  [[radius, 0], [0, radius], [-radius, 0], [0, -radius]].forEach(([right, down]) => context.lineTo(x + right, y + down));
+  context.closePath();
+  context.fillStyle = ground;
+  context.fill();
+  stroke({ context }, { colour: rim, width: 1.6 });
 }
 
 function paintVertices(scene) {

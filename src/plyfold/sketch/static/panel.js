@@ -4,8 +4,9 @@ import { actionNamed } from "./actions.js";
 import { SILENT } from "./answers.js";
 import { button } from "./buttons.js";
 import { isEmpty } from "./document.js";
+import { notesOf, spikesNote } from "./notes.js";
+import { answerShown, errorShown, lieShown, offerShown, shown, touchesShown } from "./store.js";
 import { counted } from "./wording.js";
-import { answerShown, errorShown, lieShown, offerShown, shown } from "./store.js";
 
 const HEADLINES = { unfinished: "Not a loop yet", away: SILENT };
 const LONGEST = 600;
@@ -21,9 +22,15 @@ export function verdictOf(state) {
   const answer = answerShown(state);
   if (!answer) return null;
   const lie = lieShown(state);
-  const kind = answer.verdict.immersible ? (lie?.obstruction ? "unlifted" : "yes") : "no";
+  const kind = kindOf(answer.verdict, lie, touchesShown(state));
   const { headline, sentence } = (lie ?? answer).verdict;
-  return { kind, headline, sentence: [sentence, offerShown(state)?.sentence].filter(Boolean).join(" ") };
+  return { kind, headline, sentence: [sentence, spikesNote(answer), offerShown(state)?.sentence].filter(Boolean).join(" ") };
+}
+
+function kindOf({ immersible }, lie, touches) {
+  if (!immersible) return immersible === null ? "undecided" : "no";
+  if (lie?.obstruction) return "unlifted";
+  return touches.length ? "touching" : "yes";
 }
 
 export function figuresOf(state) {
@@ -35,15 +42,17 @@ export function figuresOf(state) {
     ["crossings", String(answer.crossings.length)],
     ...(answer.cusps.length ? [["cusps", counted(answer.cusps.map(({ index }) => `index ${index}`))]] : []),
     turningOf(answer),
-    ["cells by winding number", windings(answer.cells)],
+    ["cells by winding number", windings(answer.cells_by_winding)],
     ...answer.verdict.figures,
     ["immersions", answer.verdict.immersions === null ? "more than could be counted" : grouped(answer.verdict.immersions)],
   ];
+  const touches = touchesShown(state);
+  if (touches.length) rows.push(["touches itself at", touches.map((place) => `(${place.map(rounded).join(", ")})`).join(", ")]);
+  const notes = notesOf(answer);
+  if (notes) rows.push(["notes", notes]);
   if (lie?.levels) rows.push(["levels", String(Math.max(...lie.levels))]);
   if (answer.gauss) rows.push(["Gauss code", answer.gauss]);
   if (answer.word) rows.push(["Blank's word", answer.word]);
-  const repairs = answer.repairs.filter(({ kind }) => kind !== "gap bridged");
-  if (repairs.length) rows.push(["repairs", counted(repairs.map(({ kind }) => kind))]);
   return rows;
 }
 
@@ -52,16 +61,13 @@ function turningOf({ turning_numbers: numbers, reversed: wasTurned }) {
   return ["turning number", minus(numbers[0]) + (wasTurned ? " (drawn clockwise)" : "")];
 }
 
+const rounded = (number) => minus(Number(number.toPrecision(6)));
 const minus = (number) => String(number).replace("-", "−");
 
 /** As much of a long code as is read; the copy has the whole. */
 const readable = (value) => (value.length > LONGEST ? `${value.slice(0, LONGEST)} …` : value);
 
-function windings(cells) {
-  const counts = new Map();
-  for (const { winding } of cells) counts.set(winding, (counts.get(winding) ?? 0) + 1);
-  return [...counts].sort(([a], [b]) => a - b).map(([winding, count]) => `${count} with ${winding}`.replace("-", "−")).join(", ");
-}
+const windings = (counts) => counts.map(([winding, count]) => `${count} with ${winding}`.replace("-", "−")).join(", ");
 
 /** The answers as text, one to a line. */
 export function answersAsText(state) {

@@ -79,6 +79,9 @@ export function smallKink(state) {
 /** How the cloth lies, if that is about what is seen. */
 export const lieShown = (state) => (answerShown(state) && state.lie?.sheets ? state.lie : null);
 
+/** Where the surface that is seen touches itself. */
+export const touchesShown = (state) => lieShown(state)?.touches ?? answerShown(state)?.verdict.touches ?? [];
+
 /** The cusps that would help, if that is about what is seen. */
 export const offerShown = (state) => (answerShown(state) && state.offer?.cusps?.length ? state.offer : null);
 
