@@ -64,6 +64,8 @@ def test_public_names():
         "nicest_layering",
         "paper",
         "read",
+        "ribbon",
+        "ribbon_layering",
         "sample_immersion",
         "save",
         "suggest_cusps",

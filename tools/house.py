@@ -70,6 +70,7 @@ SAME_THINGS = {
     "Signs": "certify shares nothing with what it checks",
     "find_immersion": "the exact one, and that of the paper as pf.paper.find_immersion",
     "find_layering": "the exact one, and that of the paper as pf.paper.find_layering",
+    "ribbon": "a line with a width, and one whose normals are guessed from its points as pf.gallery.ribbon",
     "save": "an outline, and a figure as pf.draw.save",
 }
 

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from plyfold.arrangement.arrangement import Arrangement, moved_inward
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.errors import TimeLimitError
 from plyfold.immersion.immersion import Immersion, Piece
 from plyfold.immersion.obstructions import may_bound_disk
-from plyfold.immersion.solve import count_immersions, find_immersion, immersions
+from plyfold.immersion.solve import bounds_strictly, count_immersions, find_immersion, immersions
 from plyfold.io.cusp_notation import CuspMark, cusp_marks, written_cusp
 from plyfold.layering.embedding import find_embedding
 from plyfold.layering.orders.search import first_layering
@@ -246,7 +246,7 @@ def touches_of(immersion: Immersion) -> list[list[float]]:
     >>> touches_of(find_immersion([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)]))
     [[1.0, 1.0]]
     """
-    if not immersion.touches or find_immersion(moved_inward(immersion.arrangement)):
+    if not immersion.touches or bounds_strictly(immersion.arrangement):
         return []
     return [list(place) for place in immersion.touches]
 

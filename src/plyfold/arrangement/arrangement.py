@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -14,6 +14,7 @@ import numpy.typing as npt
 from plyfold.arrangement.drawn import DrawnMap, drawn_map
 from plyfold.arrangement.general_position import (
     in_general_position,
+    number_of_ways,
     separated,
     touching_points,
 )
@@ -40,7 +41,7 @@ from plyfold.graphs import components
 from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.given import Coded, CurveLike, OutlineLike, are_several, as_outline
 
-__all__ = ["Arrangement", "CurveLike", "arrange", "moved_inward", "require_one_loop", "watched_arrangement"]
+__all__ = ["Arrangement", "CurveLike", "arrange", "require_one_loop", "watched_arrangement", "ways_apart"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -561,22 +562,33 @@ def watched_arrangement(curve: OutlineLike, general_position: Literal["perturb",
     return Arrangement._of_drawing(drawn_map(placed, watch))
 
 
-def moved_inward(arranged: Arrangement) -> Arrangement:
-    """Return the arrangement of the same outline with the points in contact moved inward, in place of outward.
+def ways_apart(arranged: Arrangement, inward: bool = False) -> Iterator[Arrangement]:
+    """Yield arrangements of the same outline with the points in contact moved apart in all ways that matter.
 
-    It bounds a surface just when the outline as given does in the strict sense: with all angles as one sees them. An
-    arrangement without contacts is returned as it is.
+    That is one, mostly; several if cusps lie on each other. An outline without contacts is arranged in one way.
+
+    Parameters
+    ----------
+    arranged : Arrangement
+    inward : bool, optional
+        Move points inward, in place of outward. Then there is a surface just when the outline as given bounds one in
+        the strict sense: with all angles as one sees them.
 
     Examples
     --------
     >>> pinched = arrange([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)])
-    >>> pinched.winding.tolist(), moved_inward(pinched).winding.tolist()
-    ([0, 1], [0, -1, 1, 1])
+    >>> [way.winding.tolist() for inward in (False, True) for way in ways_apart(pinched, inward)]
+    [[0, 1], [0, -1, 1, 1]]
     """
-    if arranged.given is None or len(arranged.contacts) == 0:
-        return arranged
-    placed = replace(separated(arranged.given, -1), numbers=arranged.numbers, turned_round=arranged.reversed)
-    return Arrangement._of_drawing(drawn_map(placed, UNWATCHED))
+    has_contacts = arranged.given is not None and len(arranged.contacts) > 0
+    if not (inward and has_contacts):
+        yield arranged
+    if arranged.given is None or not has_contacts:
+        return
+    for way in range(0 if inward else 1, number_of_ways(arranged.given)):
+        placed = separated(arranged.given, -1 if inward else 1, way=way)
+        placed = replace(placed, numbers=arranged.numbers, turned_round=arranged.reversed)
+        yield Arrangement._of_drawing(drawn_map(placed, UNWATCHED))
 
 
 def require_one_loop(arranged: Arrangement, what: str = "this") -> None:

@@ -13,6 +13,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from plyfold.arrangement.crossings import Contacts, Visits
+from plyfold.arrangement.crowded_cusps import crowded_cusps, lie_inside
 from plyfold.arrangement.infinitesimal import (
     MovingPoints,
     begin_to_move,
@@ -31,7 +32,7 @@ from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GeneralPositionError, InputError
 from plyfold.outline.curve import Outline, Repair, backward_numbers, outline_of_points
 
-__all__ = ["GeneralPosition", "in_general_position", "separated", "touching_points"]
+__all__ = ["GeneralPosition", "in_general_position", "number_of_ways", "separated", "touching_points"]
 
 # Sizes of moves as fractions of the drawing's: smaller ones where strands crowd.
 _STEPS = [2.0**-exponent for exponent in range(20, 49, 4)]
@@ -167,7 +168,15 @@ class _Touching(NamedTuple):
     watch: Watch
 
 
-def separated(given: Outline, sense: int, watch: Watch = UNWATCHED) -> GeneralPosition:
+class _Moves(NamedTuple):
+    """Points that move right of their edges, or left; and others, with the vectors along which they go."""
+
+    points: Ints
+    others: Ints
+    vectors: Floats
+
+
+def separated(given: Outline, sense: int, watch: Watch = UNWATCHED, way: int = 0) -> GeneralPosition:
     """Return an outline with its points in contact moved outward (``sense`` 1) or inward (−1), as little as need be.
 
     Parameters
@@ -176,20 +185,22 @@ def separated(given: Outline, sense: int, watch: Watch = UNWATCHED) -> GeneralPo
         Without spikes, and with the surface on its left.
     sense : int
     watch : Watch, optional
+    way : int, optional
+        Which one to take of several ways, if there are some: from 0 up to :func:`number_of_ways`.
 
     Notes
     -----
     Where three edges meet inside all of them, whichever way they part will do; so their ends move, too.
     """
     touching = _Touching(given, meetings(_joined(given), watch), sense, watch)
-    stays, movers = _points_to_move(given, touching.contacts)
+    stays, moves = _points_to_move(given, touching.contacts, way)
     scatter = 0
     while scatter < _ATTEMPTS:
-        found = _moved(touching, movers, sense * outward_vectors(given, movers, scatter))
+        found = _moved(touching, moves, scatter)
         if isinstance(found, GeneralPosition):
             return found
-        more = np.setdiff1d(np.concatenate([found, given.next_point[found]]), np.concatenate([stays, movers]))
-        movers, scatter = np.union1d(movers, more), scatter + (len(more) == 0)
+        more = np.setdiff1d(np.concatenate([found, given.next_point[found]]), np.concatenate([stays, moves.points]))
+        moves, scatter = moves._replace(points=np.union1d(moves.points, more)), scatter + (len(more) == 0)
     raise GeneralPositionError(
         "strands touch or overlap, and are too crowded to be moved apart",
         where=_places(given, touching.contacts, visits_along(_joined(given), touching.contacts)),
@@ -197,31 +208,38 @@ def separated(given: Outline, sense: int, watch: Watch = UNWATCHED) -> GeneralPo
     )
 
 
-def _points_to_move(given: Outline, contacts: Contacts) -> tuple[Ints, Ints]:
-    """Return the points in contact that stay, for they are cusps; and those that move.
+def number_of_ways(given: Outline) -> int:
+    """Return in how many ways touching points may move: 1, but where cusps lie on each other."""
+    return crowded_cusps(given, meetings(_joined(given))).n_ways if given.has_cusps else 1
 
-    These are all others in contact, and the ends of edges on which cusps lie: then the edge moves outward, too.
+
+def _points_to_move(given: Outline, contacts: Contacts, way: int) -> tuple[Ints, _Moves]:
+    """Return the points in contact that do not move outward, for they are cusps; and the moves.
+
+    All other points in contact move, and the ends of edges on which cusps lie: then these edges move outward, too.
     """
     vertex, edge = contacts.touches.T
     is_cusp = np.concatenate(given.cusps) > 0
     touching = np.unique(vertex)
     stays = touching[is_cusp[touching]]
-    ends = np.stack([edge, given.next_point[edge]])
-    inside = (given.points[vertex] != given.points[ends]).any(axis=2).all(axis=0)
-    moved_edges = ends[:, is_cusp[vertex] & inside].ravel()
-    return stays, np.setdiff1d(np.concatenate([touching, moved_edges]), stays)
+    edges = edge[is_cusp[vertex] & lie_inside(given, contacts)]
+    points = np.setdiff1d(np.concatenate([touching, edges, given.next_point[edges]]), stays)
+    crowded = crowded_cusps(given, contacts)
+    return stays, _Moves(points, crowded.points, crowded.way(way))
 
 
-def _moved(touching: _Touching, movers: Ints, vectors: Floats) -> GeneralPosition | Ints:
+def _moved(touching: _Touching, moves: _Moves, scatter: int) -> GeneralPosition | Ints:
     """Return the outline with some points moved as little as need be, or the edges that stay together if they move so.
 
     No edges, if doubles do not show at any size of the move what is true of infinitely small ones.
     """
-    given = touching.given
+    given, sense = touching.given, touching.sense
+    vectors = sense * outward_vectors(given, moves.points, scatter)
     for step in _steps(given.points):
         points = given.points.copy()
-        points[movers] += step * vectors
-        if not are_moved(given, movers, points[movers], touching.sense).all():
+        points[moves.points] += step * vectors
+        points[moves.others] += step * moves.vectors
+        if not are_moved(given, moves.points, points[moves.points], sense).all():
             continue
         found = _shown(touching, points)
         if isinstance(found, GeneralPosition) or len(found):

@@ -45,6 +45,7 @@ __all__ = [
     "constrained",
     "drawn_outline",
     "given_outline",
+    "is_moved",
     "left_of_chain",
     "noded_curve",
     "planar_mesh",
@@ -389,6 +390,11 @@ def given_outline(arrangement: Arrangement) -> Outline:
     """Return the outline of a drawing with its points where they were given; refuse a Gauss code."""
     drawn = drawn_outline(arrangement)
     return drawn if arrangement.given is None else arrangement.given
+
+
+def is_moved(arrangement: Arrangement) -> bool:
+    """Tell whether points of a drawing were moved apart."""
+    return not np.array_equal(given_outline(arrangement).points, drawn_outline(arrangement).points)
 
 
 def noded_curve(arrangement: Arrangement) -> NodedCurve:
