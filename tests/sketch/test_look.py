@@ -247,12 +247,6 @@ def test_a_point_that_cannot_be_a_cusp_is_refused_with_the_reason():
     assert "2 sheets" in verdict["sentence"]
 
 
-def test_cusps_may_help_where_the_outline_turns_too_often():
-    assert asked(LIMACON)["verdict"]["cusps_may_help"]
-    assert not asked(CURVES["figure-eight"].curve.points.tolist())["verdict"]["cusps_may_help"]
-    assert not loops(9 * SQUARE, 3 * SQUARE[::-1])["verdict"]["cusps_may_help"]
-
-
 # ---- outlines that touch themselves ----------------------------------------------------------------------------------
 
 PINCHED = [[0, 0], [4, 0], [2, 2], [4, 4], [0, 4], [2, 2]]
@@ -297,21 +291,7 @@ def test_without_contacts_cells_are_counted_as_they_are(named):
     assert dict(answer["cells_by_winding"]) == Counter(cell["winding"] for cell in answer["cells"])
 
 
-# ---- kinks -----------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("name", ["figure-eight", "limacon", "kinked-circle"])
-def test_without_its_kink_the_loop_is_a_disk(name):
-    answer = asked(CURVES[name].curve.points.tolist())
-    kink = answer["verdict"]["kink"]
-    assert len(kink["where"]) == len(kink["lobes"]) == (2 if name == "kinked-circle" else 1)
-    for where, lobe in zip(kink["where"], kink["lobes"], strict=True):
-        assert where in answer["crossings"]
-        assert lobe[0] == where
-        assert where in kink["points"]
-    assert asked(kink["points"])["verdict"]["immersible"]
-    kept = {tuple(p) for p in kink["points"]} | {tuple(p) for lobe in kink["lobes"] for p in lobe}
-    assert {tuple(p) for p in points_of(answer)} <= kept
+# ---- where it is wrong -----------------------------------------------------------------------------------------------
 
 
 def test_a_wrong_turning_number_has_a_place(named):

@@ -120,8 +120,9 @@ def test_a_cusp_is_marked_by_clicks_and_refused_with_the_reason(sketch):
 
 def test_cusps_are_offered_marked_and_undone_and_go_with_the_link(sketch):
     limacon(sketch)
+    sketch.hover("text=A cusp here")
     sketch.wait_for_function("() => document.getElementById('sentence').textContent.includes('with a cusp as shown')")
-    sketch.click("text=Mark the cusp")
+    sketch.click("text=A cusp here")
     verdict(sketch, DISK)
     assert cusps(sketch) == [[1]]
     sketch.keyboard.press("Control+z")

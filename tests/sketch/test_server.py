@@ -45,8 +45,8 @@ def test_a_ramp_is_a_disk(server):
 
 
 def test_every_answer_says_its_version(server):
-    for name in ("look", "lie", "surface"):
-        assert server.post(name, {"points": RAMP, "triangles": 200}).data["version"] == 3
+    for name in ("look", "offers", "ribbon", "lie", "surface"):
+        assert server.post(name, {"points": RAMP, "width": 1, "triangles": 200}).data["version"] == 3
     for name in ("gallery", "start"):
         assert server.get(f"/api/v3/{name}").data["version"] == 3
 

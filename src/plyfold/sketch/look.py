@@ -17,19 +17,18 @@ from plyfold.draw.placement import border_line, cusps_drawn, label_circle, outer
 from plyfold.immersion.blank_word import blank_word
 from plyfold.immersion.immersion import Immersion
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.offers.kinks import Kink, find_kink
-from plyfold.outline.curve import Curve, Outline
+from plyfold.outline.curve import Outline
 from plyfold.outline.direction import even_odd_directions, sense
 from plyfold.report import A_DISK, Words, surface_in_words, touches_of, words
 from plyfold.sketch.drawings import arranged, first_immersion, immersion_count
+from plyfold.sketch.offering import loop_data
 from plyfold.sketch.schema import VERSION, Look
 
 __all__ = ["look_at"]
 
 _LONGEST_WORD = 60
 _LABEL_TOLERANCE = 0.02
-_MOST_TURNS_OFFERED = 3
-_NOTHING_WRONG: dict[str, Any] = {"reason": None, "where": [], "touches": [], "kink": None, "cusps_may_help": False}
+_NOTHING_WRONG: dict[str, Any] = {"reason": None, "where": [], "touches": []}
 
 
 def look_at(question: Look) -> dict[str, Any]:
@@ -42,12 +41,12 @@ def look_at(question: Look) -> dict[str, Any]:
     Returns
     -------
     dict
-        As ``PROTOCOL.md`` says, ready for JSON. A few milliseconds for sketches.
+    As ``PROTOCOL.md`` says, ready for JSON. A few milliseconds for sketches.
 
     Raises
     ------
     PlyfoldError
-        If the strokes make no outline that can be used.
+    If the strokes make no outline that can be used.
 
     Examples
     --------
@@ -63,7 +62,7 @@ def look_at(question: Look) -> dict[str, Any]:
     assert given is not None
     return {
         "version": VERSION,
-        "loops": [_loop(curve) for curve in given.curves],
+        "loops": list(map(loop_data, given.loops, given.cusps)),
         "cusps": _cusps(drawn),
         "repairs": [{"kind": r.kind, "where": list(r.where), "size": r.size} for r in outline.repairs],
         "contacts": _contacts(drawn, given),
@@ -78,14 +77,6 @@ def look_at(question: Look) -> dict[str, Any]:
         "code": _code(drawn),
         **_texts(drawn),
         "seconds": perf_counter() - began,
-    }
-
-
-def _loop(curve: Curve) -> dict[str, Any]:
-    index = curve.cusps[0]
-    return {
-        "points": curve.points.tolist(),
-        "cusps": {str(point): int(index[point]) for point in np.flatnonzero(index)},
     }
 
 
@@ -163,15 +154,12 @@ def _immersed(question: Look, found: Immersion) -> dict[str, Any]:
 
 
 def _obstructed(drawn: Arrangement, obstruction: Obstruction) -> dict[str, Any]:
-    kink = find_kink(drawn) if _is_plain(drawn) else None
     return {
         "immersible": False,
         "immersions": "0",
         "reason": obstruction.reason,
         **asdict(words(0, obstruction.sentence, surface=A_DISK if _is_plain(drawn) else "a surface")),
         "where": [list(place) for place in obstruction.where],
-        "kink": kink and _kink(kink),
-        "cusps_may_help": _cusps_may_help(drawn),
     }
 
 
@@ -184,12 +172,6 @@ def _figures(drawn: Arrangement) -> list[list[str]]:
     return [] if _is_plain(drawn) else [["Euler characteristic", str(drawn.euler_characteristic)]]
 
 
-def _cusps_may_help(drawn: Arrangement) -> bool:
-    """Tell whether the outline of one piece without handles would turn less, by no more than cusps are looked for."""
-    too_many = drawn.euler_characteristic - (2 - drawn.n_loops)
-    return 0 < too_many <= _MOST_TURNS_OFFERED and bool((drawn.winding >= 0).all())
-
-
 def _loops_to_turn(drawn: Arrangement) -> list[int]:
     """Return the loops that cross no other and run the other way than if every second one were a hole."""
     if drawn.outline is None or drawn.n_loops == 1:
@@ -197,14 +179,6 @@ def _loops_to_turn(drawn: Arrangement) -> list[int]:
     loops = drawn.outline.loops
     wanted = even_odd_directions(loops)
     return [loop for loop, direction in enumerate(wanted) if direction == -sense(loops[loop]) != 0]
-
-
-def _kink(kink: Kink) -> dict[str, Any]:
-    return {
-        "where": [list(place) for place in kink.places],
-        "lobes": [lobe.tolist() for lobe in kink.lobes],
-        "points": kink.rest.tolist(),
-    }
 
 
 def _word(drawn: Arrangement) -> str | None:

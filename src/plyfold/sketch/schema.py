@@ -22,9 +22,10 @@ __all__ = [
     "Lie",
     "Lift",
     "Look",
+    "Offer",
     "Polyline",
     "Stroke",
-    "Suggest",
+    "Widen",
     "document_data",
     "parse",
     "read_document",
@@ -87,10 +88,18 @@ class Look:
 
 
 @dataclass(frozen=True)
-class Suggest:
-    """The question where cusps would help."""
+class Offer:
+    """The question what to do about an outline that bounds nothing."""
 
     strokes: tuple[Stroke, ...]
+
+
+@dataclass(frozen=True)
+class Widen:
+    """The wish that open strokes become ribbons of a width."""
+
+    strokes: tuple[Stroke, ...]
+    width: float
 
 
 @dataclass(frozen=True)
@@ -124,7 +133,7 @@ class Export:
     surface: Lift
 
 
-Q = TypeVar("Q", Look, Suggest, Lie, Lift, Export)
+Q = TypeVar("Q", Look, Offer, Widen, Lie, Lift, Export)
 
 
 # ---- reading ---------------------------------------------------------------------------------------------------------
@@ -164,7 +173,7 @@ def read_question(kind: type[Q], data: Any) -> Q:
 
     Parameters
     ----------
-    kind : {Look, Suggest, Lie, Lift, Export}
+    kind : {Look, Offer, Widen, Lie, Lift, Export}
     data : object
         What its JSON says.
 
@@ -233,8 +242,15 @@ def _look(question: dict[str, Any]) -> Look:
     return Look(_drawing(question))
 
 
-def _suggest(question: dict[str, Any]) -> Suggest:
-    return Suggest(_drawing(question))
+def _offer(question: dict[str, Any]) -> Offer:
+    return Offer(_drawing(question))
+
+
+def _ribbon(question: dict[str, Any]) -> Widen:
+    width = _number(question.get("width"), "width")
+    if width <= 0:
+        _refuse("width is not a positive number")
+    return Widen(_drawing(question), width)
 
 
 def _lie(question: dict[str, Any]) -> Lie:
@@ -259,9 +275,10 @@ def _export(question: dict[str, Any]) -> Export:
     return Export(document, kind, _lift_of(question, document.strokes))
 
 
-_READERS: dict[type, Callable[[dict[str, Any]], Look | Suggest | Lie | Lift | Export]] = {
+_READERS: dict[type, Callable[[dict[str, Any]], Look | Offer | Widen | Lie | Lift | Export]] = {
     Look: _look,
-    Suggest: _suggest,
+    Offer: _offer,
+    Widen: _ribbon,
     Lie: _lie,
     Lift: _lift,
     Export: _export,

@@ -14,13 +14,13 @@ function recorder() {
 }
 
 const THEME = {
-  ink: "ink", paper: "paper", dot: "dot", accent: "accent", wrong: "wrong", cusp: "cusp", touch: "touch", lit: "lit",
+  ink: "ink", paper: "paper", dot: "dot", accent: "accent", wrong: "wrong", cusp: "cusp", touch: "touch", lit: "lit", good: "good",
   winding: ["one", "two"], negative: ["minus one"], "on-winding": ["dark", "pale"], "on-negative": ["dark"], sheets: ["first", "second"],
 };
 const CAMERA = { scale: 2, x: 100, y: 100 };
 const BLANK = {
   size: { width: 200, height: 200 }, camera: CAMERA, theme: THEME, document: { strokes: [], image: null }, joins: [], openEnds: [],
-  answer: null, offered: [], touches: [], lie: null, tool: "draw", path: [], next: null, selected: null, cursor: null, hover: null, snap: false, image: null,
+  answer: null, offered: [], trial: null, touches: [], lie: null, tool: "draw", path: [], next: null, selected: null, cursor: null, hover: null, snap: false, image: null,
 };
 
 const ANSWER = { crossings: [], cells: [], contacts: [], repairs: [], verdict: { where: [] } };

@@ -1,5 +1,5 @@
 // What the server says of the drawing: three questions, each asked as soon as the one before is answered; and where there
-// is no surface, whether cusps would help. The newest drawing wins: whatever is still on its way for an older one is
+// is no surface, what can be done about it. The newest drawing wins: whatever is still on its way for an older one is
 // cancelled.
 
 import { errorShown, isAnswered, shown } from "./store.js";
@@ -50,7 +50,7 @@ export function followAnswers(store, question = ask) {
 
 const walked = (state, before) => state.immersion !== before.immersion || state.layering !== before.layering;
 const asksOtherwise = ({ lie: known, immersion, layering }) => known.immersion !== immersion || known.layering !== layering;
-const NOTHING = { answer: null, answered: null, offer: null, lie: null, mesh: null, unlifted: null, asking: false };
+const NOTHING = { answer: null, answered: null, offers: null, lie: null, mesh: null, unlifted: null, asking: false };
 
 async function look(store, question, signal) {
   const document = shown(store.state);
@@ -59,18 +59,18 @@ async function look(store, question, signal) {
   const answer = await question("look", { strokes: document.strokes }, signal);
   if (!answer || signal.aborted) return undefined;
   const same = answer.code !== undefined && answer.code === store.state.answer?.code;
-  const { immersible, cusps_may_help: mayHelp } = answer.verdict ?? {};
+  const immersible = answer.verdict?.immersible;
   const { immersion, layering } = same || !store.state.answer ? store.state : { immersion: "0", layering: "0" };
   const gone = immersible ? {} : { mesh: null, unlifted: answer.verdict ? NO_SURFACE : null };
-  const asking = Boolean(immersible || mayHelp);
-  store.set({ answer, answered: document, offer: null, lie: same ? store.state.lie : null, asking, immersion, layering, ...gone });
+  const asking = typeof immersible === "boolean";
+  store.set({ answer, answered: document, offers: null, previewed: null, lie: same ? store.state.lie : null, asking, immersion, layering, ...gone });
   if (immersible) return lie(store, question, signal);
-  return mayHelp ? offer(store, question, signal) : undefined;
+  return immersible === false ? offer(store, question, signal) : undefined;
 }
 
 async function offer(store, question, signal) {
-  const found = await question("cusps", { strokes: store.state.answered.strokes }, signal);
-  if (found && !signal.aborted) store.set({ offer: found, asking: false });
+  const found = await question("offers", { strokes: store.state.answered.strokes }, signal);
+  if (found && !signal.aborted) store.set({ offers: found.offers ?? [], asking: false });
 }
 
 async function lie(store, question, signal) {

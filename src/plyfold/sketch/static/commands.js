@@ -11,7 +11,8 @@ import {
 import { begin, record, redo, undo } from "./history.js";
 import { complete, keepNewPicture, save, settingsOf, whole } from "./keeping.js";
 import { LONGEST_LINK, asText, encode } from "./link.js";
-import { answerShown, offerShown, shown } from "./store.js";
+import { answerShown, offerOf, shown } from "./store.js";
+import { offeredDocument } from "./trials.js";
 import { newPlace, recall } from "./storage.js";
 import { counted } from "./wording.js";
 
@@ -74,16 +75,15 @@ export function cycleCusp(page, document, { stroke, vertex }) {
   tell(page, TURNS[index]);
 }
 
-export const offerLabel = (offer) => (offer && offer.cusps.length > 1 ? `Mark the ${offer.cusps.length} cusps` : "Mark the cusp");
+// ---- offers -------------------------------------------------------------------------------------------------------
 
-/** Mark the cusps that were offered, each at the point of the drawing where it was found. */
-export function markOffered(page) {
-  const { store } = page;
-  const { present } = store.state.history;
-  const marked = offerShown(store.state).cusps.reduce(
-    (document, { where, index }) => markCusp(document, vertexAt(present, where, Infinity), index), present);
-  edit(page, marked);
+export function takeOffer(page, kind) {
+  const offer = offerOf(page.store.state, kind);
+  edit(page, offeredDocument(page.store.state, offer));
+  tell(page, DONE[kind], ["undo"]);
 }
+
+const DONE = { repair: "It is changed as offered.", cusps: "The cusps are marked.", pieces: "These are the pieces." };
 
 export function step(page, direction) {
   const { store } = page;

@@ -146,7 +146,7 @@ const SURFACE_KEYS = [
   ["F", "Show all of it"],
   ["X", "See through it"],
 ];
-const GROUPS = { tools: "Tools", history: "History", change: "Change", view: "View", answers: "Answers", surface: "Surface", file: "File", exports: "Save" };
+const GROUPS = { tools: "Tools", history: "History", change: "Change", view: "View", answers: "Answers", offers: "Offers", surface: "Surface", file: "File", exports: "Save" };
 
 export function showHelp() {
   const tables = Object.entries(GROUPS).map(([group, title]) => {

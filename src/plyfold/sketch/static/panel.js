@@ -4,13 +4,14 @@ import { actionNamed } from "./actions.js";
 import { SILENT } from "./answers.js";
 import { button } from "./buttons.js";
 import { isEmpty } from "./document.js";
+import { previewing } from "./offers.js";
 import { notesOf, spikesNote } from "./notes.js";
-import { answerShown, errorShown, lieShown, offerShown, shown, touchesShown } from "./store.js";
+import { answerShown, errorShown, lieShown, offerOf, ribbonShown, shown, touchesShown } from "./store.js";
 import { counted } from "./wording.js";
 
 const HEADLINES = { unfinished: "Not a loop yet", away: SILENT };
 const LONGEST = 600;
-const REMEDIES = ["markCusps", "holes", "removeKink", "closeLoop", "lastOnly"];
+const REMEDIES = ["holes", "ribbon", "closeLoop", "lastOnly"];
 const find = (id) => document.getElementById(id);
 const grouped = (digits) => (digits.length > 24 ? `about 10^${digits.length - 1}` : digits.replace(/\B(?=(\d{3})+$)/g, ","));
 
@@ -18,13 +19,22 @@ const grouped = (digits) => (digits.length > 24 ? `about 10^${digits.length - 1}
 export function verdictOf(state) {
   const error = errorShown(state);
   if (isEmpty(shown(state))) return { kind: "empty", headline: "", sentence: "" };
-  if (error) return { kind: "unfinished", headline: HEADLINES[error.kind] ?? "Not a loop that can be used", sentence: `${error.sentence}${error.hint ? `: ${error.hint}` : ""}.` };
+  if (error) return { kind: "unfinished", headline: HEADLINES[error.kind] ?? "Not a loop that can be used", sentence: [told(error), tooTight(state)].filter(Boolean).join(" ") };
   const answer = answerShown(state);
   if (!answer) return null;
   const lie = lieShown(state);
   const kind = kindOf(answer.verdict, lie, touchesShown(state));
   const { headline, sentence } = (lie ?? answer).verdict;
-  return { kind, headline, sentence: [sentence, spikesNote(answer), offerShown(state)?.sentence].filter(Boolean).join(" ") };
+  const said = offerOf(state, state.previewed)?.sentence ?? [sentence, spikesNote(answer), tooTight(state)].filter(Boolean).join(" ");
+  return { kind, headline, sentence: said };
+}
+
+const told = ({ sentence, hint }) => sentenceCase(`${sentence}${hint ? `: ${hint}` : ""}.`);
+
+/** Why ribbons of this width cannot be made. */
+function tooTight(state) {
+  const error = ribbonShown(state)?.error;
+  return error ? told(error) : "";
 }
 
 function kindOf({ immersible }, lie, touches) {
@@ -90,7 +100,9 @@ export function createPanel(page) {
   walkBar(page, "immersion", "previousImmersion", "nextImmersion");
   walkBar(page, "layering", "layeringDown", "layeringUp");
   const remedies = find("remedies");
-  remedies.append(...REMEDIES.map((name) => button(page, actionNamed(name))));
+  const buttons = REMEDIES.map((name) => button(page, actionNamed(name)));
+  remedies.prepend(...buttons);
+  buttons.filter(({ dataset }) => actionNamed(dataset.action).preview).forEach((made) => previewing(page, made));
   page.store.follow((state, before) => {
     if (state !== before) refresh(state);
   });
