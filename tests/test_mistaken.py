@@ -147,8 +147,9 @@ def test_lists_that_are_not_signed_codes(code):
 
 GPX = '<?xml version="1.0"?><gpx xmlns="http://www.topografix.com/GPX/1/1"><trk><trkseg/></trk></gpx>'
 FILES = {
-    "track.gpx": (GPX, "GPX", "GeoJSON"),
-    "track.txt": (GPX, "GPX", "GeoJSON"),
+    "track.gpx": (GPX, "no track", "lat and lon"),
+    "track.txt": (GPX, "no track", "lat and lon"),
+    "track.svg": (GPX, "its root is <gpx>", "path"),
     "place.kml": ('<kml xmlns="http://www.opengis.net/kml/2.2"/>', "KML", "GeoJSON"),
     "pd.txt": ("PD[X[1,4,2,5],X[3,6,4,1],X[5,2,6,3]]", "PD code", NONE_YET),
     "pd.json": ("[[1,4,2,5],[3,6,4,1],[5,2,6,3]]", "PD code", NONE_YET),

@@ -25,7 +25,7 @@ from plyfold.outline.curve import Outline
 from plyfold.outline.given import OutlineLike, outline_with
 from plyfold.outline.points import Repair, diagonal
 
-__all__ = ["Repaired", "SmallChange", "repair"]
+__all__ = ["Repaired", "SmallChange", "percent", "repair"]
 
 LOOP, LENS, SPIKE = "loop left out", "lens undone", "spike taken out"
 
@@ -99,6 +99,15 @@ class Repaired:
     def __repr__(self) -> str:
         done = ", ".join(_counted_changes([change.kind for change in self.changes])) or "nothing changed"
         return f"<Repaired: {done}; {self.region_change:.3g} of the region, {self.layer_change:.3g} of the layers>"
+
+    @property
+    def done(self) -> str:
+        """What is done, in words: "leaving out 2 loops and undoing 1 lens"."""
+        return _doing([change.kind for change in self.changes])
+
+    def __str__(self) -> str:
+        done = " and ".join(_counted_changes([change.kind for change in self.changes])) or "nothing changed"
+        return f"{done}: {percent(self.region_change)} of the region and {percent(self.layer_change)} of the layers"
 
 
 def repair(
@@ -277,7 +286,7 @@ def _area(plan: Plan, times: Mapping[int, int]) -> float:
 def _beyond(plan: Plan, caps: Caps, clock: Clock) -> Obstruction:
     """Return how much would have to be changed, if that is easily found."""
     what = "a disk" if plan.drawn.n_loops == 1 else "a surface"
-    may = f"{_percent(caps.region)} of the region and {_percent(caps.layers)} of the layers may change"
+    may = f"{percent(caps.region)} of the region and {percent(caps.layers)} of the layers may change"
     trial = _Trial(plan, clock)
     made = made_until(plan, _NO_CAPS, False, trial, clock) if plan.drawn.n_crossings <= _MOST_CROSSINGS else None
     if made is None:
@@ -289,14 +298,21 @@ def _beyond(plan: Plan, caps: Caps, clock: Clock) -> Obstruction:
     region, layers = _in_all(plan, left)
     done = " and ".join(_counted_changes([change.kind for change in changes]))
     sentence = (
-        f"It would be the outline of {what} with {done}, which changes {_percent(region)} of the region and "
-        f"{_percent(layers)} of the layers; {may}."
+        f"It would be the outline of {what} with {done}, which changes {percent(region)} of the region and "
+        f"{percent(layers)} of the layers; {may}."
     )
     where = tuple(change.where for change in changes)
     return Obstruction("repair", sentence, where, {"region": region, "layers": layers}, plan.drawn)
 
 
-def _percent(part: float) -> str:
+def percent(part: float) -> str:
+    """Return a part as people read it.
+
+    Examples
+    --------
+    >>> percent(0.000416), percent(0.5)
+    ('0.0416%', '50%')
+    """
     return f"{100 * part:.3g}%"
 
 
@@ -311,3 +327,21 @@ def _counted_changes(kinds: Sequence[str]) -> list[str]:
     plural = {LOOP: "loops left out", LENS: "lenses undone", SPIKE: "spikes taken out"}
     number = {kind: kinds.count(kind) for kind in plural}
     return [f"{count} {kind if count == 1 else plural[kind]}" for kind, count in number.items() if count]
+
+
+def _doing(kinds: Sequence[str]) -> str:
+    """Say what is done.
+
+    Examples
+    --------
+    >>> _doing(["lens undone", "loop left out", "loop left out"])
+    'leaving out 2 loops and undoing 1 lens'
+    """
+    words = {LOOP: ("leaving out", "loop", "loops"), LENS: ("undoing", "lens", "lenses")}
+    words |= {SPIKE: ("taking out", "spike", "spikes")}
+    number = {kind: kinds.count(kind) for kind in words}
+    return " and ".join(
+        f"{doing} {number[kind]} {one if number[kind] == 1 else many}"
+        for kind, (doing, one, many) in words.items()
+        if number[kind]
+    )
