@@ -13,25 +13,23 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import PrecisionError
 from plyfold.flat.decompose import decompose
-from plyfold.immersion.immersion import Immersion, Piece
-from plyfold.immersion.solve import find_immersion
+from plyfold.immersion.immersion import Piece
 from plyfold.obstruction import Obstruction
-from plyfold.offers.cusps import SuggestedCusps, suggest_cusps
-from plyfold.offers.repair import LENS, LOOP, Repaired, repair
+from plyfold.offers.cusps import SuggestedCusps
+from plyfold.offers.offers import offers
+from plyfold.offers.repair import LENS, LOOP, Repaired
 from plyfold.outline.direction import sense
-from plyfold.report import offer_in_words, surface_in_words
+from plyfold.report import offer_in_words, repair_in_words, surface_in_words
 from plyfold.sketch.drawings import arranged, first_immersion
 from plyfold.sketch.patience import patient
 from plyfold.sketch.schema import VERSION, Offer
 
 __all__ = ["loop_data", "offered"]
 
-_SECONDS_TO_REPAIR = 2.0
-_SECONDS_TO_SUGGEST = 5.0
+_SECONDS_TO_FIND = 5.0
 # Sketches are coarse: what is left out may be a larger part of them than of outlines in files.
 _ALLOWED_REGION, _ALLOWED_LAYERS = 0.25, 0.5
 _SMALL = 0.05
-_LEAST_TOLD = 1e-6
 _MOST_PIECES = 200
 
 
@@ -64,9 +62,16 @@ def offered(question: Offer) -> dict[str, Any]:
     """
     began = perf_counter()
     drawn = arranged(question.strokes)
-    finders = (_repair, _cusps, _pieces) if isinstance(first_immersion(question.strokes), Obstruction) else ()
-    offers = [offer for find in finders if (offer := find(drawn)) is not None]
-    return {"version": VERSION, "offers": offers, "seconds": perf_counter() - began}
+    listed = _listed(drawn) if isinstance(first_immersion(question.strokes), Obstruction) else []
+    return {"version": VERSION, "offers": listed, "seconds": perf_counter() - began}
+
+
+def _listed(drawn: Arrangement) -> list[dict[str, Any]]:
+    found = offers(drawn, patient(_SECONDS_TO_FIND), _ALLOWED_REGION, _ALLOWED_LAYERS)
+    rings = _pieces(drawn)
+    listed = [] if found.repaired is None else [_repair_offer(found.repaired)]
+    listed += [] if found.cusps is None else [_cusps_offer(found.cusps)]
+    return listed + ([_pieces_offer(rings)] if 0 < len(rings) <= _MOST_PIECES else [])
 
 
 def loop_data(points: Floats, index: Ints | None = None) -> dict[str, Any]:
@@ -83,14 +88,12 @@ def _offer(kind: str, label: str, sentence: str, **shown: Any) -> dict[str, Any]
 # ---- small changes ---------------------------------------------------------------------------------------------------
 
 
-def _repair(drawn: Arrangement) -> dict[str, Any] | None:
-    found = repair(drawn, _ALLOWED_REGION, _ALLOWED_LAYERS, patient(_SECONDS_TO_REPAIR))
-    if not isinstance(found, Repaired):
-        return None
+def _repair_offer(found: Repaired) -> dict[str, Any]:
+    sentence = repair_in_words(found)
     return _offer(
         "repair",
         _label([change.kind for change in found.changes], "small " if found.layer_change <= _SMALL else ""),
-        _sentence(found),
+        f"{sentence[0].upper()}{sentence[1:]}.",
         where=[list(change.where) for change in found.changes],
         areas=[polygon.tolist() for change in found.changes for polygon in change.polygons],
         loops=list(map(loop_data, found.outline.loops, found.outline.cusps)),
@@ -112,33 +115,10 @@ def _label(kinds: list[str], small: str = "") -> str:
     return words[0].upper() + words[1:]
 
 
-def _sentence(found: Repaired) -> str:
-    region = f"{_percent(found.region_change)} of the region"
-    left = find_immersion(found.outline, time_limit=patient(_SECONDS_TO_REPAIR))
-    surface = surface_in_words(left.pieces) if isinstance(left, Immersion) else "the outline of a surface"
-    return f"With {region} changed, it is {surface}."
-
-
-def _percent(part: float) -> str:
-    """Return a part as people read it: two digits of what is more than a millionth.
-
-    Examples
-    --------
-    >>> _percent(0.1234), _percent(0.00003), _percent(1e-9), _percent(0)
-    ('12%', '0.003%', 'less than 0.0001%', 'nothing')
-    """
-    if part == 0:
-        return "nothing"
-    return f"{100 * part:.2g}%" if part >= _LEAST_TOLD else f"less than {100 * _LEAST_TOLD:.4f}%"
-
-
 # ---- cusps -----------------------------------------------------------------------------------------------------------
 
 
-def _cusps(drawn: Arrangement) -> dict[str, Any] | None:
-    found = suggest_cusps(drawn, time_limit=patient(_SECONDS_TO_SUGGEST))
-    if not isinstance(found, SuggestedCusps):
-        return None
+def _cusps_offer(found: SuggestedCusps) -> dict[str, Any]:
     marks = [
         {"where": found.outline.loops[loop][point].tolist(), "index": index}
         for (loop, point), index in found.cusps.items()
@@ -157,17 +137,17 @@ def _cusps(drawn: Arrangement) -> dict[str, Any] | None:
 # ---- pieces ----------------------------------------------------------------------------------------------------------
 
 
-def _pieces(drawn: Arrangement) -> dict[str, Any] | None:
-    """Offer the polygons that add up to the winding numbers, each as a loop that runs counter-clockwise."""
-    given = drawn.given
-    assert given is not None
+def _pieces(drawn: Arrangement) -> list[Floats]:
+    """Return simple polygons that add up to the winding numbers, counter-clockwise; none where rounding fails."""
+    assert drawn.given is not None
     try:
-        rings = [shapely.get_coordinates(piece)[:-1] for piece in chain(*decompose(given, signed=True))]
+        rings = [shapely.get_coordinates(piece)[:-1] for piece in chain(*decompose(drawn.given, signed=True))]
     except PrecisionError:
-        return None
-    if len(rings) > _MOST_PIECES:
-        return None
-    rings = [ring if sense(ring) > 0 else ring[::-1] for ring in rings]
+        return []
+    return [ring if sense(ring) > 0 else ring[::-1] for ring in rings]
+
+
+def _pieces_offer(rings: list[Floats]) -> dict[str, Any]:
     count = "one simple polygon" if len(rings) == 1 else f"{len(rings)} simple polygons"
     return _offer(
         "pieces",
