@@ -28,8 +28,10 @@ __all__ = [
     "describe",
     "in_words",
     "offer_in_words",
+    "repair_in_words",
     "repair_lines",
     "surface_in_words",
+    "touches_of",
     "verdict",
     "words",
 ]
@@ -232,9 +234,23 @@ def _offers(arrangement: Arrangement) -> dict[str, Any]:
     return {"offers": [*listed, fill]}
 
 
+def repair_in_words(found: Repaired) -> str:
+    """Say what a repair does, and what comes of it.
+
+    Examples
+    --------
+    >>> from plyfold import repair
+    >>> repair_in_words(repair([(0, 0), (60, 0), (60, 41), (61, 41), (61, 40), (0, 40)]))
+    'leaving out 1 loop, 0.0416% of the region, makes it a disk of cloth'
+    """
+    return f"{found.done}, {percent(found.region_change)} of the region, makes it {_repaired_surface(found)}"
+
+
+def _repaired_surface(found: Repaired) -> str:
+    return A_DISK if found.outline.n_loops == 1 else "a surface"
+
+
 def _repair_offer(found: Repaired) -> dict[str, Any]:
-    surface = A_DISK if found.outline.n_loops == 1 else "a surface"
-    sentence = f"{found.done}, {percent(found.region_change)} of the region, makes it {surface}"
     changes = [
         {
             "kind": change.kind,
@@ -247,9 +263,9 @@ def _repair_offer(found: Repaired) -> dict[str, Any]:
     ]
     return {
         "kind": "repair",
-        "sentence": sentence,
+        "sentence": repair_in_words(found),
         "command": _COMMANDS["repair"],
-        "surface": surface,
+        "surface": _repaired_surface(found),
         "changes": changes,
         "region_change": found.region_change,
         "layer_change": found.layer_change,
@@ -270,14 +286,21 @@ def _surface(immersion: Immersion) -> dict[str, Any]:
     ]
     return {
         "surface": surface_in_words(immersion.pieces),
-        "touches": _touches(immersion),
+        "touches": touches_of(immersion),
         "pieces": pieces,
         "euler_characteristic": immersion.euler_characteristic,
         "sheets": immersion.n_sheets,
     }
 
 
-def _touches(immersion: Immersion) -> list[list[float]]:
+def touches_of(immersion: Immersion) -> list[list[float]]:
+    """Return where a surface touches itself; nothing, if the outline also bounds a surface in the strict sense.
+
+    Examples
+    --------
+    >>> touches_of(find_immersion([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)]))
+    [[1.0, 1.0]]
+    """
     if not immersion.touches or bounds_strictly(immersion.arrangement):
         return []
     return [list(place) for place in immersion.touches]
