@@ -27,6 +27,7 @@ __all__ = [
     "exact_parameter",
     "orient",
     "parameter_along_edge",
+    "rounded_shares",
     "turn",
 ]
 
@@ -250,10 +251,22 @@ def exact_crossings(ends: Floats, axis: int) -> list[Fraction]:
     return [Fraction(n, m) * unit for n, m in zip(numerator.tolist(), below.tolist(), strict=True)]
 
 
+def rounded_shares(start: Floats, end: Floats, place: Floats) -> Floats:
+    """Return how far places are on the way from start to end, each to the nearest double.
+
+    Examples
+    --------
+    >>> rounded_shares(np.array([-0.1]), np.array([0.7]), np.array([0.5])).tolist() == [0.75]
+    True
+    """
+    (here, there, between), _ = _whole(np.stack([start, end, place]))
+    return np.asarray((between - here) / (there - here), dtype=np.float64)
+
+
 def _whole(numbers: Floats) -> tuple[npt.NDArray[np.object_], Fraction]:
     """Return doubles as whole numbers, however large, of a power of two."""
     mantissa, exponent = np.frexp(numbers)
-    least = int(exponent.min())
+    least = int(exponent.min(initial=0))
     whole = np.ldexp(mantissa, 53).astype(np.int64).astype(object)
     return whole << (exponent - least).astype(object), Fraction(2) ** (least - 53)
 

@@ -6,23 +6,24 @@ others; exact point location says in which: from its leftmost vertex straight to
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from plyfold.arrangement.crossings import Visits, edge_ends, find_contacts, order_visits
 from plyfold.arrangement.general_position import touching_places
-from plyfold.arrangement.marks import Mark
+from plyfold.arrangement.marks import AT_VERTEX, Mark
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GeneralPositionError
 from plyfold.graphs import components
-from plyfold.predicates import cross_sign, exact_parameter
-from plyfold.ragged import starts_of
+from plyfold.predicates import cross_sign, exact_parameter, rounded_shares
+from plyfold.ragged import count_each, starts_of
 
 if TYPE_CHECKING:
     from shapely import STRtree
@@ -30,6 +31,9 @@ if TYPE_CHECKING:
 __all__ = ["Nest", "nest"]
 
 _EDGES_IN_BOX = 8
+# Rays that meet nothing are made so many times longer; this many are looked at together.
+_LONGER = 4
+_RAYS = 1024
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +75,7 @@ def nest(loops: Sequence[Floats], watch: Watch = UNWATCHED) -> Nest:
 
     Notes
     -----
-    As for one curve, plus O(n) for each group.
+    As for one curve, plus what rays from all groups meet on the left, which is O(n) for each at worst.
     """
     polyline = _one_after_the_other(loops)
     visits = _visits(polyline, watch)
@@ -79,22 +83,20 @@ def nest(loops: Sequence[Floats], watch: Watch = UNWATCHED) -> Nest:
     loop = polyline.loop[visits.edge]
     group = components(len(loops), loop, loop[visits.partner])
     plan = _Plan(polyline, visits, first_visit, group[polyline.loop])
-    outside, bridges, feet = [], [], []
-    for number, corner in enumerate(_corners(plan)):
-        watch.step()
-        dart, beyond = _outer_dart(plan, corner), _met_on_the_left(plan, corner)
-        if beyond is None:
-            outside.append(dart)
-        else:
-            foot = _foot_on_edge(plan, beyond, corner, number)
-            bridges.append((dart, 2 * plan.border(beyond, foot.at) + _is_upward(polyline, beyond)))
-            feet.append((_foot_at_vertex(plan, corner), foot))
+    corner = _corners(plan)
+    dart, beyond = _outer_darts(plan, corner), _met_on_the_left(plan, corner, watch)
+    is_free, joined = beyond < 0, np.flatnonzero(beyond >= 0)
+    corner, beyond = corner[joined], beyond[joined]
+    passed = _visits_passed(plan, beyond, polyline.points[corner, 1])
+    met = 2 * plan.border(beyond, passed) + plan.is_upward(beyond)
     return Nest(
         visits=replace(visits, edge=visits.edge - loop),
         first_visit=first_visit,
-        outside=np.array(outside),
-        bridges=np.array(bridges, dtype=np.int64).reshape(-1, 2),
-        feet=feet,
+        outside=dart[is_free],
+        bridges=np.stack([dart[joined], met], axis=1),
+        feet=list(
+            zip(_feet_at_vertices(plan, corner), _feet_on_edges(plan, beyond, passed, corner, joined), strict=True)
+        ),
     )
 
 
@@ -176,13 +178,10 @@ class _Plan:
 
     @cached_property
     def ends(self) -> Floats:
-        """Start and end of each edge."""
-        return edge_ends(self.polyline.points)
-
-    @cached_property
-    def leftmost(self) -> float:
-        """The least x of all points."""
-        return float(self.polyline.points[:, 0].min())
+        """Start and end of each edge; jumps go nowhere."""
+        ends = edge_ends(self.polyline.points)
+        ends[self.polyline.is_jump, 1] = ends[self.polyline.is_jump, 0]
+        return ends
 
     @cached_property
     def first_border(self) -> Ints:
@@ -190,99 +189,147 @@ class _Plan:
         return starts_of(np.maximum(np.diff(self.first_visit), 1))
 
     @cached_property
+    def boxed(self) -> Ints:
+        """The first edge in each box: so many edges of a loop that follow each other; and last the number of edges."""
+        jumps = np.flatnonzero(self.polyline.is_jump)
+        lengths = np.diff(jumps, prepend=-1)
+        starts = np.flatnonzero(count_each(lengths) % _EDGES_IN_BOX == 0)
+        return np.append(starts, len(self.ends))
+
+    @cached_property
     def boxes(self) -> STRtree:
-        """The bounding boxes of edges, so many at a time that follow each other: as lines from corner to corner."""
+        """The bounding boxes: as lines from corner to corner."""
         from shapely import STRtree, linestrings
 
-        starts = np.arange(0, len(self.ends), _EDGES_IN_BOX)
-        low = np.minimum.reduceat(self.ends.min(axis=1), starts)
-        high = np.maximum.reduceat(self.ends.max(axis=1), starts)
+        start, end = self.ends.swapaxes(0, 1)
+        low = np.minimum.reduceat(np.minimum(start, end), self.boxed[:-1])
+        high = np.maximum.reduceat(np.maximum(start, end), self.boxed[:-1])
         return STRtree(linestrings(np.stack([low, high], axis=1)))
 
-    def near(self, ray: Floats) -> Ints:
-        """Return the edges in all boxes that a ray along the x axis meets, given its ends."""
+    def near(self, ends: Floats, height: Floats) -> tuple[Ints, Ints]:
+        """Return the edges in all boxes that level rays meet: (place among the rays, edge) of each."""
         from shapely import linestrings
 
-        edges = self.boxes.query(linestrings(ray))[:, None] * _EDGES_IN_BOX + np.arange(_EDGES_IN_BOX)
-        return np.asarray(edges[edges < len(self.ends)])
+        ray, box = self.boxes.query(linestrings(np.stack([ends, np.stack([height, height], axis=1)], axis=2)))
+        size = self.boxed[box + 1] - self.boxed[box]
+        return np.repeat(ray, size), np.repeat(self.boxed[box], size) + count_each(size)
 
-    def border(self, edge: int, visits_passed: int) -> int:
-        """Return the border at a place on an edge, given how many visits come before it, on earlier loops too."""
-        loop = int(self.polyline.loop[edge])
-        start, count = int(self.first_visit[loop]), int(self.first_visit[loop + 1] - self.first_visit[loop])
-        return int(self.first_border[loop]) + (visits_passed - start - 1) % max(count, 1)
+    def border(self, edge: Ints, visits_passed: Ints) -> Ints:
+        """Return the borders at places on edges, given how many visits come before them, on earlier loops too."""
+        loop = self.polyline.loop[edge]
+        start, end = self.first_visit[loop], self.first_visit[loop + 1]
+        return np.asarray(self.first_border[loop] + (visits_passed - start - 1) % np.maximum(end - start, 1))
+
+    def is_upward(self, edge: Ints) -> Bools:
+        """Tell which edges end higher than they start."""
+        return np.asarray(self.ends[edge, 0, 1] < self.ends[edge, 1, 1])
 
 
-def _corners(plan: _Plan) -> list[int]:
+def _corners(plan: _Plan) -> Ints:
     """Return the leftmost vertex of each group, the lowest of several, from left to right."""
     x, y = plan.polyline.points.T
-    order = np.lexsort([y, x])
-    order = order[~plan.polyline.is_jump[order]]
-    corners: list[int] = order[np.sort(np.unique(plan.group[order], return_index=True)[1])].tolist()
-    return corners
+    leftmost = np.full(plan.group.max() + 1, np.inf)
+    first = np.flatnonzero(np.diff(plan.polyline.loop, prepend=-1))
+    np.minimum.at(leftmost, plan.group[first], np.minimum.reduceat(x, first))
+    corner = np.flatnonzero((x == leftmost[plan.group]) & ~plan.polyline.is_jump)
+    corner = corner[np.lexsort([y[corner], x[corner]])]
+    return np.asarray(corner[np.sort(np.unique(plan.group[corner], return_index=True)[1])])
 
 
-def _outer_dart(plan: _Plan, corner: int) -> int:
-    """Return the dart that has the outside of its group on its left at a leftmost vertex."""
-    points = plan.polyline.points
-    is_first = corner == 0 or plan.polyline.is_jump[corner - 1]
-    # The first vertex of a loop comes again at its end.
-    last = int(np.searchsorted(plan.polyline.loop, plan.polyline.loop[corner], side="right")) - 1
-    before, here, after = points[[(last if is_first else corner) - 1, corner, corner + 1]]
-    border = plan.border(corner, int(np.searchsorted(plan.visits.edge, corner)))
-    return 2 * border + int(cross_sign(before, here, here, after) > 0)
+def _outer_darts(plan: _Plan, corner: Ints) -> Ints:
+    """Return the darts that have the outside of their groups on their left at leftmost vertices."""
+    points, is_jump, loop = plan.polyline.points, plan.polyline.is_jump, plan.polyline.loop[corner]
+    # The first vertex of a loop comes again at its end, where the jump starts.
+    before = np.where(is_jump[corner - 1], np.flatnonzero(is_jump)[loop], corner) - 1
+    border = plan.border(corner, np.searchsorted(plan.visits.edge, corner))
+    turn = cross_sign(points[before], points[corner], points[corner], points[corner + 1])
+    return np.asarray(2 * border + (turn > 0))
 
 
-def _foot_at_vertex(plan: _Plan, corner: int) -> Mark:
-    """Return the foot of the bridge that leaves a leftmost vertex; it comes after a cusp there."""
-    x, y = plan.polyline.points[corner].tolist()
-    loop = int(plan.polyline.loop[corner])
-    return Mark(corner - loop, Fraction(0), 1, int(np.searchsorted(plan.visits.edge, corner)), loop, (x, y))
+def _feet_at_vertices(plan: _Plan, corner: Ints) -> Iterator[Mark]:
+    """Yield the feet of the bridges that leave leftmost vertices; they come after cusps there."""
+    loop, at = plan.polyline.loop[corner], np.searchsorted(plan.visits.edge, corner)
+    columns = (corner - loop, at, loop, plan.polyline.points[corner])
+    for edge, passed, number, (x, y) in zip(*(column.tolist() for column in columns), strict=True):
+        yield Mark(edge, AT_VERTEX, 1, passed, number, (x, y))
 
 
-def _foot_on_edge(plan: _Plan, edge: int, corner: int, number: int) -> Mark:
-    """Return the foot of the bridge from a vertex to an edge on its left: a little higher than the vertex.
+def _feet_on_edges(plan: _Plan, edge: Ints, passed: Ints, corner: Ints, number: Ints) -> Iterator[Mark]:
+    """Yield the feet of the bridges from vertices to edges on their left: a little higher than the vertices.
 
     Later ones, which come from further right, are higher if the vertices have one height: they pass above.
     """
-    height, loop = float(plan.polyline.points[corner, 1]), int(plan.polyline.loop[edge])
-    (start_x, start_y), (end_x, end_y) = plan.ends[edge].tolist()
-    share, upward = (Fraction(height) - Fraction(start_y)) / (Fraction(end_y) - Fraction(start_y)), start_y < end_y
-    tie = 2 + number if upward else -2 - number
-    point = (start_x + float(share) * (end_x - start_x), height)
-    return Mark(edge - loop, share, tie, _visits_passed(plan, edge, share, upward), loop, point)
+    height, loop = plan.polyline.points[corner, 1], plan.polyline.loop[edge]
+    start, end = plan.ends[edge].swapaxes(0, 1)
+    x = start[:, 0] + rounded_shares(start[:, 1], end[:, 1], height) * (end[:, 0] - start[:, 0])
+    upward = np.where(plan.is_upward(edge), 1, -1)
+    columns = (edge - loop, upward * height, upward * (2 + number), passed, loop, x, height)
+    for at_edge, along, tie, at, on, *place in zip(*(column.tolist() for column in columns), strict=True):
+        yield Mark(at_edge, along, tie, at, on, tuple(place))
 
 
-def _is_upward(polyline: _Polyline, edge: int) -> bool:
-    return bool(polyline.points[edge, 1] < polyline.points[edge + 1, 1])
+def _met_on_the_left(plan: _Plan, corner: Ints, watch: Watch) -> Ints:
+    """Return the edge of the other groups that a ray from each vertex to the left meets first; −1 if it meets none.
 
-
-def _met_on_the_left(plan: _Plan, corner: int) -> int | None:
-    """Return the edge of the other groups that a ray from a vertex to the left meets first.
-
-    The ray runs a little higher than the vertex, by less than any other difference in height. So it meets no vertices
-    and no crossings.
+    The rays run a little higher than the vertices, by less than any other difference in height. So they meet no
+    vertices and no crossings. They are short at first: most meet something soon.
     """
-    x, height = plan.polyline.points[corner].tolist()
-    near = plan.near(np.array([(plan.leftmost, height), (x, height)]))
-    low = plan.ends[near, :, 1] <= height
-    met = near[(plan.group[near] != plan.group[corner]) & ~plan.polyline.is_jump[near] & (low[:, 0] != low[:, 1])]
-    nearest, is_sure = _nearest(plan.ends[met], x, height, met)
-    if is_sure:
-        return nearest[0]
-    places = {edge: _place_and_slope(plan.ends[edge], height) for edge in nearest}
-    passed = [edge for edge, (place, _) in places.items() if place < x]
-    return max(passed, key=places.__getitem__, default=None)
+    x = plan.polyline.points[:, 0]
+    leftmost, rightmost = float(x.min()), float(x.max())
+    met = np.full(len(corner), -1)
+    waiting, reach = np.arange(len(corner)), (rightmost - leftmost) / len(corner)
+    while len(waiting):
+        reach *= _LONGER
+        with np.errstate(over="ignore"):
+            end = np.maximum(x[corner[waiting]] - reach, leftmost)
+        is_known = end == leftmost
+        for start in range(0, len(waiting), _RAYS):
+            watch.step()
+            some = slice(start, start + _RAYS)
+            met[waiting[some]], is_near = _first_met(plan, corner[waiting[some]], end[some])
+            is_known[some] |= is_near
+        waiting = waiting[~is_known]
+    return met
 
 
-def _nearest(ends: Floats, x: float, height: float, edges: Ints) -> tuple[list[int], bool]:
-    """Return those of some edges that a ray to the left may meet first, by rounded places; and if it is surely met."""
+def _first_met(plan: _Plan, corner: Ints, end: Floats) -> tuple[Ints, Bools]:
+    """Return the edge that each ray meets first, −1 for none, of those in the boxes on its way to an end.
+
+    And for which rays that is before the end, so that no others matter.
+    """
+    x, height = plan.polyline.points[corner].T
+    ray, edge = plan.near(np.stack([end, x], axis=1), height)
+    low = plan.ends[edge, :, 1] <= height[ray, None]
+    met = (plan.group[edge] != plan.group[corner[ray]]) & (low[:, 0] != low[:, 1])
+    ray, edge = ray[met], edge[met]
+    place, error = _rounded_places(plan.ends[edge], height[ray])
+    surely = place + error < x[ray]
+    least = np.full(len(corner), -np.inf)
+    np.maximum.at(least, ray[surely], (place - error)[surely])
+    nearest = (place + error >= least[ray]) & (place - error < x[ray])
+    ray, edge, surely = ray[nearest], edge[nearest], surely[nearest]
+    first = np.full(len(corner), -1)
+    is_open = np.bincount(ray, minlength=len(corner)) > 1
+    is_open[ray[~surely]] = True
+    first[ray] = edge
+    for number in np.flatnonzero(is_open).tolist():
+        first[number] = _exactly_first(plan, corner[number], edge[ray == number])
+    return first, least >= end
+
+
+def _rounded_places(ends: Floats, height: Floats) -> tuple[Floats, Floats]:
+    """Return the x at which edges pass heights, and bounds of the errors."""
     (start_x, start_y), (end_x, end_y) = ends.transpose(1, 2, 0)
     place = start_x + (height - start_y) / (end_y - start_y) * (end_x - start_x)
-    error = 16 * np.finfo(np.float64).eps * (np.abs(start_x) + np.abs(end_x)) + np.finfo(np.float64).tiny
-    left = place + error < x
-    nearest = (place + error >= (place - error)[left].max(initial=-np.inf)) & (place - error < x)
-    return edges[nearest].tolist(), np.count_nonzero(nearest) == 1 and bool(left[nearest].all())
+    return place, 16 * np.finfo(np.float64).eps * (np.abs(start_x) + np.abs(end_x)) + np.finfo(np.float64).tiny
+
+
+def _exactly_first(plan: _Plan, corner: int, edges: Ints) -> int:
+    """Return which of some edges a ray to the left meets first, by fractions; −1 if all are on the right."""
+    x, height = plan.polyline.points[corner].tolist()
+    places = {edge: _place_and_slope(plan.ends[edge], height) for edge in edges.tolist()}
+    passed = [edge for edge, (place, _) in places.items() if place < x]
+    return max(passed, key=places.__getitem__, default=-1)
 
 
 def _place_and_slope(edge: Floats, height: float) -> tuple[Fraction, Fraction]:
@@ -292,10 +339,19 @@ def _place_and_slope(edge: Floats, height: float) -> tuple[Fraction, Fraction]:
     return x + (Fraction(height) - y) * slope, slope
 
 
-def _visits_passed(plan: _Plan, edge: int, share: Fraction, upward: bool) -> int:
-    """Return how many visits come before the place on an edge a little above a share of it."""
-    ends, visits = plan.ends, plan.visits
-    first, last = np.searchsorted(visits.edge, [edge, edge + 1]).tolist()
-    other = visits.edge[visits.partner[first:last]].tolist()
-    places = [exact_parameter(*ends[edge], *ends[crossing]) for crossing in other]
-    return int(first) + sum(place < share or (upward and place == share) for place in places)
+def _visits_passed(plan: _Plan, edge: Ints, height: Floats) -> Ints:
+    """Return how many visits come before the places on edges a little above some heights."""
+    first, last = (np.searchsorted(plan.visits.edge, edge, side) for side in ("left", "right"))
+    passed = first.copy()
+    for i in np.flatnonzero(first < last).tolist():
+        (_, start), (_, end) = plan.ends[edge[i]].tolist()
+        share = (Fraction(height[i].item()) - Fraction(start)) / (Fraction(end) - Fraction(start))
+        bisect = bisect_right if start < end else bisect_left
+        passed[i] = bisect(range(last[i]), share, int(first[i]), key=partial(_share_of_visit, plan))
+    return passed
+
+
+def _share_of_visit(plan: _Plan, visit: int) -> Fraction:
+    """Return how far along its edge a visit is."""
+    edge = plan.visits.edge[[visit, plan.visits.partner[visit]]]
+    return exact_parameter(*plan.ends[edge].reshape(4, 2))
