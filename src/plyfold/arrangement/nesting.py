@@ -81,7 +81,8 @@ def nest(loops: Sequence[Floats], watch: Watch = UNWATCHED) -> Nest:
     visits = _visits(polyline, watch)
     first_visit = np.searchsorted(polyline.loop[visits.edge], np.arange(len(loops) + 1))
     loop = polyline.loop[visits.edge]
-    group = components(len(loops), loop, loop[visits.partner])
+    other = loop[visits.partner]
+    group = components(len(loops), loop[loop < other], other[loop < other])
     plan = _Plan(polyline, visits, first_visit, group[polyline.loop])
     corner = _corners(plan)
     dart, beyond = _outer_darts(plan, corner), _met_on_the_left(plan, corner, watch)
@@ -89,14 +90,13 @@ def nest(loops: Sequence[Floats], watch: Watch = UNWATCHED) -> Nest:
     corner, beyond = corner[joined], beyond[joined]
     passed = _visits_passed(plan, beyond, polyline.points[corner, 1])
     met = 2 * plan.border(beyond, passed) + plan.is_upward(beyond)
+    feet = zip(_feet_at_vertices(plan, corner), _feet_on_edges(plan, beyond, passed, corner, joined), strict=True)
     return Nest(
         visits=replace(visits, edge=visits.edge - loop),
         first_visit=first_visit,
         outside=dart[is_free],
         bridges=np.stack([dart[joined], met], axis=1),
-        feet=list(
-            zip(_feet_at_vertices(plan, corner), _feet_on_edges(plan, beyond, passed, corner, joined), strict=True)
-        ),
+        feet=list(feet),
     )
 
 
@@ -188,32 +188,6 @@ class _Plan:
         """The first border of each loop."""
         return starts_of(np.maximum(np.diff(self.first_visit), 1))
 
-    @cached_property
-    def boxed(self) -> Ints:
-        """The first edge in each box: so many edges of a loop that follow each other; and last the number of edges."""
-        jumps = np.flatnonzero(self.polyline.is_jump)
-        lengths = np.diff(jumps, prepend=-1)
-        starts = np.flatnonzero(count_each(lengths) % _EDGES_IN_BOX == 0)
-        return np.append(starts, len(self.ends))
-
-    @cached_property
-    def boxes(self) -> STRtree:
-        """The bounding boxes: as lines from corner to corner."""
-        from shapely import STRtree, linestrings
-
-        start, end = self.ends.swapaxes(0, 1)
-        low = np.minimum.reduceat(np.minimum(start, end), self.boxed[:-1])
-        high = np.maximum.reduceat(np.maximum(start, end), self.boxed[:-1])
-        return STRtree(linestrings(np.stack([low, high], axis=1)))
-
-    def near(self, ends: Floats, height: Floats) -> tuple[Ints, Ints]:
-        """Return the edges in all boxes that level rays meet: (place among the rays, edge) of each."""
-        from shapely import linestrings
-
-        ray, box = self.boxes.query(linestrings(np.stack([ends, np.stack([height, height], axis=1)], axis=2)))
-        size = self.boxed[box + 1] - self.boxed[box]
-        return np.repeat(ray, size), np.repeat(self.boxed[box], size) + count_each(size)
-
     def border(self, edge: Ints, visits_passed: Ints) -> Ints:
         """Return the borders at places on edges, given how many visits come before them, on earlier loops too."""
         loop = self.polyline.loop[edge]
@@ -223,6 +197,47 @@ class _Plan:
     def is_upward(self, edge: Ints) -> Bools:
         """Tell which edges end higher than they start."""
         return np.asarray(self.ends[edge, 0, 1] < self.ends[edge, 1, 1])
+
+
+@dataclass(frozen=True, eq=False)
+class _Boxes:
+    """Bounding boxes of edges that follow each other, so many at a time.
+
+    Parameters
+    ----------
+    tree : STRtree
+        The boxes, as lines from corner to corner.
+    first, size : (b,) int
+        The first edge in each box, and the number of its edges.
+    """
+
+    tree: STRtree
+    first: Ints
+    size: Ints
+
+    @classmethod
+    def at(cls, plan: _Plan, heights: Floats) -> _Boxes:
+        """Return the boxes of all edges at some heights; no box holds edges of two loops."""
+        from shapely import STRtree, linestrings
+
+        lengths = np.diff(np.flatnonzero(plan.polyline.is_jump), prepend=-1)
+        first = np.flatnonzero(count_each(lengths) % _EDGES_IN_BOX == 0)
+        start, end = plan.ends.swapaxes(0, 1)
+        low = np.minimum.reduceat(np.minimum(start, end), first)
+        high = np.maximum.reduceat(np.maximum(start, end), first)
+        order = np.sort(heights)
+        kept = np.searchsorted(order, low[:, 1]) < np.searchsorted(order, high[:, 1], side="right")
+        tree = STRtree(linestrings(np.stack([low[kept], high[kept]], axis=1)))
+        return cls(tree, first[kept], np.diff(first, append=len(plan.ends))[kept])
+
+    def near(self, start: Floats, end: Floats, height: Floats) -> tuple[Ints, Ints]:
+        """Return the edges in all boxes that level rays meet: (place among the rays, edge) of each."""
+        from shapely import linestrings
+
+        rays = np.stack([start, height, end, height], axis=1).reshape(-1, 2, 2)
+        ray, box = self.tree.query(linestrings(rays))
+        size = self.size[box]
+        return np.repeat(ray, size), np.repeat(self.first[box], size) + count_each(size)
 
 
 def _corners(plan: _Plan) -> Ints:
@@ -274,7 +289,8 @@ def _met_on_the_left(plan: _Plan, corner: Ints, watch: Watch) -> Ints:
     The rays run a little higher than the vertices, by less than any other difference in height. So they meet no
     vertices and no crossings. They are short at first: most meet something soon.
     """
-    x = plan.polyline.points[:, 0]
+    x, y = plan.polyline.points.T
+    boxes = _Boxes.at(plan, y[corner])
     leftmost, rightmost = float(x.min()), float(x.max())
     met = np.full(len(corner), -1)
     waiting, reach = np.arange(len(corner)), (rightmost - leftmost) / len(corner)
@@ -286,19 +302,19 @@ def _met_on_the_left(plan: _Plan, corner: Ints, watch: Watch) -> Ints:
         for start in range(0, len(waiting), _RAYS):
             watch.step()
             some = slice(start, start + _RAYS)
-            met[waiting[some]], is_near = _first_met(plan, corner[waiting[some]], end[some])
+            met[waiting[some]], is_near = _first_met(plan, boxes, corner[waiting[some]], end[some])
             is_known[some] |= is_near
         waiting = waiting[~is_known]
     return met
 
 
-def _first_met(plan: _Plan, corner: Ints, end: Floats) -> tuple[Ints, Bools]:
+def _first_met(plan: _Plan, boxes: _Boxes, corner: Ints, end: Floats) -> tuple[Ints, Bools]:
     """Return the edge that each ray meets first, −1 for none, of those in the boxes on its way to an end.
 
     And for which rays that is before the end, so that no others matter.
     """
     x, height = plan.polyline.points[corner].T
-    ray, edge = plan.near(np.stack([end, x], axis=1), height)
+    ray, edge = boxes.near(end, x, height)
     low = plan.ends[edge, :, 1] <= height[ray, None]
     met = (plan.group[edge] != plan.group[corner[ray]]) & (low[:, 0] != low[:, 1])
     ray, edge = ray[met], edge[met]
