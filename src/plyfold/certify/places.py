@@ -84,8 +84,7 @@ class ExactPlaces:
         ends = np.stack([a, b, c, d], axis=1)[unsure]
         # The signs of what lies on one edge are 0 as they are.
         apart = ~self._on_one_edge(ends)
-        for i, four in zip(unsure[apart].tolist(), ends[apart].tolist(), strict=True):
-            signs[i] = self._exact_cross_sign(four)
+        signs[unsure[apart]] = self._exact_cross_signs(ends[apart])
         return signs, np.asarray(~sure)
 
     def step_sign(self, a: Ints, b: Ints, axis: Ints) -> Signs:
@@ -124,11 +123,13 @@ class ExactPlaces:
         known = edges[:, 0] >= 0
         return np.asarray((shared[0] & known[:, 0]) | (shared[1] & known[:, 1]))
 
-    def _exact_cross_sign(self, vertices: list[int]) -> int:
-        if not self.off[vertices].any():
-            return _sign(_cross(*_whole(self.near[vertices])))
-        p, q, r, s = map(self.exact, vertices)
-        return _sign(_cross(p, q, r, s))
+    def _exact_cross_signs(self, vertices: Ints) -> Signs:
+        """Return the signs of the cross products of rows of four vertices."""
+        signs = np.zeros(len(vertices), dtype=np.int8)
+        are_doubles = (self.off[vertices] == 0).all(axis=1)
+        signs[are_doubles] = [_sign(_cross(*four)) for four in _whole(self.near[vertices[are_doubles]])]
+        signs[~are_doubles] = [_sign(_cross(*map(self.exact, four))) for four in vertices[~are_doubles].tolist()]
+        return signs
 
 
 def doubles(points: Floats) -> ExactPlaces:
@@ -205,11 +206,13 @@ def _rational(point: Floats) -> Point:
     return Fraction(x), Fraction(y)
 
 
-def _whole(points: Floats) -> list[tuple[int, int]]:
-    """Return points, multiplied by a power of two that makes them whole: quicker than fractions."""
-    ratios = [(x.as_integer_ratio(), y.as_integer_ratio()) for x, y in points.tolist()]
-    scale = max(below for point in ratios for _, below in point)
-    return [(x * (scale // x_below), y * (scale // y_below)) for (x, x_below), (y, y_below) in ratios]
+def _whole(points: Floats) -> list[list[tuple[int, int]]]:
+    """Return rows of points, each times a power of two that makes it whole: quicker than fractions."""
+    mantissa, exponent = np.frexp(points)
+    whole = np.ldexp(mantissa, 53).astype(np.int64).astype(object)
+    above_least = exponent - exponent.min(axis=(1, 2), keepdims=True)
+    rows: list[list[tuple[int, int]]] = (whole << above_least.astype(object)).tolist()
+    return rows
 
 
 def _cross(
