@@ -12,7 +12,7 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import PrecisionError
-from plyfold.halfedges import ends_of, half_edges_from_to, twins_of
+from plyfold.halfedges import ends_of, half_edges_from_to
 from plyfold.mesh.cells import CellTriangulation
 from plyfold.predicates import orient
 from plyfold.ragged import next_in_rows
@@ -106,5 +106,10 @@ def triangulation(points: Floats, triangles: Ints, cell: Ints, chain: tuple[Ints
     a, b, c = points[triangles].swapaxes(0, 1)
     if len(flat := np.flatnonzero(orient(a, b, c) <= 0)):
         raise PrecisionError("double precision cannot hold a point in the middle of an edge", where=a[flat])
-    left = half_edges_from_to(triangles, chain[0], chain[0][next_in_rows(chain[2])])
-    return CellTriangulation(points, triangles, twins_of(triangles), cell, *chain, left)
+    start, end = ends_of(triangles)
+    along = chain[0], chain[0][next_in_rows(chain[2])]
+    twin_and_left = half_edges_from_to(
+        triangles, *(np.concatenate(ends) for ends in zip((end, start), along, strict=True))
+    )
+    twin, left = np.split(twin_and_left, [len(start)])
+    return CellTriangulation(points, triangles, twin, cell, *chain, left)
