@@ -109,6 +109,49 @@ def drawn_out(curve: pf.Curve, index: int) -> pf.Curve:
     return pf.Curve(np.concatenate([curve.points[first : last + 1], curl]))
 
 
+# ---- contacts ------------------------------------------------------------------------------------------------------
+
+
+TOUCHING = {
+    "two triangles in a point": [(0, 0), (2, 1.2), (4, 0), (4, 2.4), (2, 1.2), (0, 2.4)],
+    "squares on a neck": [
+        (0, 0), (1.6, 0), (1.6, 1), (3, 1), (3, 0), (4.6, 0), (4.6, 2), (3, 2), (3, 1), (1.6, 1), (1.6, 2), (0, 2),
+    ],
+    "a hole on a cut": [(0, 0), (4, 0), (4, 3), (0, 3), (0, 0), (1, 0.75), (1, 2), (2.8, 2), (2.8, 0.75), (1, 0.75)],
+    "no disk": [(0, 0), (2, 0), (2, 1.4), (2, 2.8), (4, 2.8), (4, 1.4), (2, 1.4), (0, 1.4)],
+}  # fmt: skip
+AWAY = 0.16
+"""How far points that touch others are moved in the picture, in place of a ten-thousandth of it."""
+
+
+def contacts() -> None:
+    """Draw outlines that touch themselves: as they are, with points moved outward visibly, and what is left of them."""
+    with panels("outlines-contacts", 3, len(TOUCHING), (13, 7.6)) as axes:
+        for name, points in TOUCHING.items():
+            drawn = pf.arrange(points)
+            frame = Frame(drawn.given.points)
+            titled(ax := next(axes), name)
+            line(ax, frame(np.concatenate([drawn.given.points, drawn.given.points[:1]])), INK, 1.4)
+            touching = drawn.given.points[(drawn.given.points != drawn.outline.points).any(axis=1)]
+            dots(ax, frame(touching), OBSTRUCTION, 26, zorder=4)
+        for points in TOUCHING.values():
+            titled(draw.plot_arrangement(moved_visibly(pf.arrange(points)), next(axes)), "moved outward")
+        for points in TOUCHING.values():
+            titled(ax := next(axes), "pieces")
+            frame = Frame(np.array(points, dtype=np.float64))
+            for winding, pieces in zip((1, -1), pf.decompose(points, signed=True), strict=True):
+                for piece in pieces:
+                    region(
+                        ax, [frame(piece.exterior.coords[:-1])], winding_colour(winding), edgecolor=INK, linewidth=1.4
+                    )
+
+
+def moved_visibly(drawn: pf.Arrangement) -> pf.Curve:
+    """Return an outline with the moves that keep it from touching itself, made larger."""
+    move = drawn.outline.points - drawn.given.points
+    return pf.Curve(drawn.given.points + AWAY * move / np.hypot(*move.T).max())
+
+
 # ---- a torus -------------------------------------------------------------------------------------------------------
 
 
@@ -152,5 +195,5 @@ def torus_mesh(wide: float = 3.0, tube: float = 1.3, steps: int = 120) -> Mesh:
 
 if __name__ == "__main__":
     IMAGES.mkdir(exist_ok=True)
-    for picture in (loops, links, bridges, cusps, torus):
+    for picture in (loops, links, bridges, cusps, contacts, torus):
         picture()

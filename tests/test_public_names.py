@@ -64,6 +64,7 @@ def test_public_names():
         "nicest_layering",
         "paper",
         "read",
+        "ribbon",
         "sample_immersion",
         "save",
         "suggest_cusps",

@@ -51,6 +51,7 @@ from .offers.cusps import SuggestedCusps as SuggestedCusps
 from .offers.cusps import suggest_cusps as suggest_cusps
 from .outline.curve import Curve as Curve
 from .outline.curve import Outline as Outline
+from .outline.ribbons.ribbon import ribbon as ribbon
 from .surface.lift import Surface as Surface
 from .surface.lift import lift as lift
 

@@ -7,7 +7,7 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Bools", "Complexes", "Floats", "Ints", "Signs", "freeze", "read_only"]
+__all__ = ["Bools", "Complexes", "Floats", "Ints", "Signs", "Wholes", "freeze", "read_only"]
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 
@@ -15,6 +15,8 @@ Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int64]
 Bools: TypeAlias = npt.NDArray[np.bool_]
 Signs: TypeAlias = npt.NDArray[np.int8]
+Wholes: TypeAlias = npt.NDArray[np.object_]
+"""Whole numbers, however large."""
 Complexes: TypeAlias = npt.NDArray[np.complex128]
 
 

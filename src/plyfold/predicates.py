@@ -9,28 +9,33 @@ What :func:`orient` tells of many points at once, :func:`turn` tells of three, t
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrays import Bools, Floats, Signs
+from plyfold.arrays import Bools, Floats, Signs, Wholes
 from plyfold.compiled import called_from_loops
 
 __all__ = [
     "Coordinates",
+    "Place",
     "as_coordinates",
     "counted_cross_sign",
     "cross_sign",
     "crossing_bounds",
+    "exact_cross",
     "exact_crossings",
     "exact_parameter",
     "orient",
     "parameter_along_edge",
-    "rounded_shares",
     "turn",
+    "whole_numbers",
 ]
 
+
+Place: TypeAlias = tuple[Fraction, Fraction]
+"""A point, exactly."""
 
 # Shewchuk's bound for orient2d is (3 + 16 u) u with u = 2^-53; doubled here, which costs a few exact calls more.
 _ORIENT_ERROR = 6.7e-16
@@ -152,7 +157,7 @@ def _settle(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Signs, int]:
         signs = np.where(left == right, np.sign(left_rest - right_rest), np.sign(left - right)).astype(np.int8)
     unsettled = np.flatnonzero(~(left_exact & right_exact)).tolist()
     for row in unsettled:
-        signs[row] = _sign(_cross(*(_exact(p[row]) for p in (a, b, c, d))))
+        signs[row] = _sign(exact_cross(*(_exact(p[row]) for p in (a, b, c, d))))
     return signs, len(unsettled)
 
 
@@ -177,16 +182,12 @@ def _is_exact_difference(a: Floats, b: Floats, difference: Floats) -> Bools:
     return np.asarray((b - (difference - minus_a)) - (a + minus_a) == 0)
 
 
-def _exact(point: Floats) -> tuple[Fraction, Fraction]:
+def _exact(point: Floats) -> Place:
     return Fraction(float(point[0])), Fraction(float(point[1]))
 
 
-def _cross(
-    a: tuple[Fraction, Fraction],
-    b: tuple[Fraction, Fraction],
-    c: tuple[Fraction, Fraction],
-    d: tuple[Fraction, Fraction],
-) -> Fraction:
+def exact_cross(a: Place, b: Place, c: Place, d: Place) -> Fraction:
+    """Return the cross product of the directions a → b and c → d."""
     return (b[0] - a[0]) * (d[1] - c[1]) - (b[1] - a[1]) * (d[0] - c[0])
 
 
@@ -213,7 +214,7 @@ def _crossed(one: Floats, other: Floats) -> tuple[Floats, Floats]:
 def exact_parameter(a: Floats, b: Floats, c: Floats, d: Floats) -> Fraction:
     """Return where the edge a → b crosses the edge c → d, as an exact fraction of a → b."""
     p, q, r, s = _exact(a), _exact(b), _exact(c), _exact(d)
-    return _cross(p, r, r, s) / _cross(p, q, r, s)
+    return exact_cross(p, r, r, s) / exact_cross(p, q, r, s)
 
 
 def crossing_bounds(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Floats]:
@@ -243,7 +244,7 @@ def exact_crossings(ends: Floats, axis: int) -> list[Fraction]:
     >>> exact_crossings(np.array([[[0.0, 0.0]], [[3.0, 1.0]], [[0.5, 0.0]], [[0.5, 9.0]]]), axis=1)
     [Fraction(1, 6)]
     """
-    (p, q, r, s), unit = _whole(ends)
+    (p, q, r, s), unit = whole_numbers(ends)
     along, across, between = q - p, s - r, r - p
     below = along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]
     above = between[:, 0] * across[:, 1] - between[:, 1] * across[:, 0]
@@ -251,19 +252,7 @@ def exact_crossings(ends: Floats, axis: int) -> list[Fraction]:
     return [Fraction(n, m) * unit for n, m in zip(numerator.tolist(), below.tolist(), strict=True)]
 
 
-def rounded_shares(start: Floats, end: Floats, place: Floats) -> Floats:
-    """Return how far places are on the way from start to end, each to the nearest double.
-
-    Examples
-    --------
-    >>> rounded_shares(np.array([-0.1]), np.array([0.7]), np.array([0.5])).tolist() == [0.75]
-    True
-    """
-    (here, there, between), _ = _whole(np.stack([start, end, place]))
-    return np.asarray((between - here) / (there - here), dtype=np.float64)
-
-
-def _whole(numbers: Floats) -> tuple[npt.NDArray[np.object_], Fraction]:
+def whole_numbers(numbers: Floats) -> tuple[Wholes, Fraction]:
     """Return doubles as whole numbers, however large, of a power of two."""
     mantissa, exponent = np.frexp(numbers)
     least = int(exponent.min(initial=0))

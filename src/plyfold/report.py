@@ -12,7 +12,7 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.errors import TimeLimitError
 from plyfold.immersion.immersion import Immersion, Piece
 from plyfold.immersion.obstructions import may_bound_disk
-from plyfold.immersion.solve import count_immersions, find_immersion, immersions
+from plyfold.immersion.solve import bounds_strictly, count_immersions, find_immersion, immersions
 from plyfold.io.cusp_notation import CuspMark, cusp_marks, written_cusp
 from plyfold.layering.embedding import find_embedding
 from plyfold.layering.orders.search import first_layering
@@ -36,7 +36,7 @@ A_DISK = "a disk of cloth"
 """What one curve without cusps bounds, if it bounds a surface without handles."""
 
 _SECONDS_FOR_AN_OFFER = 2.0
-_SHOWN_REPAIRS = _SHOWN_CUSPS = 5
+_SHOWN_REPAIRS = _SHOWN_CUSPS = _SHOWN_PLACES = 5
 _LONGEST_NUMBER = 12
 _UNDECIDED = "Whether it can be lifted was not decided in time."
 
@@ -49,7 +49,9 @@ class Words:
     sentence: str
 
 
-def words(immersions: int | None, obstruction: str = "", decided: bool = True, surface: str = A_DISK) -> Words:
+def words(
+    immersions: int | None, obstruction: str = "", decided: bool = True, surface: str = A_DISK, touches: bool = False
+) -> Words:
     """Return the verdict on an outline in words.
 
     Parameters
@@ -62,6 +64,8 @@ def words(immersions: int | None, obstruction: str = "", decided: bool = True, s
         Whether it is known if that one can be lifted.
     surface : str
         What it bounds, or might have bounded, as :func:`surface_in_words` says.
+    touches : bool
+        Whether that touches itself, so that the outline is a limit of outlines of such surfaces.
 
     Examples
     --------
@@ -69,12 +73,16 @@ def words(immersions: int | None, obstruction: str = "", decided: bool = True, s
     ('A disk of cloth, in 2 ways', 'This is the outline of a disk of cloth, which can lie in 2 ways.')
     >>> words(1, surface="a ring of cloth").sentence
     'This is the outline of a ring of cloth, which can lie in one way.'
+    >>> words(1, touches=True).headline
+    'A disk of cloth that touches itself'
     >>> words(0, "The curve turns 2 times, and the outline of a disk turns once.").headline
     'No disk'
     """
     if immersions == 0:
         return Words("No disk" if surface == A_DISK else "No surface", obstruction)
     ways = f", in {in_words(immersions)} ways" if immersions is not None and immersions > 1 else ""
+    if touches:
+        surface += " that touches itself" if surface.startswith("a ") else ", which touch themselves or each other"
     headline = f"{surface[0].upper()}{surface[1:]}{ways}"
     if obstruction:
         return Words(f"{headline}; this one cannot be lifted", obstruction)
@@ -165,9 +173,10 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
     dict
         ``points``, ``loops``, ``cusps`` (of each: ``loop``, ``point``, ``index``, ``where``), ``crossings``, ``cells``
         (number of cells by winding number), ``turning_number``, ``reversed``, ``repairs``, ``immersible``,
-        ``immersions``; for a surface also ``surface`` (in words), ``pieces``, ``euler_characteristic``, ``sheets``,
-        ``layerable``, and, for a disk, ``examined`` (immersions), otherwise ``reason``, ``sentence`` and ``where``; if
-        it turns too often, perhaps an ``offer``: ``cusps``, and the ``surface`` that it would bound with them.
+        ``immersions``; for a surface also ``surface`` (in words), ``touches`` (where it touches itself; no places if
+        the outline bounds one that does not), ``pieces``, ``euler_characteristic``, ``sheets``, ``layerable``, and, for
+        a disk, ``examined`` (immersions), otherwise ``reason``, ``sentence`` and ``where``; if it turns too often,
+        perhaps an ``offer``: ``cusps``, and the ``surface`` that it would bound with them.
 
     Examples
     --------
@@ -221,10 +230,17 @@ def _surface(immersion: Immersion) -> dict[str, Any]:
     ]
     return {
         "surface": surface_in_words(immersion.pieces),
+        "touches": _touches(immersion),
         "pieces": pieces,
         "euler_characteristic": immersion.euler_characteristic,
         "sheets": immersion.n_sheets,
     }
+
+
+def _touches(immersion: Immersion) -> list[list[float]]:
+    if not immersion.touches or bounds_strictly(immersion.arrangement):
+        return []
+    return [list(place) for place in immersion.touches]
 
 
 def _cusps(outline: Outline | None) -> list[dict[str, Any]]:
@@ -290,11 +306,17 @@ def _rows(figures: dict[str, Any]) -> dict[str, str]:
         "cusps": _listed_cusps(figures["cusps"]),
         "Euler characteristic": str(figures.get("euler_characteristic", "")),
         "immersions": "unknown" if figures["immersions"] is None else f"{figures['immersions']:,}",
+        "touches itself at": _listed_places(figures["touches"]) if figures["immersible"] else "",
         "layering": _layering_sentence(figures) if figures["immersible"] else "",
     }
     if rows["Euler characteristic"] == "1" and not rows["loops"]:
         rows["Euler characteristic"] = ""
     return {name: value for name, value in rows.items() if value}
+
+
+def _listed_places(places: list[list[float]]) -> str:
+    more = f" and {len(places) - _SHOWN_PLACES} more" if len(places) > _SHOWN_PLACES else ""
+    return ", ".join("({:.6g}, {:.6g})".format(*place) for place in places[:_SHOWN_PLACES]) + more
 
 
 def _listed_cusps(cusps: list[dict[str, Any]]) -> str:
@@ -309,7 +331,8 @@ def _cusp_and_place(cusp: dict[str, Any]) -> str:
 
 def _headline(figures: dict[str, Any]) -> str:
     if figures["immersible"]:
-        return f"Yes. {words(figures['immersions'], surface=figures['surface']).sentence}"
+        said = words(figures["immersions"], surface=figures["surface"], touches=bool(figures["touches"]))
+        return f"Yes. {said.sentence}"
     if figures["immersible"] is None:
         return "Unknown. Whether this is the outline of a surface was not decided in time."
     plain = figures["loops"] == 1 and not figures["cusps"]

@@ -429,6 +429,19 @@ def test_triangulate_numbers_the_points_of_the_file(loop, tmp_path):
         assert (((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) > 0).all()
 
 
+def test_triangles_and_pieces_of_an_outline_that_touches_itself(tmp_path, capsys):
+    """Two triangles that meet in a point."""
+    file, mesh, pieces = tmp_path / "pinch.csv", tmp_path / "pinch.obj", tmp_path / "pinch.wkt"
+    file.write_text("0,0\n1,1\n2,0\n2,2\n1,1\n0,2\n")
+    assert main(["triangulate", str(file), "-o", str(mesh)]) == 0
+    assert "2 triangles" in capsys.readouterr().out
+    points = [line.split()[1:3] for line in mesh.read_text().splitlines() if line[0] == "v"]
+    assert np.array(points, dtype=float).tolist() == np.loadtxt(file, delimiter=",").tolist()
+    assert main(["split", str(file), "-o", str(pieces)]) == 0
+    assert "2 simple polygon(s)" in capsys.readouterr().out
+    assert [shapely.from_wkt(line).area for line in pieces.read_text().splitlines()] == [1, 1]
+
+
 def test_word_prints_the_groupings(capsys):
     assert main(["word", "gallery:milnor"]) == 0
     assert "2 grouping(s)" in capsys.readouterr().out

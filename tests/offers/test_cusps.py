@@ -146,3 +146,9 @@ def test_why_there_is_no_proposal():
     assert isinstance(pf.suggest_cusps(LIMACON, time_limit=0), pf.Unknown)
     with pytest.raises(InputError, match="no points"):
         pf.suggest_cusps(pf.Arrangement.from_gauss([1, 0], [True, False], 1))
+
+
+@pytest.mark.parametrize("most", [0, -1, 1.5, True])
+def test_the_most_turns_are_a_count(most):
+    with pytest.raises(InputError, match="most must be a whole number from 1"):
+        pf.suggest_cusps(LIMACON, most=most)

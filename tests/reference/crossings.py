@@ -129,7 +129,11 @@ def crossings(points: Iterable[Sequence[float]]) -> PolygonCrossings:
     Raises DegenerateError if it is not in general position: vertices on other vertices or edges (edges that
     overlap among them), more than two edges through a point.
     """
-    vertices = exact(points)
+    return crossings_between(exact(points))
+
+
+def crossings_between(vertices: Sequence[Point]) -> PolygonCrossings:
+    """The Gauss code of a closed polygon with these vertices, which need be no doubles."""
     found = meetings(vertices)
     if places := touching(vertices) + coinciding(found):
         raise DegenerateError(places)

@@ -36,7 +36,11 @@ def drawing(polygons: Sequence[Sequence[Sequence[float]]], cusps: Sequence[Seque
     A bridge starts at the last vertex of each group of loops that hang together, in a fixed direction, and ends at the
     first edge that it meets. Groups of which it meets none lie on the outside.
     """
-    loops = [exact(polygon) for polygon in polygons]
+    return drawing_between([exact(polygon) for polygon in polygons], cusps)
+
+
+def drawing_between(loops: Sequence[Sequence[Point]], cusps: Sequence[Sequence[int]] = ()) -> Drawing:
+    """The code of several polygons with these vertices, which need be no doubles."""
     refuse_touching(loops)
     pairs = meetings(loops)
     bridges, outside = bridges_of(loops, groups_of(len(loops), pairs))

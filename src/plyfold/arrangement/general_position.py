@@ -1,239 +1,298 @@
 """General position (§2.1 and §4 of the paper): no vertex on a foreign edge, no three edges through one point.
 
-A drawing that is not in general position has no answer of its own: each way of moving the touching strands apart is
-another curve. The rule here is that strands which only touch come apart, strands which run through each other's
-vertices cross once, and strands which run along each other end up side by side. Nothing else may change: a move is
-accepted only if every pair of edges that crossed still does, and no pair crosses that was apart.
+An outline that touches itself is taken for the limit of others. First its spikes are taken out. Then each vertex that
+touches something moves outward, infinitely little: that tells which edges cross, and in what order. At last the move is
+made small enough for doubles to show the very same. Vertices that touch as cusps stay where they are.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Literal
+from dataclasses import dataclass, replace
+from typing import Literal, NamedTuple
 
 import numpy as np
 
-from plyfold.arrangement.crossings import Contacts, Visits, find_contacts, order_visits
-from plyfold.arrays import Bools, Floats, Ints
+from plyfold.arrangement.crossings import Contacts, Visits
+from plyfold.arrangement.crowded_cusps import crowded_cusps, lie_inside
+from plyfold.arrangement.infinitesimal import (
+    MovingPoints,
+    begin_to_move,
+    order_along_edges,
+    same_outside,
+    signed_crossings,
+    signed_pairs,
+)
+from plyfold.arrangement.meetings import JoinedLoops, joined_loops, meetings, visits_along
+from plyfold.arrangement.nesting import nest, same_nest
+from plyfold.arrangement.noding import node_outline
+from plyfold.arrangement.outward import are_moved, outward_vectors, winds_backward
+from plyfold.arrangement.spikes import tips, without_spikes
+from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GeneralPositionError, InputError
-from plyfold.outline.curve import Curve, Repair
-from plyfold.predicates import orient
+from plyfold.outline.curve import Outline, Repair, backward_numbers, outline_of_points
 
-__all__ = ["in_general_position", "touching_places"]
+__all__ = ["GeneralPosition", "in_general_position", "number_of_ways", "separated", "touching_points"]
 
-# Steps as fractions of the drawing's size: large enough for a mesh to survive, smaller where strands crowd.
-_STEPS = [2.0**-exponent for exponent in (20, 24, 28, 32, 36, 40, 44)]
-_GOLDEN_ANGLE = np.pi * (3 - np.sqrt(5))
+# Sizes of moves as fractions of the drawing's: smaller ones where strands crowd.
+_STEPS = [2.0**-exponent for exponent in range(20, 49, 4)]
+# A step is so many times the rounding of the coordinates at least, so that there are directions to choose from.
+_LEAST_STEP = 16
+_LARGEST_STEP = 2.0**-4
 _ATTEMPTS = 12
-# A vertex must come clear of the edge it lay on by this fraction of the step, so that no rounding decides the answer.
-_CLEARANCE = 0.02
-# Steps have to be this many times the rounding of the coordinates, for the same reason.
-_LEAST_STEP = 1000
-_LARGEST_STEP = 0.002
 
 
-def in_general_position(
-    curve: Curve, policy: Literal["perturb", "raise"], watch: Watch = UNWATCHED
-) -> tuple[Curve, Visits]:
-    """Return the curve with touching strands moved apart, and its visits to the crossings.
+@dataclass(frozen=True, eq=False)
+class GeneralPosition:
+    """An outline in general position, and the one that it was given as.
 
     Parameters
     ----------
-    curve : Curve
+    outline : Outline
+    given : Outline
+        The same points in the same order where they were given, without spikes.
+    numbers : (points,) int
+        The number that each point has in the outline that came in.
+    joined : JoinedLoops
+    visits : Visits
+        Of the outline in general position.
+    turned_round : bool or None
+        Whether the outline that came in was turned round, so that the surface lies on its left. None if that is not
+        settled: it is as it came in, and there is nothing to tell inside from outside but its cells.
+    """
+
+    outline: Outline
+    given: Outline
+    numbers: Ints
+    joined: JoinedLoops
+    visits: Visits
+    turned_round: bool | None
+
+
+def in_general_position(
+    outline: Outline, policy: Literal["perturb", "raise"], watch: Watch = UNWATCHED
+) -> GeneralPosition:
+    """Return an outline without spikes and with touching strands moved apart.
+
+    Parameters
+    ----------
+    outline : Outline
     policy : {"perturb", "raise"}
-        Move vertices, or raise an error where one would have to be moved.
+        Take out spikes and move vertices, or raise an error where that would be done.
     watch : Watch, optional
 
     Returns
     -------
-    Curve
-        The same curve if it is in general position; else one with a :class:`~plyfold.outline.curve.Repair` per moved
-        vertex. Which vertices move, and where to, does not depend on the starting point or the direction of the curve.
-    Visits
+    GeneralPosition
+        The same outline if it is in general position; else one with a :class:`~plyfold.outline.curve.Repair` per spike
+        and per moved vertex. How the moved strands cross does not depend on where loops begin, which way they run, and
+        where on the page they lie.
 
     Raises
     ------
+    CurveError
+        If nothing is left of the outline without its spikes.
     GeneralPositionError
-        With ``policy="raise"`` at every touching place; with ``"perturb"`` if the strands are too crowded to separate.
+        With ``policy="raise"`` at every touching place; with ``"perturb"`` if double precision cannot show strands
+        apart that are to be, or if several cusps lie at one place.
     """
     if policy not in ("perturb", "raise"):
         raise InputError(f'general_position must be "perturb" or "raise", not {policy!r}')
-    contacts = find_contacts(curve.points, watch)
-    visits = order_visits(curve.points, contacts)
-    if _is_general(contacts, visits):
-        return curve, visits
-    if policy == "raise":
-        raise GeneralPositionError(
-            f"the curve is not in general position (vertices on other edges: {len(np.unique(contacts.touches[:, 0]))}, "
-            f"meetings of three edges: {len(visits.triple)})",
-            where=touching_places(curve.points, contacts, visits),
-            hint='move these vertices, or use general_position="perturb"',
-        )
-    return _separate(curve, contacts, visits, watch)
+    joined = _joined(outline)
+    contacts = meetings(joined, watch)
+    if policy == "raise" or len(contacts.touches) == 0:
+        visits = visits_along(joined, contacts)
+        if len(contacts.touches) == 0 and len(visits.triple) == 0:
+            return GeneralPosition(outline, outline, np.arange(len(outline)), joined, visits, None)
+        if policy == "raise":
+            raise _not_general(outline, contacts, visits)
+    left, kept = without_spikes(outline)
+    if left is outline:
+        return _directed(outline, watch)
+    rest = in_general_position(left, policy, watch)
+    return replace(rest, numbers=kept[rest.numbers])
 
 
-def _is_general(contacts: Contacts, visits: Visits) -> bool:
-    return len(contacts.touches) == 0 and len(visits.triple) == 0
+def _not_general(outline: Outline, contacts: Contacts, visits: Visits) -> GeneralPositionError:
+    what = "curve is" if outline.n_loops == 1 else "curves are"
+    return GeneralPositionError(
+        f"the {what} not in general position (vertices on other edges: {len(np.unique(contacts.touches[:, 0]))}, "
+        f"meetings of three edges: {len(visits.triple)})",
+        where=_places(outline, contacts, visits),
+        hint='move these vertices, or use general_position="perturb"',
+    )
 
 
-def touching_places(points: Floats, contacts: Contacts, visits: Visits) -> list[tuple[float, float]]:
+def _joined(outline: Outline) -> JoinedLoops:
+    return joined_loops(outline.points, outline.first_point)
+
+
+def _places(outline: Outline, contacts: Contacts, visits: Visits) -> list[tuple[float, float]]:
     """Return the vertices that lie on other edges, and the crossings on edges on which three edges meet."""
-    touching = points[np.unique(contacts.touches[:, 0])]
+    touching = outline.points[np.unique(contacts.touches[:, 0])]
     meeting = visits.point[np.isin(visits.edge, visits.triple[:, 0])]
     places = np.unique(np.concatenate([touching, meeting]), axis=0)
     return [(float(x), float(y)) for x, y in places]
 
 
-def _separate(curve: Curve, contacts: Contacts, visits: Visits, watch: Watch) -> tuple[Curve, Visits]:
-    """Try small moves of the touching vertices until the curve is in general position and nothing else has changed."""
-    n = len(curve.points)
-    required = _pair_numbers(contacts.edges, n)
-    allowed = np.concatenate([required, _pair_numbers(_touching_pairs(contacts, n), n)])
-    for moved, step in _candidates(curve.points):
-        if _clearance(moved, contacts.touches) < _CLEARANCE * step:
-            continue
-        new_contacts = find_contacts(moved, watch)
-        new_visits = order_visits(moved, new_contacts)
-        found = _pair_numbers(new_contacts.edges, n)
-        nothing_else = bool(np.isin(required, found).all() and np.isin(found, allowed).all())
-        if nothing_else and _is_general(new_contacts, new_visits):
-            return Curve(moved, curve.repairs + _moves(curve.points, moved), curve.cusps[0]), new_visits
+def _directed(outline: Outline, watch: Watch) -> GeneralPosition:
+    """Turn an outline round if its surface lies on the right, and move its points outward."""
+    turned_round = winds_backward(outline, node_outline(outline))
+    if not turned_round:
+        return separated(outline, 1, watch)
+    numbers = backward_numbers(outline.first_point)
+    parts = (
+        outline.points[numbers],
+        outline.loop_of_point,
+        np.concatenate(outline.cusps)[numbers],
+        outline.rows[numbers],
+    )
+    moved = separated(outline_of_points(*parts, outline.repairs), 1, watch)
+    return replace(moved, numbers=numbers[moved.numbers], turned_round=True)
+
+
+def touching_points(outline: Outline) -> Ints:
+    """Return the points of an outline that lie on foreign edges or on each other."""
+    return np.unique(meetings(_joined(outline)).touches[:, 0])
+
+
+# ---- moves -----------------------------------------------------------------------------------------------------------
+
+
+class _Touching(NamedTuple):
+    """An outline with contacts, and whether its points are to move outward (``sense`` 1) or inward (−1)."""
+
+    given: Outline
+    contacts: Contacts
+    sense: int
+    watch: Watch
+
+
+class _Moves(NamedTuple):
+    """Points that move right of their edges, or left; and others, with the vectors along which they go."""
+
+    points: Ints
+    others: Ints
+    vectors: Floats
+
+
+def separated(given: Outline, sense: int, watch: Watch = UNWATCHED, way: int = 0) -> GeneralPosition:
+    """Return an outline with its points in contact moved outward (``sense`` 1) or inward (−1), as little as need be.
+
+    Parameters
+    ----------
+    given : Outline
+        Without spikes, and with the surface on its left.
+    sense : int
+    watch : Watch, optional
+    way : int, optional
+        Which one to take of several ways, if there are some: from 0 up to :func:`number_of_ways`.
+
+    Notes
+    -----
+    Where three edges meet inside all of them, whichever way they part will do; so their ends move, too.
+    """
+    touching = _Touching(given, meetings(_joined(given), watch), sense, watch)
+    stays, moves = _points_to_move(given, touching.contacts, way)
+    scatter = 0
+    while scatter < _ATTEMPTS:
+        found = _moved(touching, moves, scatter)
+        if isinstance(found, GeneralPosition):
+            return found
+        more = np.setdiff1d(np.concatenate([found, given.next_point[found]]), np.concatenate([stays, moves.points]))
+        moves, scatter = moves._replace(points=np.union1d(moves.points, more)), scatter + (len(more) == 0)
     raise GeneralPositionError(
         "strands touch or overlap, and are too crowded to be moved apart",
-        where=touching_places(curve.points, contacts, visits),
+        where=_places(given, touching.contacts, visits_along(_joined(given), touching.contacts)),
         hint="move these vertices by hand",
     )
 
 
-def _pair_numbers(pairs: Ints, n: int) -> Ints:
-    """Return a number for each pair of edges, shape (m, 2), whatever its order."""
-    return np.asarray(pairs.min(axis=1) * n + pairs.max(axis=1))
+def number_of_ways(given: Outline) -> int:
+    """Return in how many ways touching points may move: 1, but where cusps lie on each other."""
+    return crowded_cusps(given, meetings(_joined(given))).n_ways if given.has_cusps else 1
 
 
-def _touching_pairs(contacts: Contacts, n: int) -> Ints:
-    """Return the pairs of edges that may cross after the move: those that touch before."""
+def _points_to_move(given: Outline, contacts: Contacts, way: int) -> tuple[Ints, _Moves]:
+    """Return the points in contact that do not move outward, for they are cusps; and the moves.
+
+    All other points in contact move, and the ends of edges on which cusps lie: then these edges move outward, too.
+    """
     vertex, edge = contacts.touches.T
-    return np.stack([np.concatenate([(vertex - 1) % n, vertex]), np.concatenate([edge, edge])], axis=1)
+    is_cusp = np.concatenate(given.cusps) > 0
+    touching = np.unique(vertex)
+    stays = touching[is_cusp[touching]]
+    edges = edge[is_cusp[vertex] & lie_inside(given, contacts)]
+    points = np.setdiff1d(np.concatenate([touching, edges, given.next_point[edges]]), stays)
+    crowded = crowded_cusps(given, contacts)
+    return stays, _Moves(points, crowded.points, crowded.way(way))
 
 
-def _clearance(points: Floats, touches: Ints) -> float:
-    """Return the least distance of a vertex from an edge that it used to lie on."""
-    vertex, edge = touches.T
-    start = points[edge]
-    along = points[(edge + 1) % len(points)] - start
-    away = points[vertex] - start
-    share = np.clip((away * along).sum(axis=1) / (along * along).sum(axis=1), 0.0, 1.0)
-    return float(np.hypot(*(away - share[:, None] * along).T).min(initial=np.inf))
+def _moved(touching: _Touching, moves: _Moves, scatter: int) -> GeneralPosition | Ints:
+    """Return the outline with some points moved as little as need be, or the edges that stay together if they move so.
+
+    No edges, if doubles do not show at any size of the move what is true of infinitely small ones.
+    """
+    given, sense = touching.given, touching.sense
+    vectors = sense * outward_vectors(given, moves.points, scatter)
+    for step in _steps(given.points):
+        points = given.points.copy()
+        points[moves.points] += step * vectors
+        points[moves.others] += step * moves.vectors
+        if not are_moved(given, moves.points, points[moves.points], sense).all():
+            continue
+        found = _shown(touching, points)
+        if isinstance(found, GeneralPosition) or len(found):
+            return found
+    return np.empty(0, dtype=np.int64)
 
 
-def _moves(before: Floats, after: Floats) -> tuple[Repair, ...]:
+def _shown(touching: _Touching, points: Floats) -> GeneralPosition | Ints:
+    """Return the outline with its points moved, if it shows what is true of infinitely small moves in that direction.
+
+    Else the edges that stay together, however little they move.
+    """
+    given, contacts, _, watch = touching
+    motion = begin_to_move(given.points, points, given.next_point)
+    wanted, undecided = signed_crossings(motion, contacts)
+    joined = joined_loops(points, given.first_point)
+    found = meetings(joined, watch)
+    shown = signed_pairs(found.edges, found.from_right, len(points))
+    if len(undecided) or len(found.touches) or not np.array_equal(wanted, shown):
+        return np.unique(undecided)
+    visits = visits_along(joined, found)
+    in_order, together = order_along_edges(motion, visits)
+    right = in_order.all() and len(visits.triple) == 0
+    if len(together) or not (right and _lie_alike(motion, joined, visits)):
+        return np.unique(together)
+    repairs = *given.repairs, *_moves(given.points, points)
+    # A cusp at a tip has an angle of 360° that one sees; strands that move outward there leave next to none.
+    cusps = np.concatenate(given.cusps) + (tips(given) if given.has_cusps else 0)
+    outline = outline_of_points(points, given.loop_of_point, cusps, given.rows, repairs)
+    return GeneralPosition(outline, given, np.arange(len(given)), joined, visits, False)
+
+
+def _lie_alike(motion: MovingPoints, joined: JoinedLoops, visits: Visits) -> bool:
+    """Tell whether moved loops show their outside where it is, and lie in each other, as when they begin to move."""
+    if not joined.is_jump.any():
+        return same_outside(motion, joined.points)
+    number = joined.vertex - joined.loop
+    begun = replace(joined, points=motion.points[number])
+    return same_nest(nest(joined, visits), nest(begun, visits, exact=motion.moved[number]))
+
+
+def _steps(points: Floats) -> list[float]:
+    """Return how long a unit of a move may be, the longest first: parts of the drawing's size, as powers of two.
+
+    Far from the origin, where coordinates are coarse, they are as short as they can be.
+    """
+    size = float(np.ldexp(1.0, np.frexp(np.ptp(points, axis=0).max())[1]))
+    least = float(_LEAST_STEP * np.spacing(np.abs(points).max()))
+    return [step * size for step in _STEPS if step * size >= least] or [least] * (least < _LARGEST_STEP * size)
+
+
+def _moves(before: Floats, after: Floats) -> list[Repair]:
     moved = np.flatnonzero((before != after).any(axis=1))
     size = np.hypot(*(after - before)[moved].T)
-    return tuple(
-        Repair("vertex moved", (x, y), how_far)
-        for (x, y), how_far in zip(before[moved].tolist(), size.tolist(), strict=True)
-    )
-
-
-def _candidates(points: Floats) -> Iterator[tuple[Floats, float]]:
-    """Yield ever more desperate ways to move the touching vertices, the same for every start and direction.
-
-    First every vertex moves in the direction that its touch asks for; then in directions scattered at random, though
-    the same in every run.
-    """
-    order = _canonical_order(points)
-    frame = points[order]
-    contacts = find_contacts(frame)
-    displacement = _displacements(frame, contacts, order_visits(frame, contacts))
-    size = float(np.ptp(points, axis=0).max())
-    least = float(_LEAST_STEP * np.spacing(np.abs(points).max()))
-    # Far from the origin, where coordinates are coarse, steps are as small as they can be.
-    steps = [step * size for step in _STEPS if step * size > least] or ([least] if least < _LARGEST_STEP * size else [])
-    for attempt in range(_ATTEMPTS):
-        turned = _rotated(displacement, attempt * _GOLDEN_ANGLE * (1 + np.arange(len(points))))
-        for step in steps:
-            moved = np.empty_like(points)
-            moved[order] = frame + step * turned
-            yield moved, step
-
-
-def _rotated(vectors: Floats, angle: Floats) -> Floats:
-    cosine, sine = np.cos(angle), np.sin(angle)
-    x, y = vectors.T
-    return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=1)
-
-
-def _canonical_order(points: Floats) -> Ints:
-    """Return the vertices in an order that does not depend on the curve's start and direction."""
-    n = len(points)
-    lowest = np.flatnonzero((points == points[np.lexsort((points[:, 1], points[:, 0]))[0]]).all(axis=1))
-    turns = [(start + direction * np.arange(n)) % n for start in lowest for direction in (1, -1)]
-    return np.asarray(min(turns, key=lambda turn: points[turn].tolist()), dtype=np.int64)
-
-
-def _displacements(points: Floats, contacts: Contacts, visits: Visits) -> Floats:
-    """Return the direction in which each vertex is to move, shape (n, 2); zero for those that stay.
-
-    Of vertices that coincide the first stays, unless it lies in the middle of an edge too, and the others move by
-    1, 2, … steps, so that strands which run along each other for several laps end up in order.
-    """
-    displacement = np.zeros_like(points)
-    n = len(points)
-    rank = _rank_among_equals(points)
-    vertex, edge = contacts.touches.T
-    inside = (points[vertex] != points[edge]).any(axis=1) & (points[vertex] != points[(edge + 1) % n]).any(axis=1)
-    steps = rank + np.isin(np.arange(n), vertex[inside])
-    for v in np.unique(vertex).tolist():
-        displacement[v] = steps[v] * _way_out(points, v, edge[vertex == v])
-    for triple in visits.triple.tolist():
-        last = max(triple)
-        along = points[(last + 1) % len(points)] - points[last]
-        displacement[last] = (1 + (last * _GOLDEN_ANGLE) % 1) * _left(_unit(along))
-    return displacement
-
-
-def _rank_among_equals(points: Floats) -> Ints:
-    """Return for each vertex how many earlier vertices lie at the same place."""
-    inverse = np.unique(points, axis=0, return_inverse=True)[1].reshape(-1)
-    order = np.argsort(inverse, kind="stable")
-    group_start = np.searchsorted(inverse[order], inverse[order])
-    rank = np.empty(len(points), dtype=np.int64)
-    rank[order] = np.arange(len(points)) - group_start
-    return rank
-
-
-def _way_out(points: Floats, vertex: int, edges: Ints) -> Floats:
-    """Return the direction that takes a vertex off the edges it lies on."""
-    n = len(points)
-    here, before, after = points[vertex], points[vertex - 1], points[(vertex + 1) % n]
-    start, end = points[edges], points[(edges + 1) % n]
-    side_before, side_after = orient(start, end, before), orient(start, end, after)
-    comes_along = any((side_before == 0) & _overlap(here, before, start, end))
-    leaves_along = any((side_after == 0) & _overlap(here, after, start, end))
-    if comes_along and leaves_along:  # a lap beside another one: step to the left
-        aside = _left(_unit(here - before)) + _left(_unit(after - here))
-        return _unit(aside) if np.hypot(*aside) > 0.1 else _left(_unit(here - before))
-    if comes_along:  # turns off here: turn a little later, or step aside if the way on is straight
-        return _unit(after - here) if side_after.any() else _left(_unit(here - before))
-    if leaves_along:
-        return _unit(before - here) if side_before.any() else _left(_unit(after - here))
-    if any(side_before * side_after < 0):  # crosses: cross a little earlier
-        return _unit(after - here)
-    return _unit(_unit(before - here) + _unit(after - here))  # touches: draw back
-
-
-def _left(direction: Floats) -> Floats:
-    return np.array([-direction[1], direction[0]])
-
-
-def _overlap(here: Floats, neighbour: Floats, start: Floats, end: Floats) -> Bools:
-    """Tell for which edges the way from a point on them to a neighbour on their line begins within the edge."""
-    forward = ((neighbour - here) * (end - start)).sum(axis=1) > 0
-    ahead = np.where(forward[:, None], end, start)
-    return np.asarray((here != ahead).any(axis=1))
-
-
-def _unit(vectors: Floats) -> Floats:
-    length = np.hypot(vectors[..., 0], vectors[..., 1])[..., None]
-    return np.asarray(np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0))
+    places = zip(before[moved].tolist(), size.tolist(), strict=True)
+    return [Repair("vertex moved", (x, y), how_far) for (x, y), how_far in places]

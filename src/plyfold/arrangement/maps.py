@@ -59,14 +59,15 @@ class Map(NamedTuple):
     places: Floats = np.empty((0, 2))
 
 
-def oriented(partner: Ints, ccw: Bools, outer: int) -> tuple[Map, int, bool]:
+def oriented(partner: Ints, ccw: Bools, outer: int, is_directed: bool = False) -> tuple[Map, int, bool]:
     """Return the map of one curve in the direction in which it is used, its turning number, and if it was turned round.
 
-    That is done if it makes all winding numbers positive; if nothing does, for a positive turning number.
+    That is done, if its direction is not settled, if it makes all winding numbers positive; if nothing does, for a
+    positive turning number.
     """
     left, turning = left_windings(ccw, outer), whitney_turning_number(partner, ccw, outer)
     no_negative, no_positive = left.min() > 0, left.max() <= 0
-    turned_round = not (no_negative or (turning >= 0 and not no_positive))
+    turned_round = not (is_directed or no_negative or (turning >= 0 and not no_positive))
     if turned_round:
         partner, ccw, outer = reversed_code(partner, ccw, outer)
         left, turning = left_windings(ccw, outer), -turning

@@ -1,4 +1,4 @@
-"""Several closed curves in one plane: their visits to all crossings, and in which cell of the others each group lies.
+"""Several closed curves in one plane: in which cell of the others each group of them lies that hangs together.
 
 Loops that cross hang together in groups. Within a group everything is as for one curve. A group lies in one cell of the
 others; exact point location says in which: from its leftmost vertex straight to the left.
@@ -7,7 +7,7 @@ others; exact point location says in which: from its leftmost vertex straight to
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
@@ -15,20 +15,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement.crossings import Visits, edge_ends, find_contacts, order_visits
-from plyfold.arrangement.general_position import touching_places
+from plyfold.arrangement.crossings import Visits, edge_ends
 from plyfold.arrangement.marks import AT_VERTEX, Mark
-from plyfold.arrays import Bools, Floats, Ints
+from plyfold.arrangement.meetings import JoinedLoops
+from plyfold.arrays import Bools, Floats, Ints, Wholes
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.errors import GeneralPositionError
 from plyfold.graphs import components
-from plyfold.predicates import cross_sign, exact_parameter, rounded_shares
+from plyfold.predicates import Place, exact_cross, orient, whole_numbers
 from plyfold.ragged import count_each, starts_of
 
 if TYPE_CHECKING:
     from shapely import STRtree
 
-__all__ = ["Nest", "nest"]
+__all__ = ["Nest", "nest", "same_nest"]
 
 _EDGES_IN_BOX = 8
 # Rays that meet nothing are made so many times longer; this many are looked at together.
@@ -38,12 +37,10 @@ _RAYS = 1024
 
 @dataclass(frozen=True, eq=False)
 class Nest:
-    """Where several loops meet, and how those lie to each other that do not.
+    """How several loops lie to each other that do not meet.
 
     Parameters
     ----------
-    visits : Visits
-        Along one loop after the other; edges are counted over all loops.
     first_visit : (loops + 1,) int
         The number of each loop's first visit, and last the number of visits.
     outside : (o,) int
@@ -56,109 +53,62 @@ class Nest:
         Where each bridge starts and ends.
     """
 
-    visits: Visits
     first_visit: Ints
     outside: Ints
     bridges: Ints
     feet: list[tuple[Mark, Mark]]
 
 
-def nest(loops: Sequence[Floats], watch: Watch = UNWATCHED) -> Nest:
-    """Find the crossings of several closed polylines with themselves and each other, and which lies inside which.
+def nest(joined: JoinedLoops, visits: Visits, watch: Watch = UNWATCHED, exact: Wholes | None = None) -> Nest:
+    """Find which of several closed polylines in general position lies inside which, given their visits.
+
+    Parameters
+    ----------
+    joined : JoinedLoops
+    visits : Visits
+    watch : Watch, optional
+    exact : (n, 2) object, optional
+        Places of its points in whole numbers of some unit, to which ``joined.points`` are near: nearer than doubles
+        could tell. By default, those are exact.
 
     Raises
     ------
-    GeneralPositionError
-        If a vertex lies on another edge or three edges meet in a point. Nothing is moved.
     TimeLimitError
         If the time is over.
 
     Notes
     -----
-    As for one curve, plus what rays from all groups meet on the left, which is O(n) for each at worst.
+    What rays from all groups meet on the left, which is O(n) for each at worst.
     """
-    polyline = _one_after_the_other(loops)
-    visits = _visits(polyline, watch)
-    first_visit = np.searchsorted(polyline.loop[visits.edge], np.arange(len(loops) + 1))
-    loop = polyline.loop[visits.edge]
+    start = np.flatnonzero(~joined.is_jump)
+    visits = replace(visits, edge=start[visits.edge])
+    loop, n_loops = joined.loop[visits.edge], int(joined.loop[-1]) + 1
+    first_visit = np.searchsorted(loop, np.arange(n_loops + 1))
     other = loop[visits.partner]
-    group = components(len(loops), loop[loop < other], other[loop < other])
-    plan = _Plan(polyline, visits, first_visit, group[polyline.loop])
+    group = components(n_loops, loop[loop < other], other[loop < other])
+    plan = _Plan(joined, visits, first_visit, group[joined.loop], exact)
     corner = _corners(plan)
     dart, beyond = _outer_darts(plan, corner), _met_on_the_left(plan, corner, watch)
-    is_free, joined = beyond < 0, np.flatnonzero(beyond >= 0)
-    corner, beyond = corner[joined], beyond[joined]
-    passed = _visits_passed(plan, beyond, polyline.points[corner, 1])
+    is_free, number = beyond < 0, np.flatnonzero(beyond >= 0)
+    corner, beyond = corner[number], beyond[number]
+    passed = _visits_passed(plan, beyond, corner)
     met = 2 * plan.border(beyond, passed) + plan.is_upward(beyond)
-    feet = zip(_feet_at_vertices(plan, corner), _feet_on_edges(plan, beyond, passed, corner, joined), strict=True)
+    feet = zip(_feet_at_vertices(plan, corner), _feet_on_edges(plan, beyond, passed, corner, number), strict=True)
     return Nest(
-        visits=replace(visits, edge=visits.edge - loop),
         first_visit=first_visit,
         outside=dart[is_free],
-        bridges=np.stack([dart[joined], met], axis=1),
+        bridges=np.stack([dart[number], met], axis=1),
         feet=list(feet),
     )
 
 
-# ---- one polyline --------------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, eq=False)
-class _Polyline:
-    """All loops as one polyline: each ends with a copy of its first point, and a *jump* leads from there to the next.
-
-    Parameters
-    ----------
-    points : (n, 2) float
-    loop : (n,) int
-        The loop of each point and of the edge that starts there.
-    vertex : (n,) int
-        The first point of the loop for the copies of it, and each other point itself.
-    is_jump : (n,) bool
-        True where the edge that starts at a point is a jump.
-    """
-
-    points: Floats
-    loop: Ints
-    vertex: Ints
-    is_jump: Bools
-
-
-def _one_after_the_other(loops: Sequence[Floats]) -> _Polyline:
-    lengths = np.array([len(points) + 1 for points in loops])
-    last = np.cumsum(lengths) - 1
-    vertex = np.arange(int(lengths.sum()))
-    vertex[last] -= lengths - 1
-    return _Polyline(
-        points=np.concatenate([part for points in loops for part in (points, points[:1])]),
-        loop=np.repeat(np.arange(len(loops)), lengths),
-        vertex=vertex,
-        is_jump=np.isin(np.arange(len(vertex)), last),
-    )
-
-
-def _visits(polyline: _Polyline, watch: Watch) -> Visits:
-    """Return the visits to all crossings along one loop after the other; refuse loops that touch."""
-    found = find_contacts(polyline.points, watch, np.flatnonzero(polyline.is_jump))
-    touches = _own_touches_left_out(polyline, found.touches)
-    contacts = replace(found, touches=touches)
-    visits = order_visits(polyline.points, contacts)
-    if len(touches) or len(visits.triple):
-        raise GeneralPositionError(
-            f"the curves are not in general position (vertices on other edges: {len(np.unique(touches[:, 0]))}, "
-            f"meetings of three edges: {len(visits.triple)})",
-            where=touching_places(polyline.points, contacts, visits),
-            hint="move these vertices: several loops are not moved apart, as one is",
-        )
-    return visits
-
-
-def _own_touches_left_out(polyline: _Polyline, touches: Ints) -> Ints:
-    """Leave out the touches of jumps, and those of edges that share the point with which a loop begins and ends."""
-    vertex, edge = polyline.vertex[touches[:, 0]], touches[:, 1]
-    following = polyline.vertex[(edge + 1) % len(polyline.vertex)]
-    kept = ~polyline.is_jump[edge] & (vertex != edge) & (vertex != following)
-    return np.stack([vertex[kept], edge[kept]], axis=1)
+def same_nest(one: Nest, other: Nest) -> bool:
+    """Tell whether loops lie to each other in the same way, as far as bridges from the same vertices tell."""
+    marks = [[mark for feet in nest.feet for mark in feet] for nest in (one, other)]
+    orders = [sorted(range(len(found)), key=lambda at: found[at][:3]) for found in marks]
+    places = [[(mark.edge, mark.tie, mark.at) for mark in found] for found in marks]
+    same_darts = np.array_equal(one.outside, other.outside) and np.array_equal(one.bridges, other.bridges)
+    return same_darts and places[0] == places[1] and orders[0] == orders[1]
 
 
 # ---- point location ------------------------------------------------------------------------------------------------
@@ -168,19 +118,31 @@ def _own_touches_left_out(polyline: _Polyline, touches: Ints) -> Ints:
 class _Plan:
     """The polyline with its visits, to find the border at a place.
 
-    Loops that hang together by crossings are a group; ``group`` has that of each edge.
+    Loops that hang together by crossings are a group; ``group`` has that of each edge. ``exact`` are places to which
+    the points are near, see :func:`nest`.
     """
 
-    polyline: _Polyline
+    joined: JoinedLoops
     visits: Visits
     first_visit: Ints
     group: Ints
+    exact: Wholes | None
+
+    def place(self, point: int) -> Place:
+        """Return where a point is."""
+        x, y = (self.joined.points if self.exact is None else self.exact)[point].tolist()
+        return Fraction(x), Fraction(y)
+
+    @cached_property
+    def height(self) -> Floats | Ints:
+        """The heights of the points, or numbers in the same order."""
+        return self.joined.points[:, 1] if self.exact is None else _ranks(self.exact[:, 1])
 
     @cached_property
     def ends(self) -> Floats:
         """Start and end of each edge; jumps go nowhere."""
-        ends = edge_ends(self.polyline.points)
-        ends[self.polyline.is_jump, 1] = ends[self.polyline.is_jump, 0]
+        ends = edge_ends(self.joined.points)
+        ends[self.joined.is_jump, 1] = ends[self.joined.is_jump, 0]
         return ends
 
     @cached_property
@@ -190,13 +152,13 @@ class _Plan:
 
     def border(self, edge: Ints, visits_passed: Ints) -> Ints:
         """Return the borders at places on edges, given how many visits come before them, on earlier loops too."""
-        loop = self.polyline.loop[edge]
+        loop = self.joined.loop[edge]
         start, end = self.first_visit[loop], self.first_visit[loop + 1]
         return np.asarray(self.first_border[loop] + (visits_passed - start - 1) % np.maximum(end - start, 1))
 
     def is_upward(self, edge: Ints) -> Bools:
         """Tell which edges end higher than they start."""
-        return np.asarray(self.ends[edge, 0, 1] < self.ends[edge, 1, 1])
+        return np.asarray(self.height[edge] < self.height[edge + 1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -220,8 +182,7 @@ class _Boxes:
         """Return the boxes of all edges at some heights; no box holds edges of two loops."""
         from shapely import STRtree, linestrings
 
-        lengths = np.diff(np.flatnonzero(plan.polyline.is_jump), prepend=-1)
-        first = np.flatnonzero(count_each(lengths) % _EDGES_IN_BOX == 0)
+        first = np.flatnonzero(count_each(np.bincount(plan.joined.loop)) % _EDGES_IN_BOX == 0)
         start, end = plan.ends.swapaxes(0, 1)
         low = np.minimum.reduceat(np.minimum(start, end), first)
         high = np.maximum.reduceat(np.maximum(start, end), first)
@@ -242,29 +203,40 @@ class _Boxes:
 
 def _corners(plan: _Plan) -> Ints:
     """Return the leftmost vertex of each group, the lowest of several, from left to right."""
-    x, y = plan.polyline.points.T
+    x, y = plan.joined.points.T if plan.exact is None else map(_ranks, plan.exact.T)
     leftmost = np.full(plan.group.max() + 1, np.inf)
-    first = np.flatnonzero(np.diff(plan.polyline.loop, prepend=-1))
+    first = np.flatnonzero(np.diff(plan.joined.loop, prepend=-1))
     np.minimum.at(leftmost, plan.group[first], np.minimum.reduceat(x, first))
-    corner = np.flatnonzero((x == leftmost[plan.group]) & ~plan.polyline.is_jump)
+    corner = np.flatnonzero((x == leftmost[plan.group]) & ~plan.joined.is_jump)
     corner = corner[np.lexsort([y[corner], x[corner]])]
     return np.asarray(corner[np.sort(np.unique(plan.group[corner], return_index=True)[1])])
 
 
+def _ranks(numbers: Wholes) -> Ints:
+    return np.unique(numbers, return_inverse=True)[1].ravel()
+
+
 def _outer_darts(plan: _Plan, corner: Ints) -> Ints:
     """Return the darts that have the outside of their groups on their left at leftmost vertices."""
-    points, is_jump, loop = plan.polyline.points, plan.polyline.is_jump, plan.polyline.loop[corner]
-    # The first vertex of a loop comes again at its end, where the jump starts.
-    before = np.where(is_jump[corner - 1], np.flatnonzero(is_jump)[loop], corner) - 1
+    is_first = (corner == 0) | plan.joined.is_jump[corner - 1]
+    # The first vertex of a loop comes again at its end.
+    last = np.searchsorted(plan.joined.loop, plan.joined.loop[corner], side="right") - 1
+    before = np.where(is_first, last, corner) - 1
     border = plan.border(corner, np.searchsorted(plan.visits.edge, corner))
-    turn = cross_sign(points[before], points[corner], points[corner], points[corner + 1])
-    return np.asarray(2 * border + (turn > 0))
+    return np.asarray(2 * border + _turn_left(plan, before, corner, corner + 1))
+
+
+def _turn_left(plan: _Plan, before: Ints, here: Ints, after: Ints) -> Bools:
+    if plan.exact is None:
+        return np.asarray(orient(*(plan.joined.points[point] for point in (before, here, after))) > 0)
+    p, q, r = (plan.exact[point].T for point in (before, here, after))
+    return np.asarray((q[0] - p[0]) * (r[1] - q[1]) > (q[1] - p[1]) * (r[0] - q[0]), dtype=bool)
 
 
 def _feet_at_vertices(plan: _Plan, corner: Ints) -> Iterator[Mark]:
     """Yield the feet of the bridges that leave leftmost vertices; they come after cusps there."""
-    loop, at = plan.polyline.loop[corner], np.searchsorted(plan.visits.edge, corner)
-    columns = (corner - loop, at, loop, plan.polyline.points[corner])
+    loop, at = plan.joined.loop[corner], np.searchsorted(plan.visits.edge, corner)
+    columns = (corner - loop, at, loop, plan.joined.points[corner])
     for edge, passed, number, (x, y) in zip(*(column.tolist() for column in columns), strict=True):
         yield Mark(edge, AT_VERTEX, 1, passed, number, (x, y))
 
@@ -274,13 +246,21 @@ def _feet_on_edges(plan: _Plan, edge: Ints, passed: Ints, corner: Ints, number: 
 
     Later ones, which come from further right, are higher if the vertices have one height: they pass above.
     """
-    height, loop = plan.polyline.points[corner, 1], plan.polyline.loop[edge]
-    start, end = plan.ends[edge].swapaxes(0, 1)
-    x = start[:, 0] + rounded_shares(start[:, 1], end[:, 1], height) * (end[:, 0] - start[:, 0])
+    height, loop = plan.joined.points[corner, 1], plan.joined.loop[edge]
+    (start, _), (end, _) = plan.ends[edge].transpose(1, 2, 0)
+    x = start + _shares(plan, edge, corner) * (end - start)
     upward = np.where(plan.is_upward(edge), 1, -1)
-    columns = (edge - loop, upward * height, upward * (2 + number), passed, loop, x, height)
+    columns = (edge - loop, upward * plan.height[corner], upward * (2 + number), passed, loop, x, height)
     for at_edge, along, tie, at, on, *place in zip(*(column.tolist() for column in columns), strict=True):
         yield Mark(at_edge, along, tie, at, on, tuple(place))
+
+
+def _shares(plan: _Plan, edge: Ints, corner: Ints) -> Floats:
+    """Return how far along edges the heights of vertices are, each share to the nearest double."""
+    points = np.stack([edge, edge + 1, corner])
+    whole = plan.exact[points, 1] if plan.exact is not None else whole_numbers(plan.joined.points[points, 1])[0]
+    start, end, between = whole
+    return np.asarray((between - start) / (end - start), dtype=np.float64)
 
 
 def _met_on_the_left(plan: _Plan, corner: Ints, watch: Watch) -> Ints:
@@ -289,11 +269,13 @@ def _met_on_the_left(plan: _Plan, corner: Ints, watch: Watch) -> Ints:
     The rays run a little higher than the vertices, by less than any other difference in height. So they meet no
     vertices and no crossings. They are short at first: most meet something soon.
     """
-    x, y = plan.polyline.points.T
+    x, y = plan.joined.points.T
     boxes = _Boxes.at(plan, y[corner])
     leftmost, rightmost = float(x.min()), float(x.max())
     met = np.full(len(corner), -1)
     waiting, reach = np.arange(len(corner)), (rightmost - leftmost) / len(corner)
+    if plan.exact is not None:  # places are not compared with the ends of rays, which are doubles
+        reach = np.inf
     while len(waiting):
         reach *= _LONGER
         with np.errstate(over="ignore"):
@@ -313,23 +295,25 @@ def _first_met(plan: _Plan, boxes: _Boxes, corner: Ints, end: Floats) -> tuple[I
 
     And for which rays that is before the end, so that no others matter.
     """
-    x, height = plan.polyline.points[corner].T
+    x, height = plan.joined.points[corner].T
     ray, edge = boxes.near(end, x, height)
-    low = plan.ends[edge, :, 1] <= height[ray, None]
-    met = (plan.group[edge] != plan.group[corner[ray]]) & (low[:, 0] != low[:, 1])
+    others = (plan.group[edge] != plan.group[corner[ray]]) & ~plan.joined.is_jump[edge]
+    ray, edge = ray[others], edge[others]
+    level = plan.height[corner[ray]]
+    met = (plan.height[edge] <= level) != (plan.height[edge + 1] <= level)
     ray, edge = ray[met], edge[met]
+    if plan.exact is not None:
+        return _exactly_first(plan, corner, ray, edge, np.arange(len(corner))), np.ones(len(corner), dtype=bool)
     place, error = _rounded_places(plan.ends[edge], height[ray])
     surely = place + error < x[ray]
     least = np.full(len(corner), -np.inf)
     np.maximum.at(least, ray[surely], (place - error)[surely])
     nearest = (place + error >= least[ray]) & (place - error < x[ray])
     ray, edge, surely = ray[nearest], edge[nearest], surely[nearest]
-    first = np.full(len(corner), -1)
     is_open = np.bincount(ray, minlength=len(corner)) > 1
     is_open[ray[~surely]] = True
-    first[ray] = edge
-    for number in np.flatnonzero(is_open).tolist():
-        first[number] = _exactly_first(plan, corner[number], edge[ray == number])
+    first = _exactly_first(plan, corner, ray, edge, np.flatnonzero(is_open))
+    first[ray[~is_open[ray]]] = edge[~is_open[ray]]
     return first, least >= end
 
 
@@ -340,34 +324,44 @@ def _rounded_places(ends: Floats, height: Floats) -> tuple[Floats, Floats]:
     return place, 16 * np.finfo(np.float64).eps * (np.abs(start_x) + np.abs(end_x)) + np.finfo(np.float64).tiny
 
 
-def _exactly_first(plan: _Plan, corner: int, edges: Ints) -> int:
-    """Return which of some edges a ray to the left meets first, by fractions; −1 if all are on the right."""
-    x, height = plan.polyline.points[corner].tolist()
-    places = {edge: _place_and_slope(plan.ends[edge], height) for edge in edges.tolist()}
-    passed = [edge for edge, (place, _) in places.items() if place < x]
-    return max(passed, key=places.__getitem__, default=-1)
+def _exactly_first(plan: _Plan, corner: Ints, ray: Ints, edge: Ints, asked: Ints) -> Ints:
+    """Return which edge some rays to the left meet first, by fractions; −1 of all others, and if all are on the right.
+
+    ``ray`` and ``edge`` are what the rays may meet.
+    """
+    first = np.full(len(corner), -1)
+    for number in asked.tolist():
+        here, level = plan.place(corner[number])
+        places = {
+            other: _place_and_slope(plan.place(other), plan.place(other + 1), level)
+            for other in edge[ray == number].tolist()
+        }
+        passed = [other for other, (place, _) in places.items() if place < here]
+        first[number] = max(passed, key=places.__getitem__, default=-1)
+    return first
 
 
-def _place_and_slope(edge: Floats, height: float) -> tuple[Fraction, Fraction]:
+def _place_and_slope(start: Place, end: Place, height: Fraction) -> tuple[Fraction, Fraction]:
     """Return the x at which an edge passes a height, and the growth of x with the height."""
-    (x, y), (end_x, end_y) = [[Fraction(value) for value in point] for point in edge.tolist()]
+    (x, y), (end_x, end_y) = start, end
     slope = (end_x - x) / (end_y - y)
-    return x + (Fraction(height) - y) * slope, slope
+    return x + (height - y) * slope, slope
 
 
-def _visits_passed(plan: _Plan, edge: Ints, height: Floats) -> Ints:
-    """Return how many visits come before the places on edges a little above some heights."""
+def _visits_passed(plan: _Plan, edge: Ints, corner: Ints) -> Ints:
+    """Return how many visits come before the places on edges a little above the heights of vertices."""
     first, last = (np.searchsorted(plan.visits.edge, edge, side) for side in ("left", "right"))
     passed = first.copy()
     for i in np.flatnonzero(first < last).tolist():
-        (_, start), (_, end) = plan.ends[edge[i]].tolist()
-        share = (Fraction(height[i].item()) - Fraction(start)) / (Fraction(end) - Fraction(start))
+        (_, start), (_, end), (_, height) = (plan.place(point) for point in (edge[i], edge[i] + 1, corner[i]))
         bisect = bisect_right if start < end else bisect_left
+        share = (height - start) / (end - start)
         passed[i] = bisect(range(last[i]), share, int(first[i]), key=partial(_share_of_visit, plan))
     return passed
 
 
 def _share_of_visit(plan: _Plan, visit: int) -> Fraction:
     """Return how far along its edge a visit is."""
-    edge = plan.visits.edge[[visit, plan.visits.partner[visit]]]
-    return exact_parameter(*plan.ends[edge].reshape(4, 2))
+    edge, other = plan.visits.edge[[visit, plan.visits.partner[visit]]].tolist()
+    start, end, p, q = map(plan.place, (edge, edge + 1, other, other + 1))
+    return exact_cross(start, p, p, q) / exact_cross(start, end, p, q)

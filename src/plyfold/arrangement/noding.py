@@ -20,8 +20,9 @@ from plyfold.errors import PrecisionError
 from plyfold.graphs import components, spanning_tree
 from plyfold.outline.curve import Outline
 from plyfold.predicates import cross_sign, crossing_bounds, exact_crossings
+from plyfold.ragged import count_each
 
-__all__ = ["Noding", "exact_ranks", "node_outline", "node_rounded"]
+__all__ = ["Noding", "Strands", "exact_ranks", "node_outline", "node_rounded", "strands_of"]
 
 # How many boxes are looked up at a time.
 _LOOKUPS = 2**8
@@ -100,6 +101,58 @@ def node_outline(outline: Outline) -> Noding:
     return _node_edges(points, points[outline.next_point], np.ones(len(points), dtype=np.int64), _middles)
 
 
+@dataclass(frozen=True, eq=False)
+class Strands:
+    """An outline as ways along the parts of its noding, also along those that cancel each other.
+
+    Parameters
+    ----------
+    noding : Noding
+        With all parts: here ``times`` may be 0.
+    half_edge : (s,) int
+        The half-edges of the noding that the outline runs along, in order, edge after edge.
+    first : (n + 1,) int
+        Those along edge i begin at ``first[i]`` and end before ``first[i + 1]``.
+    """
+
+    noding: Noding
+    half_edge: Ints
+    first: Ints
+
+    def __post_init__(self) -> None:
+        freeze(self)
+
+    @property
+    def start(self) -> Ints:
+        """The node at which each half-edge of the outline starts."""
+        return np.asarray(self.noding.ends.ravel()[self.half_edge])
+
+
+def strands_of(outline: Outline) -> Strands:
+    """Return the noding of an outline with all of its parts, and the way of the outline through it. Exact.
+
+    Examples
+    --------
+    A square with a way to a point outside and back:
+
+    >>> from plyfold.outline.curve import Curve
+    >>> found = strands_of(Curve([(0, 0), (2, 0), (3, -1), (4, 0), (3, -1), (2, 0), (2, 2), (0, 2)]))
+    >>> found.noding.times.tolist(), found.half_edge.tolist()
+    ([-1, 1, -1, 1, 0, 0], [2, 8, 10, 11, 9, 6, 5, 1])
+    """
+    points = outline.points
+    start, end = points, points[outline.next_point]
+    lines, line = _distinct_edges(start, end, np.ones(len(points), dtype=np.int64), all_parts=True)
+    graph, along = _cut_at_nodes(lines, _meetings(lines), _middles)
+    backward = _runs_backward(start, end)
+    count = np.bincount(along.edge, minlength=len(lines.low))[line]
+    place = count_each(count)
+    place[np.repeat(backward, count)] = (np.repeat(count, count) - 1 - place)[np.repeat(backward, count)]
+    part = along.part[np.repeat(np.searchsorted(along.edge, line), count) + place]
+    first = np.append(0, np.cumsum(count))
+    return Strands(_noding(lines, graph), 2 * part + np.repeat(backward, count), first)
+
+
 def node_rounded(noding: Noding) -> Noding:
     """Return the graph of the same parts between rounded nodes, all of whose nodes are doubles.
 
@@ -125,8 +178,13 @@ def node_rounded(noding: Noding) -> Noding:
 
 def _node_edges(start: Floats, end: Floats, times: Ints, rounded: _Rounded) -> Noding:
     """Return the graph of edges that are run some number of times, its crossings rounded as given."""
-    lines = _distinct_edges(start, end, times)
-    graph = _cut_at_nodes(lines, _meetings(lines), rounded)
+    lines, _ = _distinct_edges(start, end, times)
+    graph, _ = _cut_at_nodes(lines, _meetings(lines), rounded)
+    return _noding(lines, _without_cancelled(graph))
+
+
+def _noding(lines: _Lines, graph: _Graph) -> Noding:
+    """Return the noding of a graph, with its faces."""
     following, last_around = _around_nodes(graph)
     face = _faces(lines, graph, following, last_around)
     winding = _windings(face, graph.times)
@@ -144,7 +202,7 @@ class _Lines(NamedTuple):
     ----------
     low, high : (n, 2) float
     times : (n,) int
-        How often they are run from low to high, less the times they are run back; not 0.
+        How often they are run from low to high, less the times they are run back; 0 only if all parts are kept.
     direction : (n,) int
         The rank of each one's direction.
     is_small_grid : bool
@@ -162,16 +220,26 @@ class _Lines(NamedTuple):
     origin: Floats
 
 
-def _distinct_edges(start: Floats, end: Floats, times: Ints) -> _Lines:
+def _distinct_edges(start: Floats, end: Floats, times: Ints, all_parts: bool = False) -> tuple[_Lines, Ints]:
+    """Return the distinct edges with a length, and which of them each edge is.
+
+    Those that are run back as often are left out, but with ``all_parts``.
+    """
     (start, end), unit, origin, is_small_grid = _in_units(np.stack([start, end]))
-    backward = (end[:, 0] < start[:, 0]) | ((end[:, 0] == start[:, 0]) & (end[:, 1] < start[:, 1]))
+    backward = _runs_backward(start, end)
     rows = np.where(backward[:, None], np.hstack([end, start]), np.hstack([start, end]))
     distinct, which = np.unique(rows, axis=0, return_inverse=True)
     total = np.zeros(len(distinct), dtype=np.int64)
     np.add.at(total, which.ravel(), np.where(backward, -times, times))
-    kept = (total != 0) & (distinct[:, :2] != distinct[:, 2:]).any(axis=1)
+    kept = ((total != 0) | all_parts) & (distinct[:, :2] != distinct[:, 2:]).any(axis=1)
     low, high = distinct[kept, :2], distinct[kept, 2:]
-    return _Lines(low, high, total[kept], _directions(low, high, is_small_grid), is_small_grid, unit, origin)
+    direction = _directions(low, high, is_small_grid)
+    lines = _Lines(low, high, total[kept], direction, is_small_grid, unit, origin)
+    return lines, (np.cumsum(kept) - 1)[which.ravel()]
+
+
+def _runs_backward(start: Floats, end: Floats) -> Bools:
+    return np.asarray((end[:, 0] < start[:, 0]) | ((end[:, 0] == start[:, 0]) & (end[:, 1] < start[:, 1])))
 
 
 def _in_units(points: Floats) -> tuple[Floats, float, Floats, bool]:
@@ -331,7 +399,14 @@ class _Graph(NamedTuple):
     edge: Ints
 
 
-def _cut_at_nodes(lines: _Lines, meetings: _Meetings, rounded: _Rounded) -> _Graph:
+class _Along(NamedTuple):
+    """Rows (edge, part that it runs along), edge after edge, from each one's lower end to its higher one."""
+
+    edge: Ints
+    part: Ints
+
+
+def _cut_at_nodes(lines: _Lines, meetings: _Meetings, rounded: _Rounded) -> tuple[_Graph, _Along]:
     n, crossing = len(lines.low), meetings.crossing
     node, points, column, is_vertex = _nodes(lines, crossing, rounded)
     number = max(len(points), 1)
@@ -344,10 +419,16 @@ def _cut_at_nodes(lines: _Lines, meetings: _Meetings, rounded: _Rounded) -> _Gra
     part, first, which = np.unique(place[inside] * number + place[inside + 1], return_index=True, return_inverse=True)
     times = np.zeros(len(part), dtype=np.int64)
     np.add.at(times, which, lines.times[edge[inside]])
-    kept = times != 0
-    on_edge = edge[inside][first][kept]
-    ends = np.stack(np.divmod(part[kept], number), axis=1)
-    return _Graph(points, column, is_vertex, ends, times[kept], lines.direction[on_edge], on_edge)
+    on_edge = edge[inside][first]
+    ends = np.stack(np.divmod(part, number), axis=1)
+    graph = _Graph(points, column, is_vertex, ends, times, lines.direction[on_edge], on_edge)
+    return graph, _Along(edge[inside], which)
+
+
+def _without_cancelled(graph: _Graph) -> _Graph:
+    """Return a graph without the parts that cancel each other."""
+    kept = graph.times != 0
+    return graph._replace(ends=graph.ends[kept], times=graph.times[kept], line=graph.line[kept], edge=graph.edge[kept])
 
 
 def _nodes(lines: _Lines, crossing: Ints, rounded: _Rounded) -> tuple[Ints, Floats, Ints, Bools]:

@@ -1,3 +1,5 @@
+from .contacts import check_limit as check_limit
+from .contacts import check_pieces as check_pieces
 from .disk import check_ball_mesh as check_ball_mesh
 from .disk import check_disk_mesh as check_disk_mesh
 from .disk import check_surface_mesh as check_surface_mesh

@@ -17,6 +17,7 @@ __all__ = [
     "check_disk_mesh",
     "check_surface_mesh",
     "closed_sides",
+    "corners_of_fans",
     "disk_sides",
     "require_pieces",
     "surface_sides",
@@ -151,6 +152,21 @@ def closed_sides(faces: npt.ArrayLike, n_vertices: int) -> Sides:
     return sides
 
 
+def corners_of_fans(faces: npt.ArrayLike, n_vertices: int) -> tuple[Ints, Ints]:
+    """Cut triangles apart at vertices where only these meet, no sides; return them with numbers for the new vertices.
+
+    Also the old number of each of these.
+    """
+    triangles = as_faces(faces, n_vertices)
+    start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    twin = _twins(start, end, n_vertices)
+    corner = np.arange(len(start))
+    across = twin[np.where(corner % 3 == 0, corner + 2, corner - 1)]
+    inner = np.flatnonzero(across >= 0)
+    _, first, fan = np.unique(_parts(inner, across[inner], len(start)), return_index=True, return_inverse=True)
+    return fan.reshape(-1, 3), start[first]
+
+
 def require_pieces(sides: Sides, n_vertices: int, pieces: Iterable[tuple[int, int]]) -> None:
     """Check the numbers of boundary loops and the Euler characteristics of the connected pieces."""
     wanted = sorted((int(loops), int(euler)) for loops, euler in pieces)
@@ -163,7 +179,7 @@ def require_pieces(sides: Sides, n_vertices: int, pieces: Iterable[tuple[int, in
 
 def _pieces(sides: Sides, n_vertices: int) -> list[tuple[int, int]]:
     """Return the number of boundary loops and the Euler characteristic of each connected piece, in order."""
-    part = np.unique(_parts(sides, n_vertices), return_inverse=True)[1]
+    part = np.unique(_parts(sides.start, sides.end, n_vertices), return_inverse=True)[1]
     count = int(part.max()) + 1
     of_side = np.bincount(part[sides.start], minlength=count)
     on_boundary = np.bincount(part[sides.start[sides.twin < 0]], minlength=count)
@@ -238,11 +254,11 @@ def _least_of_cycle(following: Ints) -> Ints:
     return least
 
 
-def _parts(sides: Sides, n_vertices: int) -> Ints:
-    """Return for each vertex the least one that edges lead to."""
-    part = np.arange(n_vertices)
+def _parts(start: Ints, end: Ints, count: int) -> Ints:
+    """Return for each of so many things the least one that links lead to, in either direction."""
+    part = np.arange(count)
     while True:
-        a, b = part[sides.start], part[sides.end]
+        a, b = part[start], part[end]
         if (a == b).all():
             return part
         np.minimum.at(part, np.maximum(a, b), np.minimum(a, b))
@@ -251,7 +267,7 @@ def _parts(sides: Sides, n_vertices: int) -> Ints:
 
 
 def _require_connected(sides: Sides, n_vertices: int) -> None:
-    if len(apart := np.flatnonzero(_parts(sides, n_vertices))):
+    if len(apart := np.flatnonzero(_parts(sides.start, sides.end, n_vertices))):
         raise CertificateError(f"the mesh has several parts: no path of edges leads from vertex 0 to vertex {apart[0]}")
 
 

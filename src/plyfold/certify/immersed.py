@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from plyfold.certify.disk import Sides, disk_sides, surface_sides
 from plyfold.certify.exact import Bools, Floats, Ints, Loops, as_loops, different, finite, next_along_loops
-from plyfold.certify.places import ExactPlaces, on_edges, require_positive
+from plyfold.certify.places import ExactPlaces, are_crossing, on_edges, require_positive
 from plyfold.errors import CertificateError
 
 __all__ = [
@@ -20,6 +20,7 @@ __all__ = [
     "common_places",
     "require_along_curve",
     "require_immersed",
+    "turns_too_many",
     "walk_along",
     "walked",
 ]
@@ -191,7 +192,7 @@ def walk_along(outline: Loops, near: Floats, loop: Ints, first: Ints) -> Walk:
 def common_places(walk: Walk) -> ExactPlaces:
     """Return exact places on the curve's edges that are the same for all vertices given as the same doubles.
 
-    Where there are vertices between the points of two edges, the place is where these edges cross.
+    Where there are vertices between the points of two edges that are not parallel, the place is where these cross.
     """
     near, _, place = different(walk.near)
     is_point = walk.is_point
@@ -201,8 +202,14 @@ def common_places(walk: Walk) -> ExactPlaces:
     given[place[points]] = True
     edges[place[points]] = walk.edges[points]
     at, edge = np.unique(np.stack([place[walk.loop], walk.edge], axis=1)[between], axis=0).T
-    rank = np.arange(len(at)) - np.searchsorted(at, at)
-    used = (rank < 2) & ~given[at]
+    first = np.searchsorted(at, at)
+    crossing = np.flatnonzero(are_crossing(walk.outline.edges, edge[first], edge))
+    # Of those that cross the first edge the first one.
+    crossing = crossing[np.unique(at[crossing], return_index=True)[1]]
+    used = first == np.arange(len(at))
+    used[crossing] = True
+    used &= ~given[at]
+    rank = (first < np.arange(len(at))).astype(np.int64)
     edges[at[used], rank[used]] = edge[used]
     places = on_edges(near, edges, walk.outline.edges, given)
     _require_on(places, *(numbers[~used | np.isinf(places.off[at])] for numbers in (at, edge)))
@@ -291,28 +298,39 @@ def _positions_in_loop(points: Floats, walk: Floats) -> list[int]:
 def _require_turns(sides: Sides, walk: Walk, places: ExactPlaces) -> None:
     """Check that the triangles turn once round each inner vertex, and fill the angle at each boundary vertex.
 
-    Full turns are counted as passages through the direction of +x: from a direction in [π, 2π) to one in [0, π). The
-    fan at a boundary vertex goes from its outgoing edge to its incoming one, and round the vertex once more for each
-    cusp.
+    The fan at a boundary vertex turns less than once, and once more for each cusp.
     """
-    upward, loop = _upward(places, sides.start, sides.end), walk.loop
+    loop = walk.loop
+    turns, spikes = turns_too_many(sides, loop, loop[walk.after], places)
+    turns[loop[walk.at]] -= walk.outline.cusps
+    wrong = turns != 0
+    wrong[spikes] = True
+    if wrong.any():
+        how = "not often enough" if (turns < 0)[np.argmax(wrong)] else "too often"
+        raise CertificateError(f"the triangles at a vertex turn round it {how}", where=places.near[wrong])
+
+
+def turns_too_many(sides: Sides, loop: Ints, after: Ints, places: ExactPlaces) -> tuple[Ints, Ints]:
+    """Return how many full turns too many the triangles make round each vertex; and the tips of spikes on the boundary.
+
+    Too many are more than one turn at an inner vertex. At those on the boundary, which are given with the vertices that
+    follow, the fan goes from the outgoing edge to the incoming one, and too many are the full turns that it makes
+    besides. At the tip of a spike, where these edges lie on one another, one full turn is due. Full turns are counted
+    as passages through the direction of +x: from a direction in [π, 2π) to one in [0, π).
+    """
+    upward = _upward(places, sides.start, sides.end)
     # A triangle's corner sweeps from the side that leaves it to the one that arrives, reversed.
     passages = np.bincount(sides.start[~upward & ~upward[sides.previous]], minlength=len(places.near))
-    after, before = loop[walk.after], np.empty_like(loop)
-    before[walk.after] = loop
+    before = np.empty(len(places.near), dtype=np.int64)
+    before[after] = loop
+    before = before[loop]
     outgoing, incoming = _upward(places, loop, after), _upward(places, loop, before)
     same = np.flatnonzero(outgoing == incoming)
     turn = places.cross_sign(loop[same], after[same], loop[same], before[same])
     expected = np.ones(len(places.near), dtype=np.int64)
     expected[loop] = incoming
     expected[loop[same]] = turn <= 0
-    expected[loop[walk.at]] += walk.outline.cusps
-    wrong = passages != expected
-    wrong[loop[same]] |= turn == 0
-    if wrong.any():
-        few = (passages < expected)[np.argmax(wrong)]
-        how = "not often enough" if few else "too often"
-        raise CertificateError(f"the triangles at a vertex turn round it {how}", where=places.near[wrong])
+    return passages - expected, loop[same[turn == 0]]
 
 
 def _upward(places: ExactPlaces, start: Ints, end: Ints) -> Bools:

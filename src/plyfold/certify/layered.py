@@ -12,13 +12,20 @@ from plyfold.certify.exact import Bools, Floats, Ints, as_faces, as_vertices, di
 from plyfold.certify.places import ExactPlaces, doubles, require_positive
 from plyfold.errors import CertificateError
 
-__all__ = ["check_layered", "require_gap", "require_layered", "require_no_overlap"]
+__all__ = ["check_layered", "from_lowest_corner", "require_gap", "require_layered", "require_no_overlap"]
 
 # Pairs of triangles that are filtered by their boxes at a time, and that are looked at: what of these fits into caches.
 _PAIRS_AT_A_TIME, _PAIRS_LOOKED_AT = 1 << 20, 1 << 12
 
 
-def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.0, passing: npt.ArrayLike = ()) -> None:
+def check_layered(
+    vertices: npt.ArrayLike,
+    faces: npt.ArrayLike,
+    gap: float = 0.0,
+    passing: npt.ArrayLike = (),
+    *,
+    touching: bool = False,
+) -> None:
     """Check that lifted triangles are stacked and do not meet except in common vertices and edges.
 
     Parameters
@@ -32,6 +39,9 @@ def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.
     passing : array_like of int, shape (e, 4), optional
         Rows (a, b, c, d): the edge from a to b and the one from c to d lie over one another, and the sheets may pass
         through each other along them: the heights of a and c, and of b and d, are not compared.
+    touching : bool, optional
+        Whether parts of the surface may touch with their boundaries where, seen from above, they are beside one
+        another: vertices and edges are compared only as far as triangles at them lie over one another.
 
     Raises
     ------
@@ -52,6 +62,8 @@ def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.
     has one, and every edge that is not named. So two triangles over one another meet at most in a segment that cuts
     off named corners, and sheets pass through each other only in triangles at the named edges.
 
+    With ``touching``, the surface may meet itself in vertices and edges of its boundary, as the outline does.
+
     The flat triangles are compared in pairs whose boxes meet, found by a sweep: about p^1.5 steps for p different
     flat triangles of similar size, p^2 if they are all long. 1e5 triangles, three deep, take about a second.
 
@@ -70,7 +82,7 @@ def check_layered(vertices: npt.ArrayLike, faces: npt.ArrayLike, gap: float = 0.
     triangles = as_faces(faces, len(positions))
     places = doubles(positions[:, :2])
     require_positive(places, triangles)
-    require_layered(positions, triangles, places, gap, passing)
+    require_layered(positions, triangles, places, gap, passing, touching=touching)
 
 
 def require_gap(gap: float) -> None:
@@ -79,20 +91,23 @@ def require_gap(gap: float) -> None:
         raise CertificateError(f"the gap must be a number from 0 on, not {gap!r}")
 
 
-def require_layered(positions: Floats, triangles: Ints, exact: ExactPlaces, gap: float, passing: npt.ArrayLike) -> None:
+def require_layered(  # noqa: PLR0913 - a mesh at exact places, and what it shall be
+    positions: Floats, triangles: Ints, exact: ExactPlaces, gap: float, passing: npt.ArrayLike, *, touching: bool
+) -> None:
     """Check that positive triangles are stacked, both as they are given and with their vertices at exact places.
 
     Vertices at one place as they are given have one exact place.
     """
     places, first, below = different(positions[:, :2])
     height = positions[:, 2]
-    flat = _from_lowest_corner(below, triangles)
+    flat = from_lowest_corner(below, triangles)
     edges = _different_edges(below, triangles)
     named = _named_pairs(passing, edges, below)
     stacks = _Stacks(below, height, places, pair_keys(edges[named].swapaxes(1, 2).reshape(-1, 2), len(positions)))
-    stacks.require_gap(gap)
+    stacks.require_gap(gap, flat if touching else np.arange(len(positions))[:, None])
     stacks.require_one_order("triangles", flat)
-    stacks.require_one_order("edges", edges, pair_keys(named, len(edges)))
+    if not touching:
+        stacks.require_one_order("edges", edges, pair_keys(named, len(edges)))
     require_no_overlap(np.unique(below[flat], axis=0), exact.of(first))
 
 
@@ -105,16 +120,16 @@ class _Stacks:
     places: Floats
     open_pairs: Ints
 
-    def require_gap(self, gap: float) -> None:
-        """Check that vertices over one another are at least so far apart."""
-        vertices = np.arange(len(self.below))[:, None]
-        first, second = self._compared(vertices)
-        lower, upper = self.height[first], self.height[second]
-        bad = np.flatnonzero(~((lower < upper) & (lower + gap <= upper)) & ~self._is_open(first, second))
-        if len(bad):
+    def require_gap(self, gap: float, things: Ints) -> None:
+        """Check that the corners of things over the same places are at least so far apart."""
+        first, second = self._compared(things)
+        a, b = things[first], things[second]
+        lower, upper = np.sort([self.height[a], self.height[b]], axis=0)
+        near = ~((lower < upper) & (lower + gap <= upper)) & (a != b) & ~self._is_open(a, b)
+        if near.any():
             raise CertificateError(
                 f"vertices over one another are less than {gap:g} apart, or equal",
-                where=self.places[self.below[first[bad]]],
+                where=self.places[self.below[a[near]]],
             )
 
     def require_one_order(self, name: str, things: Ints, named: Ints | None = None) -> None:
@@ -180,7 +195,7 @@ def _named_pairs(passing: npt.ArrayLike, edges: Ints, below: Ints) -> Ints:
     return np.asarray(pairs)
 
 
-def _from_lowest_corner(below: Ints, triangles: Ints) -> Ints:
+def from_lowest_corner(below: Ints, triangles: Ints) -> Ints:
     """Return the triangles, each turned so that the place with the lowest number comes first."""
     first = np.argmin(below[triangles], axis=1)
     return np.take_along_axis(triangles, (first[:, None] + np.arange(3)) % 3, axis=1)

@@ -19,7 +19,7 @@ import numpy.typing as npt
 from plyfold.certify.exact import Bools, Floats, Ints
 from plyfold.errors import CertificateError
 
-__all__ = ["ExactPlaces", "doubles", "on_edges", "require_positive"]
+__all__ = ["ExactPlaces", "are_crossing", "doubles", "on_edges", "require_positive"]
 
 Point: TypeAlias = tuple[Fraction, Fraction]
 Signs: TypeAlias = npt.NDArray[np.int8]
@@ -164,6 +164,13 @@ def on_edges(near: Floats, edges: Ints, curve: Floats, given: Bools) -> ExactPla
         off[crossing] = _MORE * both / _sine(first, second, curve)
     off[np.isnan(off)] = np.inf
     return ExactPlaces(near, edges, off, curve)
+
+
+def are_crossing(curve: Floats, first: Ints, second: Ints) -> Bools:
+    """Tell which pairs of edges, of a curve with these ends, are not parallel."""
+    ends = np.concatenate([curve[first], curve[second]], axis=1).reshape(-1, 2)
+    a, b, c, d = np.arange(len(ends)).reshape(-1, 4).T
+    return np.asarray(doubles(ends).cross_sign(a, b, c, d) != 0)
 
 
 def _directions(edge: Ints, curve: Floats) -> Floats:

@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.certify.disk import closed_sides, require_pieces
-from plyfold.certify.exact import Floats, Ints, as_faces, as_vertices, finite, pair_keys
-from plyfold.certify.layered import check_layered
+from plyfold.certify.exact import Bools, Floats, Ints, as_faces, as_vertices, different, finite, pair_keys
+from plyfold.certify.layered import check_layered, from_lowest_corner
 from plyfold.certify.places import doubles
 from plyfold.errors import CertificateError
 
@@ -20,13 +20,14 @@ __all__ = ["check_solid"]
 _ROUNDING = 1e-15
 
 
-def check_solid(
+def check_solid(  # noqa: PLR0913 - a mesh, and what it shall be
     vertices: npt.ArrayLike,
     faces: npt.ArrayLike,
     thickness: float,
     *,
     pieces: Iterable[int] = (1,),
     tips: npt.ArrayLike = (),
+    touching: bool = False,
 ) -> None:
     """Check that triangles bound a solid that is as thick everywhere as it should be, and does not meet itself.
 
@@ -43,6 +44,8 @@ def check_solid(
         default the solid is one ball.
     tips : array_like of int, optional
         Vertices at which top and bottom meet.
+    touching : bool, optional
+        Whether walls of the solid may touch, see :func:`check_layered`.
 
     Raises
     ------
@@ -61,6 +64,8 @@ def check_solid(
     them meet in common walls only; the remaining triangles are parts of such walls. The volume follows: the area seen
     from above, times the thickness. At a tip the solid has no thickness, and grows to it in the triangles around.
 
+    With ``touching``, vertices alternate where triangles lie over one another, and walls of the solid may touch.
+
     Cost: that of :func:`check_layered`.
 
     Examples
@@ -77,14 +82,14 @@ def check_solid(
     require_pieces(closed_sides(triangles, len(positions)), len(positions), [(0, 2 * int(euler)) for euler in pieces])
     turn = doubles(positions[:, :2]).turn(triangles)
     upper, lower, walls = triangles[turn > 0], triangles[turn < 0], triangles[turn == 0]
-    top = _tops(positions, upper, lower, np.unique(as_vertices(tips, len(positions), "the row of tips")))
+    top = _tops(positions, upper, lower, np.unique(as_vertices(tips, len(positions), "the row of tips")), touching)
     _require_thickness(positions, top, thickness)
     _require_prisms(upper, top[lower])
     _require_walls(positions, walls, lower, top)
-    check_layered(positions, np.concatenate([upper, lower[:, ::-1]]))
+    check_layered(positions, np.concatenate([upper, lower[:, ::-1]]), touching=touching)
 
 
-def _tops(positions: Floats, upper: Ints, lower: Ints, tips: Ints) -> Ints:
+def _tops(positions: Floats, upper: Ints, lower: Ints, tips: Ints, touching: bool) -> Ints:
     """Return for each vertex on the bottom the one right above it, for each other one −1; they must alternate.
 
     A tip is above itself.
@@ -95,19 +100,43 @@ def _tops(positions: Floats, upper: Ints, lower: Ints, tips: Ints) -> Ints:
     both[tips] = True
     if len(bad := np.flatnonzero((is_top == is_bottom) != (both & is_top))):
         raise CertificateError("a vertex is not either on the top or on the bottom", where=positions[bad[:1]])
+    if touching:
+        return _tops_in_triangles(positions, upper, lower)
     x, y, z = positions.T
     order = np.lexsort((z, y, x))
     order = np.repeat(order, 1 + both[order])
     first, second = order[0::2], order[1::2]
     bottom = first[: len(second)]
     fits = is_bottom[bottom] & is_top[second] & (positions[bottom, :2] == positions[second, :2]).all(axis=1)
+    _require_alternation(positions, first, second, fits)
+    top = np.full(len(positions), -1)
+    top[first] = second
+    return top
+
+
+def _tops_in_triangles(positions: Floats, upper: Ints, lower: Ints) -> Ints:
+    """Return the same where vertices over one another may be beside each other: here triangles alternate."""
+    below = different(positions[:, :2])[2]
+    triangles = from_lowest_corner(below, np.concatenate([upper, lower[:, ::-1]]))
+    place = below[triangles]
+    order = np.lexsort((*positions[triangles, 2].T[::-1], *place.T[::-1]))
+    first, second = order[0::2], order[1::2]
+    bottom = first[: len(second)]
+    fits = (bottom >= len(upper)) & (second < len(upper)) & (place[bottom] == place[second]).all(axis=1)
+    _require_alternation(positions, triangles[first, 0], second, fits)
+    top = np.full(len(positions), -1)
+    top[triangles[bottom]] = triangles[second]
+    if len(wrong := np.flatnonzero((top[triangles[bottom]] != triangles[second]).any(axis=1))):
+        corners = positions[triangles[bottom[wrong[0]]], :2]
+        raise CertificateError("at one vertex of the bottom, triangles have different tops", where=corners)
+    return top
+
+
+def _require_alternation(positions: Floats, first: Ints, second: Ints, fits: Bools) -> None:
     if len(first) > len(second) or not fits.all():
         raise CertificateError(
             "going up, top and bottom do not alternate", where=positions[first[[np.argmin([*fits, False])]], :2]
         )
-    top = np.full(len(positions), -1)
-    top[first] = second
-    return top
 
 
 def _require_thickness(positions: Floats, top: Ints, thickness: float) -> None:

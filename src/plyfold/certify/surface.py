@@ -26,6 +26,7 @@ def check_surface(  # noqa: PLR0913 - the parts of a mesh, and what it shall be
     passing: npt.ArrayLike = (),
     cusps: npt.ArrayLike | Sequence[npt.ArrayLike] | None = None,
     pieces: Iterable[tuple[int, int]] | None = None,
+    touching: bool = False,
 ) -> None:
     """Check that a mesh in space is an embedded surface that seen from above is immersed and bounded by the outline.
 
@@ -48,6 +49,8 @@ def check_surface(  # noqa: PLR0913 - the parts of a mesh, and what it shall be
         How many full turns the angle at each point of each loop has more than one sees; none by default.
     pieces : iterable of (int, int), optional
         What the connected pieces must be, see :func:`check_surface_mesh`.
+    touching : bool, optional
+        Whether the surface may touch itself where the outline does, see :func:`check_layered`.
 
     Raises
     ------
@@ -69,7 +72,7 @@ def check_surface(  # noqa: PLR0913 - the parts of a mesh, and what it shall be
         require_pieces(sides, len(positions), pieces)
     places = common_places(walk)
     require_immersed(sides, walk, places)
-    require_layered(positions, sides.start.reshape(-1, 3), places, gap, passing)
+    require_layered(positions, sides.start.reshape(-1, 3), places, gap, passing, touching=touching)
 
 
 def check_rounded(

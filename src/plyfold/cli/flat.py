@@ -121,14 +121,14 @@ def _direction(turned: bool) -> str:
 def _triangulate(options: argparse.Namespace) -> int:
     from plyfold.flat.triangulate import triangulate
     from plyfold.io.pieces import TRIANGLE_WRITERS
-    from plyfold.outline.given import as_outline
+    from plyfold.mesh.refine import given_outline
 
     watch = Stopwatch()
     arranged = prepare(options, tuple(TRIANGLE_WRITERS), watch)
     watch("triangulating")
     faces = triangulate(arranged)
     watch.stop()
-    drawn = as_outline(arranged)
+    drawn = given_outline(arranged)
     points = (drawn.reversed() if arranged.reversed else drawn).points
     print(f"{len(faces):,} triangles")
     write_texts(options, {ending: partial(write, points, faces) for ending, write in TRIANGLE_WRITERS.items()})

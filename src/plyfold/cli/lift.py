@@ -71,8 +71,8 @@ def _lift(options: argparse.Namespace) -> int:
     watch("writing")
     _export(surface, options, watch)
     watch.stop()
-    sheets = counted(surface.layering.immersion.n_sheets, "sheet")
-    print(f"Lifted: {len(surface.faces):,} triangles in {sheets}, {surface.layering.level.max()} level(s)")
+    sheets = counted(surface.n_sheets, "sheet")
+    print(f"Lifted: {len(surface.faces):,} triangles in {sheets}, {surface.n_layers} level(s)")
     if surface.intersections:
         print(f"  it passes through itself along {len(surface.intersections)} curve(s)")
     print(timing(watch))

@@ -121,7 +121,8 @@ def _paint(surface: Surface, colours: ClothColours) -> Floats | None:
     if colours == "sheets":
         palette = [rgb(sheet_colour(sheet)) for sheet in range(len(level))]
     elif colours == "layers":
-        palette = [rgb(layer_colour(each, int(level.max()))) for each in level.tolist()]
+        shown = np.minimum(level, surface.n_layers).tolist()
+        palette = [rgb(layer_colour(each, surface.n_layers)) for each in shown]
     else:
         raise InputError(f"there are no colours {colours!r}", hint=f"use one of {', '.join(get_args(ClothColours))}")
     return np.array(palette)[surface.sheet]

@@ -100,7 +100,7 @@ def mesh_data(surface: Surface) -> dict[str, Any]:
     scale = middle_and_size(surface.vertices[:, :2])[1] / 2
     stored = (surface.vertices - centre) / scale
     level = np.asarray(surface.layering.level)
-    levels = int(level.max())
+    levels = surface.n_layers
     return {
         "centre": centre.tolist(),
         "scale": scale,
@@ -133,7 +133,7 @@ def _frames(surface: Surface) -> list[Floats]:
 
     None if it is no disk, or if doubles cannot hold that: then the page shows no way.
     """
-    if not surface.layering.immersion.is_disk:
+    if not surface.is_disk:
         return []
     try:
         motion = Motion(surface.unwrap())
@@ -148,7 +148,7 @@ def _base64(values: npt.ArrayLike, kind: str) -> str:
 
 
 def _default_figures(surface: Surface) -> dict[str, object]:
-    return {"triangles": f"{len(surface.faces):,}", "layers": int(np.max(surface.layering.level))}
+    return {"triangles": f"{len(surface.faces):,}", "layers": surface.n_layers}
 
 
 def _definition_list(figures: Mapping[str, object]) -> str:

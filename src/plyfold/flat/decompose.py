@@ -14,11 +14,12 @@ from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import InputError, PrecisionError
 from plyfold.flat.delaunay import delaunay_triangles
 from plyfold.flat.layers import signed_layers
-from plyfold.flat.triangulate import chosen_immersion, glued_by_points
+from plyfold.flat.settle import settled_by_points
+from plyfold.flat.triangulate import chosen_immersion
 from plyfold.graphs import components, spanning_tree
 from plyfold.halfedges import ends_of, glued_pairs
 from plyfold.immersion.immersion import Immersion
-from plyfold.mesh.refine import drawn_outline
+from plyfold.mesh.refine import drawn_outline, given_outline
 from plyfold.outline.given import OutlineLike, as_outline
 from plyfold.predicates import orient
 
@@ -61,9 +62,9 @@ def decompose(
     Returns
     -------
     list of shapely.Polygon, or a pair of such lists
-        Polygons, counter-clockwise, whose corners are points of the outline; those of a disk are simple and have no
-        holes. Together they cover each place as often as the outline winds round it. A curve without overlaps gives one
-        polygon.
+        Polygons, counter-clockwise, whose corners are points of the outline as they were given; those of a disk are
+        simple and have no holes. Together they cover each place as often as the outline winds round it. A curve without
+        overlaps gives one polygon, and one that touches itself some that do not.
 
         If ``signed``, the polygons that count once, and those that count −1 times: they add up to the winding numbers
         of the points as given. They are the layers {w ≥ 1}, {w ≥ 2}, … and {w ≤ −1}, {w ≤ −2}, … without their holes,
@@ -107,13 +108,13 @@ def decompose(
 
 def _pieces_of_immersion(chosen: Immersion) -> list[Polygon]:
     """Return the polygons of an immersed surface."""
-    drawn = chosen.arrangement
-    points = drawn_outline(drawn).points
+    drawn, settled = chosen.arrangement, settled_by_points(chosen)
+    points = given_outline(drawn).points[settled.point]
     # Round triangles overlap fewer others than long ones.
-    faces = delaunay_triangles(points, glued_by_points(chosen))
+    faces = delaunay_triangles(points, settled.faces)
     if not chosen.is_disk or drawn.cusp_index.any():
-        return _pieces_of_surface(points, faces, np.concatenate(drawn_outline(drawn).cusps) > 0)
-    conflicts = _crossing_sides(drawn, faces)
+        return _pieces_of_surface(points, faces, np.concatenate(drawn_outline(drawn).cusps)[settled.point] > 0)
+    conflicts = _crossing_sides(drawn, faces) if len(settled.cuts) == 0 else [set() for _ in faces]
     tree = _forest(faces)
     while True:
         piece = _pieces(conflicts, *tree)

@@ -7,21 +7,20 @@ from typing import overload
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, arrange
+from plyfold.arrangement.spikes import without_spikes
 from plyfold.arrays import Floats, Ints
-from plyfold.errors import GeneralPositionError, InputError, NotImmersibleError
+from plyfold.errors import InputError, NotImmersibleError
 from plyfold.flat.delaunay import delaunay_triangles, flip_edges
-from plyfold.flat.sweep import sweep_triangles
-from plyfold.halfedges import ends_of
+from plyfold.flat.settle import Settled, settled_by_points, settled_triangles
 from plyfold.immersion.immersion import Immersion, require_immersion
 from plyfold.immersion.solve import find_immersion
 from plyfold.mesh.cells import refuse_max_area
-from plyfold.mesh.refine import drawn_outline
+from plyfold.mesh.refine import drawn_outline, given_outline
 from plyfold.outline.curve import Outline
 from plyfold.outline.given import OutlineLike, as_outline
 from plyfold.predicates import orient
-from plyfold.ragged import count_each
 
-__all__ = ["chosen_immersion", "glued_by_points", "triangulate"]
+__all__ = ["chosen_immersion", "triangulate"]
 
 
 @overload
@@ -51,11 +50,16 @@ def triangulate(
     -------
     faces : (n − 2χ, 3) int
         Rows of three points of the outline, by their number in the arrays that were given, one after the other,
-        counter-clockwise (exactly, and strictly); χ is the Euler characteristic, 1 for a disk. Glued along their common
-        sides they are a surface, immersed in the plane, with the outline as its boundary. A curve that runs clockwise
-        keeps its numbers; the triangles are counter-clockwise all the same.
-    points, faces : (m, 2) float and (m' , 3) int
-        With ``refine``; the first n points are the outline's.
+        counter-clockwise (exactly, and strictly, where the points were given); χ is the Euler characteristic, 1 for a
+        disk. Glued along their common sides they are a surface, immersed in the plane, with the outline as its
+        boundary. A curve that runs clockwise keeps its numbers; the triangles are counter-clockwise all the same.
+
+        A surface that touches itself (``immersion.touches``) is cut there, and falls into pieces. Then n counts every
+        corner of every piece, and χ is that of all pieces together. Where a point touches the inside of an edge, it is
+        a corner on both sides.
+    points, faces : (m, 2) float and (m', 3) int
+        With ``refine``. The first points are the outline's; those that touch the inside of an edge where the surface is
+        cut follow, once more for each piece with a corner there, so that pieces have no vertex in common.
 
     Raises
     ------
@@ -67,7 +71,7 @@ def triangulate(
         If ``refine`` is no positive number or makes too many triangles, or the immersion is one of another outline;
         with ``refine``, also if two sides of triangles join the same two cusps.
     GeneralPositionError
-        If strands touch, and a triangle of the separated strands has no area on the points as they were given.
+        If touching strands cannot be moved apart by as little as it takes to see how the surface lies.
 
     Notes
     -----
@@ -80,9 +84,8 @@ def triangulate(
     the points of the outline let them; :func:`~plyfold.map_disk` divides the outline too.
 
     Points that repeat the one before them are left out (see :class:`~plyfold.Curve`): they do not count, and no face
-    has them. If vertices had to be moved into general position, the triangles are those of the moved curve. They are
-    returned if they are triangles of the points as given, too; given an arrangement, they are always those of
-    ``arrangement.curve``, the moved points.
+    has them. Where strands touch, the triangles are those of strands that are infinitely little apart, without the ones
+    that have no area.
 
     References
     ----------
@@ -99,12 +102,20 @@ def triangulate(
     >>> points, faces = triangulate([(0, 0), (6, 0), (0, 6)], refine=4.0)
     >>> len(points) > 3
     True
+
+    Two triangles that meet in a point, and two that a neck joins, where the outline runs there and back:
+
+    >>> triangulate([(0, 0), (1, 1), (2, 0), (2, 2), (1, 1), (0, 2)]).tolist()
+    [[0, 4, 5], [1, 2, 3]]
+    >>> triangulate([(0, 0), (1, 1), (2, 1), (3, 0), (3, 2), (2, 1), (1, 1), (0, 2)]).tolist()
+    [[0, 6, 7], [2, 3, 4]]
     """
     chosen = chosen_immersion(curve, immersion)
     if refine is not None:
         return _refined(chosen, refine)
-    faces = _input_order(chosen.arrangement)[sweep_triangles(chosen)]
-    return faces if isinstance(curve, Arrangement) else _faces_as_given(curve, faces, chosen.arrangement)
+    settled = settled_triangles(chosen)
+    faces = chosen.arrangement.numbers[settled.point[settled.faces]]
+    return faces if isinstance(curve, Arrangement | Outline) else as_outline(curve).rows[faces]
 
 
 def chosen_immersion(curve: OutlineLike, immersion: Immersion | None) -> Immersion:
@@ -122,56 +133,29 @@ def chosen_immersion(curve: OutlineLike, immersion: Immersion | None) -> Immersi
     return immersion
 
 
-def _faces_as_given(curve: OutlineLike, faces: Ints, drawn: Arrangement) -> Ints:
-    """Give the points the numbers that the caller knows, and refuse triangles without area on his points."""
-    given = as_outline(curve)
-    if not np.array_equal(drawn_outline(drawn).points[_input_order(drawn)], given.points):
-        flat = faces[orient(*given.points[faces].swapaxes(0, 1)) <= 0]
-        if len(flat):
-            raise GeneralPositionError(
-                "strands touch, and where they were separated a triangle has no area on the points as given",
-                where=given.points[flat[0]],
-                hint="take the moved points: a = arrange(curve), then triangulate(a) and a.outline.points",
-            )
-    return faces if isinstance(curve, Outline) else given.rows[faces]
-
-
 def _same(drawn: Arrangement, other: Arrangement) -> bool:
     """Tell whether two arrangements are of the same points."""
     if drawn.outline is None or other.outline is None:
         return drawn is other
-    return drawn.reversed == other.reversed and _alike(drawn.outline, other.outline, other.outline.points)
+    return drawn.reversed == other.reversed and _alike(drawn.outline, other.outline, np.arange(len(other.outline)))
 
 
-def _draws(drawn: Arrangement, given: Outline) -> bool:
-    """Tell whether an arrangement is that of the given outline, but for points moved into general position."""
+def _draws(drawn: Arrangement, outline: Outline) -> bool:
+    """Tell whether an arrangement is that of an outline."""
     if drawn.outline is None:
         return False
-    used = drawn.outline.reversed() if drawn.reversed else drawn.outline
-    moved = {repair.where for repair in drawn.outline.repairs}
-    where = [(x, y) in moved for x, y in given.points.tolist()] if moved else np.zeros(len(given), dtype=bool)
-    expected = (
-        np.where(np.array(where)[:, None], used.points, given.points) if len(used) == len(given) else given.points
-    )
-    return _alike(used, given, expected)
+    left, kept = (outline, np.arange(len(outline))) if len(drawn.numbers) == len(outline) else without_spikes(outline)
+    if not np.array_equal(np.sort(drawn.numbers), kept):
+        return False
+    return _alike(given_outline(drawn), left, np.searchsorted(kept, drawn.numbers))
 
 
-def _alike(used: Outline, given: Outline, points: Floats) -> bool:
-    """Tell whether an outline has given points, and the loops and cusps of another one."""
+def _alike(used: Outline, outline: Outline, number: Ints) -> bool:
+    """Tell whether an outline has the loops and cusps of another one, where its points have some numbers."""
     return (
-        np.array_equal(used.points, points)
-        and np.array_equal(used.first_point, given.first_point)
-        and np.array_equal(np.concatenate(used.cusps), np.concatenate(given.cusps))
-    )
-
-
-def _input_order(drawn: Arrangement) -> Ints:
-    """Return the number that each point of the arrangement's outline has in the input."""
-    outline = drawn_outline(drawn)
-    length = np.diff(outline.first_point)
-    place = count_each(length)
-    return np.repeat(outline.first_point[:-1], length) + (
-        -place % np.repeat(length, length) if drawn.reversed else place
+        np.array_equal(used.first_point, outline.first_point)
+        and np.array_equal(used.points, outline.points[number])
+        and np.array_equal(np.concatenate(used.cusps), np.concatenate(outline.cusps)[number])
     )
 
 
@@ -180,30 +164,24 @@ def _refined(immersion: Immersion, max_area: float) -> tuple[Floats, Ints]:
     drawn = immersion.arrangement
     if isinstance(max_area, bool) or not isinstance(max_area, int | float | np.number):
         raise InputError(f"the largest area of a triangle must be a number, not {max_area!r}")
-    points, number = drawn_outline(drawn).points, _input_order(drawn)
-    refuse_max_area(points, max_area)
+    refuse_max_area(drawn_outline(drawn).points, max_area)
+    settled = settled_by_points(immersion)
+    points, number = _points_of_corners(given_outline(drawn), settled, drawn.numbers)
     # Flips alone would take quadratic time where triangles are long.
-    round_triangles = delaunay_triangles(points, glued_by_points(immersion))
-    return _split_large(points[number], number[round_triangles], max_area)
+    round_triangles = delaunay_triangles(points[number], settled.faces)
+    return _split_large(points, number[round_triangles], max_area)
 
 
-def glued_by_points(immersion: Immersion) -> Ints:
-    """Return triangles of which the points tell the gluing; refuse those of which two sides join the same points.
+def _points_of_corners(given: Outline, settled: Settled, numbers: Ints) -> tuple[Floats, Ints]:
+    """Return the points of an outline in the order of the input, then those inside its edges at which it is cut.
 
-    They are on the same line then, and leave their ends in the same direction: at both there is a cusp.
+    Also the number of each corner among them. ``numbers`` are those of the points in the input.
     """
-    faces = sweep_triangles(immersion)
-    outline = drawn_outline(immersion.arrangement)
-    if np.count_nonzero(np.concatenate(outline.cusps)) > 1:
-        start, end = ends_of(faces)
-        key, times = np.unique(start * len(outline) + end, return_counts=True)
-        if len(double := key[times > 1]):
-            raise InputError(
-                "two sides of triangles join the same two cusps",
-                where=outline.points[list(divmod(int(double[0]), len(outline)))],
-                hint="put a vertex on an edge near one of them",
-            )
-    return faces
+    order = np.argsort(numbers)
+    place = np.argsort(order)
+    inside = settled.inside
+    number = np.where(inside, len(given) - 1 + np.cumsum(inside), place[settled.point])
+    return np.concatenate([given.points[order], given.points[settled.point[inside]]]), number
 
 
 def _split_large(points: Floats, faces: Ints, max_area: float) -> tuple[Floats, Ints]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from math import sqrt
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from plyfold.certify.surface import check_rounded
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import CertificateError, InputError, PrecisionError
 from plyfold.graphs import components
+from plyfold.halfedges import half_edges_from_to
 from plyfold.mesh.mend import FREE, GIVEN, Edged, Limits, mend_angles, sharp_triangles
 from plyfold.mesh.refine import (
     ENCLOSING,
@@ -23,7 +24,8 @@ from plyfold.mesh.refine import (
     Size,
     chain_of,
     constrained,
-    drawn_outline,
+    given_outline,
+    is_moved,
     left_of_chain,
     noded_curve,
     planar_mesh,
@@ -33,6 +35,7 @@ from plyfold.mesh.refine import (
     too_close,
     usual_area,
 )
+from plyfold.mesh.strips import Strips, noded_strips, strips_of
 from plyfold.options import refuse_unless_number
 from plyfold.ragged import next_in_rows
 
@@ -78,7 +81,8 @@ class CellTriangulation:
     ----------
     points : (p, 2) float
         The points of the outline in their order, bit for bit; then the crossings, rounded; then points added for the
-        quality of the triangles.
+        quality of the triangles. Of an outline whose points were moved apart, those given and its crossings in no such
+        order, each place once.
     triangles : (t, 3) int
         Counter-clockwise (exactly) and none across a border.
     twin : (3t,) int
@@ -88,13 +92,15 @@ class CellTriangulation:
     chain : (s,) int
         The points along the loops in order, each from its first point, crossings and added points included (a crossing
         occurs twice). Piece j of the outline runs from ``chain[j]`` to ``chain[j + 1]``, the last one of a loop back to
-        its first point.
+        its first point. On given points several pieces may run along the same edge.
     chain_border : (s,) int
-        The border each piece belongs to.
+        The border each piece belongs to; with ``strips`` it is one of those.
     first_piece : (loops + 1,) int
         Loop l consists of the pieces from ``first_piece[l]`` up to ``first_piece[l + 1]``.
     left : (s,) int
         The half-edge along each piece, in the triangle on its left; -1 where there is none.
+    strips : Strips, optional
+        The borders on the given points, if points of the outline were moved apart.
     """
 
     points: Floats
@@ -105,11 +111,33 @@ class CellTriangulation:
     chain_border: Ints
     first_piece: Ints
     left: Ints
+    strips: Strips | None = None
 
     @property
     def chain_end(self) -> Ints:
         """The point at which each piece of the outline ends."""
         return self.chain[next_in_rows(self.first_piece)]
+
+    @cached_property
+    def right(self) -> Ints:
+        """The half-edge along each piece, in the triangle on its right; -1 where there is none."""
+        right = np.where(self.left >= 0, self.twin[self.left], -1)
+        alone = np.flatnonzero(self.left < 0)
+        if len(alone):
+            right[alone] = half_edges_from_to(self.triangles, self.chain_end[alone], self.chain[alone])
+        return right
+
+    @property
+    def beside(self) -> Ints:
+        """The half-edge along each piece on its left, or else on its right; -1 where nothing is covered."""
+        return np.where(self.left >= 0, self.left, self.right)
+
+    def places_of(self, points: Ints) -> Ints:
+        """Return the numbers here of points of the outline."""
+        if self.strips is None:
+            return points
+        strands = self.strips.strands
+        return np.unique(strands.start[strands.first[points]])
 
 
 def triangulate_cells(
@@ -169,7 +197,7 @@ def triangulate_cells(
     """
     watch = watch.begin("triangulating the cells")
     _refuse_tiny(arrangement)
-    outline = noded_curve(arrangement)
+    outline = noded_strips(strips_of(arrangement)) if is_moved(arrangement) else noded_curve(arrangement)
     if triangles:
         size = usual_area(outline, triangles, max_area)
         for finest in _FINEST:
@@ -177,11 +205,11 @@ def triangulate_cells(
             with suppress(PrecisionError):
                 return _with_good_angles(arrangement, outline, size, finest * outline.rounding, watch)
     plain = _plain(outline, watch)
-    return watch.wait_for(lambda: _verified(arrangement, plain), len(plain.triangles))
+    return watch.wait_for(lambda: _verified(arrangement, outline, plain), len(plain.triangles))
 
 
 def _refuse_tiny(arrangement: Arrangement) -> None:
-    points = drawn_outline(arrangement).points
+    points = given_outline(arrangement).points
     if (size := float(np.ptp(points, axis=0).max())) < _SMALLEST_SIZE:
         raise PrecisionError(
             f"a drawing of size {size:.3g} is too small for a mesh: areas have no double",
@@ -221,7 +249,7 @@ def _refined(
     while True:
         library = constrained(outline, watch)
         plain = _planar(library, outline)
-        winding = arrangement.winding[_cells(arrangement, plain)[0]]
+        winding = arrangement.winding[_cells(outline, plain)[0]]
         affordable = refine(library, outline, winding, size, finest, watch=watch)
         if affordable <= finest:
             break
@@ -263,7 +291,7 @@ def _mended(
     winding = arrangement.winding[mesh.cell]
     more = max(enough - winding.sum(), _MENDING * winding.sum())
     limits = Limits(int(more / (2 * winding.mean())), finest)
-    mended = mend_angles(_edged(outline, mesh), sharp, (outline.chain, outline.chain_end), limits)
+    mended = mend_angles(_edged(outline, mesh), sharp, (outline.edges[:, 0], outline.edges[:, 1]), limits)
     if not mended:
         return None
     drawn = _drawn(outline, mesh, mended)
@@ -281,8 +309,8 @@ def _drawn(outline: NodedCurve, mesh: CellTriangulation, mended: Edged) -> CellT
     triangles = mended.start.reshape(-1, 3)
     added = np.flatnonzero(mended.on >= 0)
     chain = split_chain(outline, unit_points, np.stack([mended.on[added], added], axis=1))
-    left = left_of_chain(triangles, *_ends(*chain))
-    return CellTriangulation(points, triangles, mended.beyond, mended.cell, *chain, left)
+    left = left_of_chain(triangles, *_ends(*chain), outline.strips is not None)
+    return CellTriangulation(points, triangles, mended.beyond, mended.cell, *chain, left, outline.strips)
 
 
 def _ends(chain: Ints, chain_border: Ints, first_piece: Ints) -> tuple[Ints, Ints]:
@@ -291,25 +319,23 @@ def _ends(chain: Ints, chain_border: Ints, first_piece: Ints) -> tuple[Ints, Int
 
 
 def _edged(outline: NodedCurve, mesh: CellTriangulation) -> Edged:
-    """Return triangles in the unit square, with the pieces of the outline that points and half-edges are on."""
+    """Return triangles in the unit square, with the edges of the outline that points and half-edges are on."""
     known = len(outline.points)
-    piece_of_chain = np.cumsum(mesh.chain < known) - 1
+    edge_of_chain = outline.edge_of_piece[np.cumsum(mesh.chain < known) - 1]
     on = np.full(len(mesh.points), FREE)
-    on[mesh.chain] = piece_of_chain
+    on[mesh.chain] = edge_of_chain
     on[:known] = GIVEN
-    piece = np.full(len(mesh.twin), -1)
-    covered = mesh.left >= 0
-    right = mesh.twin[mesh.left[covered]]
-    piece[mesh.left[covered]] = piece_of_chain[covered]
-    piece[right[right >= 0]] = piece_of_chain[covered][right >= 0]
+    edge = np.full(len(mesh.twin), -1)
+    for side in (mesh.left, mesh.right):
+        edge[side[side >= 0]] = edge_of_chain[side >= 0]
     x, y = ((mesh.points - outline.centre) / outline.scale).T.copy()
     total = np.array([len(x), len(mesh.cell)])
-    return Edged(x, y, on, mesh.triangles.ravel(), mesh.twin, piece, mesh.cell, total)
+    return Edged(x, y, on, mesh.triangles.ravel(), mesh.twin, edge, mesh.cell, total)
 
 
-def _verified(arrangement: Arrangement, mesh: PlanarMesh) -> CellTriangulation:
+def _verified(arrangement: Arrangement, outline: NodedCurve, mesh: PlanarMesh) -> CellTriangulation:
     """Keep the triangles over covered cells; they must be what they should be, exactly."""
-    cell, left = _cells(arrangement, mesh)
+    cell, left = _cells(outline, mesh)
     keep = arrangement.winding[cell] > 0
     kept = mesh.triangles[keep]
     moved = np.full(3 * len(keep) + 1, -1)  # one more, so that −1 stays −1
@@ -317,7 +343,7 @@ def _verified(arrangement: Arrangement, mesh: PlanarMesh) -> CellTriangulation:
     twin = moved[mesh.twin.reshape(-1, 3)[keep].ravel()]
     points = mesh.points[:-ENCLOSING]
     chain = mesh.chain, mesh.chain_border, mesh.first_piece
-    verified = CellTriangulation(points, kept, twin, cell[keep], *chain, moved[left])
+    verified = CellTriangulation(points, kept, twin, cell[keep], *chain, moved[left], outline.strips)
     refuse_broken(arrangement, verified)
     return verified
 
@@ -326,13 +352,13 @@ def _repaired(arrangement: Arrangement, outline: NodedCurve, mesh: PlanarMesh) -
     """Verify a mesh; where rounding has broken it, in strips as thin as rounding errors, with fewer points there."""
     for _ in range(_MOST_REPAIRS):
         try:
-            return _verified(arrangement, mesh)
+            return _verified(arrangement, outline, mesh)
         except PrecisionError as error:
             unfit = _unfit(outline, mesh, np.array(error.where))
             if not len(unfit):
                 raise
             mesh = _without(outline, mesh, unfit)
-    return _verified(arrangement, mesh)
+    return _verified(arrangement, outline, mesh)
 
 
 def _unfit(outline: NodedCurve, mesh: PlanarMesh, places: Floats) -> Ints:
@@ -366,35 +392,37 @@ def _without(outline: NodedCurve, mesh: PlanarMesh, unfit: Ints) -> PlanarMesh:
 
 def refuse_broken(arrangement: Arrangement, mesh: CellTriangulation) -> None:
     """Raise PrecisionError where rounding has broken a mesh."""
-    loops = drawn_outline(arrangement).loops
+    loops = given_outline(arrangement).loops
     try:
         check_rounded(loops, mesh.points, mesh.triangles, mesh.chain, mesh.first_piece)
     except CertificateError as error:
         raise too_close(error.where) from error
 
 
-def _cells(arrangement: Arrangement, mesh: PlanarMesh) -> tuple[Ints, Ints]:
+def _cells(outline: NodedCurve, mesh: PlanarMesh) -> tuple[Ints, Ints]:
     """Return the cell of each triangle: cut along the curve, the triangles must fall apart into exactly the cells.
 
     Also the half-edge on the left of each piece of the chain. The faces of a plane graph are what is inside of their
     boundary cycles. So if every component of triangles has only the borders of one cell on its sides, the right way
     round, and every cell only one component, the drawing is the exact one.
     """
-    left = left_of_chain(mesh.triangles, *_ends(mesh.chain, mesh.chain_border, mesh.first_piece))
+    ends = _ends(mesh.chain, mesh.chain_border, mesh.first_piece)
+    left = left_of_chain(mesh.triangles, *ends, outline.strips is not None)
     if len(missing := np.flatnonzero(left < 0)):
         raise too_close(mesh.points[mesh.chain[missing]])
     right = mesh.twin[left]
     component = _components(mesh, left, right)
     touching = np.concatenate([component[left // 3], component[right // 3]])
-    cell = np.concatenate([arrangement.left_cell[mesh.chain_border], arrangement.right_cell[mesh.chain_border]])
+    cell = np.concatenate([outline.left_cell[mesh.chain_border], outline.right_cell[mesh.chain_border]])
     cell_of_component = np.full(component.max() + 1, -1)
     cell_of_component[touching] = cell
-    component_of_cell = np.full(arrangement.n_cells, -1)
+    component_of_cell = np.full(cell.max() + 1, -1)
     component_of_cell[cell] = touching
     wrong = (cell_of_component[touching] != cell) | (component_of_cell[cell] != touching)
     if wrong.any() or (cell_of_component < 0).any():
         raise too_close(mesh.points[np.concatenate([mesh.chain, mesh.chain])[wrong]])
-    return np.asarray(cell_of_component[component]), left
+    found = cell_of_component[component]
+    return found if outline.strips is None else outline.strips.cell[found], left
 
 
 def _components(mesh: PlanarMesh, left: Ints, right: Ints) -> Ints:

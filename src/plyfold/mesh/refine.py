@@ -25,13 +25,14 @@ import pythoncdt as cdt
 from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import PlyfoldError, PrecisionError
-from plyfold.halfedges import ends_of
+from plyfold.halfedges import ends_of, half_edges_from_to
 from plyfold.immersion.corners import feet
 from plyfold.outline.curve import Outline
-from plyfold.ragged import next_in_rows
+from plyfold.ragged import count_each, next_in_rows
 
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
+    from plyfold.mesh.strips import Strips
 
 __all__ = [
     "ENCLOSING",
@@ -39,9 +40,12 @@ __all__ = [
     "PlanarMesh",
     "Size",
     "borders_at_points",
+    "borders_passed",
     "chain_of",
     "constrained",
     "drawn_outline",
+    "given_outline",
+    "is_moved",
     "left_of_chain",
     "noded_curve",
     "planar_mesh",
@@ -49,6 +53,7 @@ __all__ = [
     "split_chain",
     "split_points",
     "too_close",
+    "unit_square",
     "usual_area",
 ]
 
@@ -239,12 +244,12 @@ def _bad_sides(covered: _Covered) -> Floats:
 def _neighbours_on_curve(library: Any, outline: NodedCurve) -> dict[int, set[int]]:
     """Return the points of curve and crossings at the ends of the pieces on which each vertex lies."""
     beside: dict[int, set[int]] = {}
-    pieces = np.stack([outline.chain, outline.chain_end], axis=1).tolist()
-    for start, end in pieces:
+    edges = outline.edges.tolist()
+    for start, end in edges:
         beside.setdefault(start, set()).add(end)
         beside.setdefault(end, set()).add(start)
-    for piece, vertex in split_points(library, outline).tolist():
-        beside[vertex] = set(pieces[piece])
+    for edge, vertex in split_points(library, outline).tolist():
+        beside[vertex] = set(edges[edge])
     return beside
 
 
@@ -264,7 +269,7 @@ def _across_sharp_corner(points: Floats, u: int, v: int, beside: dict[int, set[i
 
 
 def split_points(library: Any, outline: NodedCurve) -> Ints:
-    """Return rows (piece of the outline's chain, vertex): the points added on the curve, in no order along it."""
+    """Return rows (edge of the outline, vertex): the points added on the curve, in no order along it."""
     known = len(outline.points) + ENCLOSING
     originals = library.piece_to_originals
     rows = [
@@ -276,7 +281,7 @@ def split_points(library: Any, outline: NodedCurve) -> Ints:
     vertex, first, second = np.array(rows, dtype=np.int64).reshape(-1, 3).T - ENCLOSING
     vertex, at = np.unique(vertex, return_index=True)
     n = len(outline.points)
-    pairs = np.sort(np.stack([outline.chain, outline.chain_end], axis=1), axis=1)
+    pairs = np.sort(outline.edges, axis=1)
     key = pairs[:, 0] * n + pairs[:, 1]
     order = np.argsort(key)
     wanted = np.minimum(first[at], second[at]) * n + np.maximum(first[at], second[at])
@@ -314,7 +319,8 @@ class NodedCurve:
     """The points of an outline and its crossings, the loops as a chain through them, and the points in a unit square.
 
     Piece j of the chain begins at ``chain[j]``, and loop l consists of the pieces from ``first_piece[l]`` up to
-    ``first_piece[l + 1]``.
+    ``first_piece[l + 1]``. On both sides of each border are the cells ``left_cell`` and ``right_cell``. A drawing on
+    its given points has ``strips``, and pieces that run along the same edge; its cells are the faces of the noding.
     """
 
     points: Floats
@@ -324,11 +330,42 @@ class NodedCurve:
     unit_points: Floats
     centre: Floats
     scale: float
+    left_cell: Ints
+    right_cell: Ints
+    strips: Strips | None = None
 
     @cached_property
     def chain_end(self) -> Ints:
         """The point at which each piece ends."""
         return self.chain[next_in_rows(self.first_piece)]
+
+    @cached_property
+    def _edges(self) -> tuple[Ints, Ints]:
+        pieces = np.stack([self.chain, self.chain_end], axis=1)
+        if self.strips is None:
+            return pieces, np.arange(len(pieces))
+        edges, edge = np.unique(np.sort(pieces, axis=1), axis=0, return_inverse=True)
+        return edges, edge.ravel()
+
+    @property
+    def edges(self) -> Ints:
+        """Both ends of each edge: of the pieces, but edges along which several run only once."""
+        return self._edges[0]
+
+    @property
+    def edge_of_piece(self) -> Ints:
+        """The edge along which each piece runs."""
+        return self._edges[1]
+
+    def pieces_along(self, rows: Ints) -> Ints:
+        """Return rows (edge, anything) for every piece along the edge, as rows (piece, anything)."""
+        if self.strips is None:
+            return rows
+        order = np.argsort(self.edge_of_piece, kind="stable")
+        edge = self.edge_of_piece[order]
+        low, high = (np.searchsorted(edge, rows[:, 0], side=side) for side in ("left", "right"))
+        which = np.repeat(np.arange(len(rows)), high - low)
+        return np.stack([order[low[which] + count_each(high - low)], rows[which, 1]], axis=1)
 
     @property
     def covered(self) -> float:
@@ -349,10 +386,23 @@ def drawn_outline(arrangement: Arrangement) -> Outline:
     return arrangement.outline
 
 
+def given_outline(arrangement: Arrangement) -> Outline:
+    """Return the outline of a drawing with its points where they were given; refuse a Gauss code."""
+    drawn = drawn_outline(arrangement)
+    return drawn if arrangement.given is None else arrangement.given
+
+
+def is_moved(arrangement: Arrangement) -> bool:
+    """Tell whether points of a drawing were moved apart."""
+    outline, given = drawn_outline(arrangement), given_outline(arrangement)
+    return outline is not given and not np.array_equal(outline.points, given.points)
+
+
 def noded_curve(arrangement: Arrangement) -> NodedCurve:
     """Return the outline of a drawing, with its crossings."""
     points = np.concatenate([drawn_outline(arrangement).points, arrangement.crossings])
-    return NodedCurve(points, *chain_of(arrangement), *_unit_square(points))
+    cells = arrangement.left_cell, arrangement.right_cell
+    return NodedCurve(points, *chain_of(arrangement), *unit_square(points), *cells)
 
 
 def chain_of(arrangement: Arrangement) -> tuple[Ints, Ints, Ints]:
@@ -383,6 +433,12 @@ def borders_at_points(arrangement: Arrangement) -> tuple[Ints, Ints]:
     return _border_after(arrangement, arriving, loop), _border_after(arrangement, leaving, loop)
 
 
+def borders_passed(arrangement: Arrangement, passed: Ints, edge: Ints) -> Ints:
+    """Return the borders of places on edges before which so many visits come, on earlier loops too."""
+    loop = np.searchsorted(drawn_outline(arrangement).first_point, edge, side="right") - 1
+    return _border_after(arrangement, passed, loop)
+
+
 def _visits_before_points(arrangement: Arrangement) -> tuple[Ints, Ints]:
     """Return how many visits come before each point of an outline, on earlier loops too; and with marks on the point.
 
@@ -406,7 +462,7 @@ def _border_after(arrangement: Arrangement, passed: Ints, loop: Ints) -> Ints:
     return border
 
 
-def _unit_square(points: Floats) -> tuple[Floats, Floats, float]:
+def unit_square(points: Floats) -> tuple[Floats, Floats, float]:
     """Return the points moved and scaled to about unit size, with the centre and the scale that lead back.
 
     Both steps are exact: the scale is a power of two, and where the centre is not left at 0 it is so far away that
@@ -423,7 +479,7 @@ def _unit_square(points: Floats) -> tuple[Floats, Floats, float]:
 
 def constrained(outline: NodedCurve, watch: Watch = UNWATCHED) -> Any:
     """Return the constrained Delaunay triangulation; its first three vertices are those of an enclosing triangle."""
-    edges = np.stack([outline.chain, outline.chain_end], axis=1)
+    edges = outline.edges
     mesh = cdt.Triangulation(cdt.VertexInsertionOrder.AUTO, cdt.IntersectingConstraintEdges.NOT_ALLOWED, 0.0)
     try:
         watch.wait_for(lambda: _insert(mesh, outline.unit_points, edges.astype(np.uintc)), len(edges))
@@ -505,10 +561,10 @@ def _twins(corners: Ints, neighbours: Any) -> Ints:
 def split_chain(outline: NodedCurve, unit_points: Floats, added: Ints) -> tuple[Ints, Ints, Ints]:
     """Return the chain along the outline with the points that were added on it, the borders, and where loops begin.
 
-    The added ones are rows (piece of the outline's chain, vertex), in any order.
+    The added ones are rows (edge of the outline, vertex), in any order.
     """
     starts, ends = outline.chain, outline.chain_end
-    piece, vertex = added.T
+    piece, vertex = outline.pieces_along(added).T
     direction = unit_points[ends[piece]] - unit_points[starts[piece]]
     advance = ((unit_points[vertex] - unit_points[starts[piece]]) * direction).sum(axis=1)
     every_piece = np.concatenate([np.arange(len(starts)), piece])
@@ -518,8 +574,13 @@ def split_chain(outline: NodedCurve, unit_points: Floats, added: Ints) -> tuple[
     return np.concatenate([starts, vertex])[order], outline.chain_border[piece_of], first_piece
 
 
-def left_of_chain(triangles: Ints, chain: Ints, chain_end: Ints) -> Ints:
-    """Return the half-edge along each piece of a chain, -1 if there is none; a point starts at most two pieces."""
+def left_of_chain(triangles: Ints, chain: Ints, chain_end: Ints, several: bool = False) -> Ints:
+    """Return the half-edge along each piece of a chain, -1 if there is none.
+
+    A point starts at most two pieces, but where several run along the same edge.
+    """
+    if several:
+        return half_edges_from_to(triangles, chain, chain_end)
     start, end = ends_of(triangles)
     pieces = np.arange(len(chain))
     left = np.full(len(pieces), -1)

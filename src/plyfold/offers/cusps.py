@@ -24,6 +24,7 @@ from plyfold.layering.levels.equations import LevelClauses, LevelEquations, clau
 from plyfold.layering.orders.search import undecided
 from plyfold.mesh.refine import borders_at_points
 from plyfold.obstruction import Obstruction, Unknown
+from plyfold.options import refuse_unless_count
 from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.given import OutlineLike
 from plyfold.ragged import count_each, starts_of
@@ -93,7 +94,7 @@ def suggest_cusps(
     Raises
     ------
     InputError
-        If it is a Gauss code, which has no points.
+        If it is a Gauss code, which has no points, or ``most`` is no whole number from 1 on.
 
     Notes
     -----
@@ -108,6 +109,7 @@ def suggest_cusps(
     >>> print(suggest_cusps([(0, 0), (1, 0), (0, 1)]))
     No turns are too many: the curve turns once.
     """
+    refuse_unless_count("most", most)
     clock = Clock(time_limit)
     try:
         arranged = watched_arrangement(outline, "perturb", Watch(clock))

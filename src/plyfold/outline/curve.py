@@ -16,8 +16,9 @@ from plyfold.outline.from_mesh import boundary_of_mesh
 from plyfold.outline.points import Repair, as_planar_points
 from plyfold.outline.strokes import join_strokes
 from plyfold.outline.vertices import Vertices, cleaned, marked, naming_the_curve, whole_turns
+from plyfold.ragged import count_each
 
-__all__ = ["Curve", "Cusps", "Outline", "Repair"]
+__all__ = ["Curve", "Cusps", "Outline", "Repair", "backward_numbers", "outline_of_points"]
 
 Number = TypeVar("Number", np.float64, np.int64)
 
@@ -127,6 +128,18 @@ class Outline:
         following = np.arange(1, len(self) + 1)
         following[self.first_point[1:] - 1] = self.first_point[:-1]
         return following
+
+    @cached_property
+    def previous_point(self) -> Ints:
+        """The point before each along its loop, shape (points,)."""
+        previous = np.empty_like(self.next_point)
+        previous[self.next_point] = np.arange(len(self))
+        return previous
+
+    @cached_property
+    def loop_of_point(self) -> Ints:
+        """The loop that each point belongs to, shape (points,)."""
+        return np.repeat(np.arange(self.n_loops), np.diff(self.first_point))
 
     @staticmethod
     def from_mesh(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> Outline:
@@ -315,6 +328,44 @@ class Curve(Outline):
         [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]]
         """
         return Curve(np.roll(self.points[::-1], 1, axis=0), self.repairs, np.roll(self.cusps[0][::-1], 1))
+
+
+def outline_of_points(points: Floats, loop: Ints, cusps: Ints, rows: Ints, repairs: Iterable[Repair]) -> Outline:
+    """Return the outline of points that are listed loop after loop, no two neighbours equal; one loop is a curve.
+
+    Parameters
+    ----------
+    points : (n, 2) float
+    loop : (n,) int
+        The loop of each, in order; numbers without points are left out.
+    cusps, rows : (n,) int
+        The index of each as a cusp, and its row in the arrays that were given.
+    repairs : iterable of Repair
+        Everything that was changed.
+
+    Examples
+    --------
+    >>> points, zero = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]), np.zeros(3, dtype=int)
+    >>> outline_of_points(points, zero + 2, zero, np.array([0, 5, 7]), []).rows.tolist()
+    [0, 5, 7]
+    """
+    ends = np.flatnonzero(np.diff(loop)) + 1
+    loops, index = np.split(points, ends), np.split(cusps, ends)
+    outline = Outline(loops, index, repairs) if len(loops) > 1 else Curve(points, repairs, cusps)
+    _settle(outline, rows=_one_after_the_other([rows]))
+    return outline
+
+
+def backward_numbers(first_point: Ints) -> Ints:
+    """Return the number that each point of a reversed outline has in the outline itself.
+
+    Examples
+    --------
+    >>> backward_numbers(np.array([0, 3, 7])).tolist()
+    [0, 2, 1, 3, 6, 5, 4]
+    """
+    length = np.diff(first_point)
+    return np.asarray(np.repeat(first_point[:-1], length) + -count_each(length) % np.repeat(length, length))
 
 
 def _settle(outline: Outline, **attributes: object) -> None:

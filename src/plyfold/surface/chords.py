@@ -14,6 +14,7 @@ from plyfold.arrays import Floats, Ints
 from plyfold.errors import PrecisionError
 from plyfold.halfedges import ends_of, half_edges_from_to
 from plyfold.mesh.cells import CellTriangulation
+from plyfold.mesh.strips import Strips
 from plyfold.predicates import orient
 from plyfold.ragged import next_in_rows
 
@@ -86,11 +87,12 @@ def halved(mesh: CellTriangulation, half_edges: Ints) -> CellTriangulation:
     kept = np.delete(np.arange(len(mesh.triangles)), touched)
     triangles = np.concatenate([mesh.triangles[kept], added])
     cell = np.concatenate([mesh.cell[kept], np.repeat(mesh.cell[touched], list(map(len, fans)))])
-    cut = np.flatnonzero(middle[mesh.left] >= 0)
-    chain = np.insert(mesh.chain, cut + 1, middle[mesh.left[cut]])
+    beside = mesh.beside
+    cut = np.flatnonzero((beside >= 0) & (middle[beside] >= 0))
+    chain = np.insert(mesh.chain, cut + 1, middle[beside[cut]])
     chain_border = np.insert(mesh.chain_border, cut + 1, mesh.chain_border[cut])
     first_piece = mesh.first_piece + np.searchsorted(cut, mesh.first_piece)
-    return triangulation(points, triangles, cell, (chain, chain_border, first_piece))
+    return triangulation(points, triangles, cell, (chain, chain_border, first_piece), mesh.strips)
 
 
 def _fan(corners: list[int], middles: list[int]) -> list[tuple[int, int, int]]:
@@ -101,7 +103,9 @@ def _fan(corners: list[int], middles: list[int]) -> list[tuple[int, int, int]]:
     return [(centre, a, b) for a, b in pairwise(ring[at + 1 :] + ring[:at])]
 
 
-def triangulation(points: Floats, triangles: Ints, cell: Ints, chain: tuple[Ints, Ints, Ints]) -> CellTriangulation:
+def triangulation(
+    points: Floats, triangles: Ints, cell: Ints, chain: tuple[Ints, Ints, Ints], strips: Strips | None
+) -> CellTriangulation:
     """Return a triangulation with its half-edges; all triangles must be counter-clockwise."""
     a, b, c = points[triangles].swapaxes(0, 1)
     if len(flat := np.flatnonzero(orient(a, b, c) <= 0)):
@@ -112,4 +116,4 @@ def triangulation(points: Floats, triangles: Ints, cell: Ints, chain: tuple[Ints
         triangles, *(np.concatenate(ends) for ends in zip((end, start), along, strict=True))
     )
     twin, left = np.split(twin_and_left, [len(start)])
-    return CellTriangulation(points, triangles, twin, cell, *chain, left)
+    return CellTriangulation(points, triangles, twin, cell, *chain, left, strips)

@@ -98,7 +98,7 @@ def model_of_solid(solid: Solid, colours: Colouring = "layers", unwrapped: bool 
 
 def _unwrapped(surface: Surface, wanted: bool | None) -> tuple[Floats | None, dict[str, Floats]]:
     """Return texture coordinates, and the surface flat on the table, on its way to a disk, and as that disk."""
-    if wanted is False or (wanted is None and not surface.layering.immersion.is_disk):
+    if wanted is False or (wanted is None and not surface.is_disk):
         return None, {}
     try:
         unwound = surface.unwrap()
@@ -122,7 +122,7 @@ def _materials(surface: Surface) -> tuple[Material, ...]:
 def _layer_colours(surface: Surface) -> Floats:
     """Return the colour of each vertex: the mean over the triangles around it, each in the colour of its layer."""
     level = surface.layering.level
-    shades = np.array([rgb(layer_colour(number + 1, int(level.max()))) for number in range(level.max())])
+    shades = np.array([rgb(layer_colour(number + 1, surface.n_layers)) for number in range(surface.n_layers)])
     total = summed_at_vertices(shades[level[surface.sheet] - 1], surface.faces, len(surface.vertices))
     return np.asarray(total / np.bincount(surface.faces.ravel(), minlength=len(total))[:, None])
 

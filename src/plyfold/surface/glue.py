@@ -9,8 +9,9 @@ from functools import cached_property
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
+from plyfold.errors import GeneralPositionError
 from plyfold.graphs import components, ways_from
 from plyfold.halfedges import ends_of, following
 from plyfold.immersion.immersion import Immersion
@@ -18,6 +19,7 @@ from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering
 from plyfold.mesh.cells import CellTriangulation
 from plyfold.mesh.sheets import SheetMesh, glue_copies
+from plyfold.mesh.strips import turns_unseen
 from plyfold.ragged import count_each, pairs_in_each
 
 __all__ = [
@@ -46,7 +48,7 @@ class LiftedMesh:
     sheet : (m,) int
         The sheet of each triangle.
     boundary : (b,) int
-        The vertices along the outline, loop after loop, each from its first point: 0, 1, …, b − 1.
+        The vertices along the boundary, 0, 1, …, b − 1, see :class:`~plyfold.mesh.sheets.SheetMesh`.
     first_boundary : (loops + 1,) int
         Where in this row each loop begins, and last its length.
     cusps : (c,) int
@@ -124,13 +126,16 @@ def stack_sheets(
         watch.step()
         passing = passing_edges(layering, mesh, glued)
         stacked = stacked_but_passing(stacked, level, glued.planar_vertex, passing)
+    cusps = cusps_of(immersion.arrangement)
+    if len(cusps):
+        cusps = np.flatnonzero(turns_unseen(mesh.points[glued.planar_vertex], glued.faces))
     return LiftedMesh(
         planar_vertex=glued.planar_vertex,
         faces=glued.faces,
         sheet=glued.sheet,
         boundary=glued.boundary,
-        first_boundary=mesh.first_piece,
-        cusps=np.flatnonzero(np.isin(mesh.chain, cusps_of(immersion.arrangement))),
+        first_boundary=glued.first_boundary,
+        cusps=cusps,
         level=level,
         stacked=stacked,
         passing=passing,
@@ -162,13 +167,48 @@ def _stacks(immersion: Immersion, sheet_level: Ints, mesh: CellTriangulation, gl
     repeated = np.repeat(top[at], sheets[at])
     sheet = glued.first_sheet[repeated // 3] + count_each(sheets[at])
     stacked_vertex = vertex[glued.lifted(repeated, sheet)]
-    level = np.empty(len(planar_vertex), dtype=np.int64)
+    level = np.full(len(planar_vertex), -1)
     level[stacked_vertex] = sheet_level[sheet] - 1
+    # But not where the outline touches itself.
+    is_torn = np.zeros(len(mesh.points), dtype=bool)
+    is_torn[planar_vertex[level < 0]] = True
     order = np.lexsort((level, planar_vertex))
     if len(stacked_vertex) > len(level):
         level[order] = count_each(np.bincount(planar_vertex))
     above = np.flatnonzero(np.diff(planar_vertex[order]) == 0)
-    return level, np.stack([order[above], order[above + 1]], axis=1)
+    stacked = np.stack([order[above], order[above + 1]], axis=1)
+    if is_torn.any():
+        pairs = _pairs_where_torn(sheet_level, mesh, glued, is_torn)
+        level[is_torn[planar_vertex]] = 0
+        _raise_where_torn(level, pairs, mesh.points[planar_vertex])
+        stacked = np.concatenate([stacked[~is_torn[planar_vertex[stacked[:, 0]]]], pairs])
+    return level, stacked
+
+
+def _pairs_where_torn(sheet_level: Ints, mesh: CellTriangulation, glued: SheetMesh, is_torn: Bools) -> Ints:
+    """Return the pairs of vertices next to each other in some cell at points where no cell has all vertices."""
+    corner = np.flatnonzero(is_torn[mesh.triangles.ravel()])
+    copies = np.diff(np.append(glued.first_copy, len(glued.faces)))[corner // 3]
+    repeated = np.repeat(corner, copies)
+    sheet = glued.first_sheet[repeated // 3] + count_each(copies)
+    order = np.lexsort((sheet_level[sheet], repeated))
+    vertex = glued.faces.ravel()[glued.lifted(repeated, sheet)][order]
+    above = np.flatnonzero((np.diff(repeated[order]) == 0) & (np.diff(vertex) != 0))
+    return np.unique(np.stack([vertex[above], vertex[above + 1]], axis=1), axis=0)
+
+
+def _raise_where_torn(level: Ints, pairs: Ints, places: Floats) -> None:
+    """Raise levels as little as can be, so that the upper vertex of each pair has a higher one than the lower."""
+    for _ in range(len(pairs) + 1):
+        lower, upper = pairs[level[pairs[:, 0]] >= level[pairs[:, 1]]].T
+        if not len(lower):
+            return
+        np.maximum.at(level, upper, level[lower] + 1)
+    raise GeneralPositionError(
+        "where the outline touches itself, sheets lie over each other in a circle, which cannot be in a single point",
+        where=places[lower[:1]],
+        hint="move the strands there apart, or lift another layering",
+    )
 
 
 # ---- where sheets pass through each other ----------------------------------------------------------------------------

@@ -13,11 +13,11 @@ from typing import cast
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement, watched_arrangement
+from plyfold.arrangement.arrangement import Arrangement, require_one_loop, watched_arrangement
 from plyfold.arrays import Floats, Ints, freeze
 from plyfold.certify import check_surface
 from plyfold.clock import UNWATCHED, Clock, Progress, Watch
-from plyfold.disk.unwrap import UnwoundDisk, unwound_mesh
+from plyfold.disk.unwrap import UnwoundDisk, require_one_piece, unwound_mesh
 from plyfold.errors import (
     InputError,
     NotEmbeddableError,
@@ -42,7 +42,7 @@ from plyfold.mesh.cells import (
     refuse_sizes,
     triangulate_cells,
 )
-from plyfold.mesh.refine import drawn_outline
+from plyfold.mesh.refine import drawn_outline, given_outline, is_moved
 from plyfold.obstruction import IMMERSION_REASONS, Obstruction, Unknown
 from plyfold.options import refuse_unless_flag, refuse_unless_number
 from plyfold.outline.curve import Curve, Outline
@@ -51,6 +51,7 @@ from plyfold.surface.chords import split_chords
 from plyfold.surface.files import Colouring, model_of_surface
 from plyfold.surface.glue import cusps_of, intersection_curves, stack_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, flat_weight, refuse_stiffness, smooth_heights
+from plyfold.surface.left import kinds_of, loops_of, may_touch
 from plyfold.surface.stairs import Steps, heights_of_stairs, with_cusps_apart, with_steps
 from plyfold.surface.thicken import Solid, thicken
 from plyfold.wording import counted
@@ -115,20 +116,34 @@ class Surface:
         freeze(self)
 
     def __repr__(self) -> str:
-        triangles, sheets = counted(len(self.faces), "triangle"), counted(self.layering.immersion.n_sheets, "sheet")
+        triangles, sheets = counted(len(self.faces), "triangle"), counted(self.n_sheets, "sheet")
         return f"<Surface: {triangles} in {sheets}>"
 
     @property
     def curve(self) -> Curve:
         """The curve that the surface has as its outline, if that is one curve; InputError if it has several loops."""
-        drawn = self.layering.immersion.arrangement.curve
-        assert drawn is not None
-        return drawn
+        require_one_loop(self.layering.immersion.arrangement)
+        return cast(Curve, self.outline)
 
     @property
     def outline(self) -> Outline:
-        """The outline of the surface, with all its loops and cusps."""
-        return drawn_outline(self.layering.immersion.arrangement)
+        """The outline of the surface, with all its loops and cusps, on the points as they were given."""
+        return given_outline(self.layering.immersion.arrangement)
+
+    @property
+    def is_disk(self) -> bool:
+        """Whether the surface is a disk, and in one piece on the given points."""
+        return self.layering.immersion.is_disk and len(self.first_boundary) == 2
+
+    @property
+    def n_sheets(self) -> int:
+        """Number of sheets that triangles are in: all of the immersion, but over cells between points that touch."""
+        return len(np.unique(self.sheet))
+
+    @property
+    def n_layers(self) -> int:
+        """The highest level of a triangle's sheet: over no place lie more sheets."""
+        return int(self.layering.level[self.sheet].max())
 
     def check(self) -> None:
         """Prove the surface right with the independent checkers of :mod:`plyfold.certify`.
@@ -147,10 +162,11 @@ class Surface:
         -----
         About a second for 100,000 triangles.
         """
-        gap, outline = 0.0 if len(self.passing) else self.gap, self.outline
-        mesh = self.vertices, self.faces, self.boundary
-        kinds = [(len(piece.loops), piece.euler_characteristic) for piece in self.layering.immersion.pieces]
-        check_surface(outline.loops, *mesh, gap, passing=self.passing, cusps=outline.cusps, pieces=kinds)
+        gap = 0.0 if len(self.passing) else self.gap
+        loops, cusps = loops_of(self)
+        mesh, kinds = (self.vertices, self.faces, self.boundary), kinds_of(self)
+        touching = may_touch(self)
+        check_surface(loops, *mesh, gap, passing=self.passing, cusps=cusps, pieces=kinds, touching=touching)
 
     def unwrap(self) -> UnwoundDisk:
         """Spread the cloth out as a round disk: one-to-one, the boundary by arc length, no triangle flipped.
@@ -166,7 +182,7 @@ class Surface:
         Raises
         ------
         InputError
-            If the surface is no disk.
+            If the surface is no disk, or in pieces on the given points, as the outline touches itself.
         PrecisionError
             If double precision cannot hold the disk; it names the place.
         """
@@ -175,6 +191,7 @@ class Surface:
     @cached_property
     def _unwound(self) -> UnwoundDisk:
         immersion = require_disk(self.layering.immersion)
+        require_one_piece(self.vertices[:, :2], self.first_boundary)
         return unwound_mesh(immersion, self.vertices, self.faces, self.sheet, self.boundary)
 
     def thicken(self, thickness: float) -> Solid:
@@ -356,7 +373,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     drawn = layering.immersion.arrangement
     distance = _distance(drawn, gap)
     max_area = area_of_edge(size, max_area)
-    refuse_sizes(drawn_outline(drawn).points, triangles, max_area)
+    refuse_sizes(given_outline(drawn).points, triangles, max_area)
     refuse_stiffness(stiffness)
     weight = flat_weight(flat)
     cells = triangulate_cells(drawn, max_area, triangles, watch)
@@ -364,6 +381,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     steps = _steps(cells, drawn) if isinstance(layering, Layering) else Steps.none(cells)
     cells = steps.cells
     if isinstance(layering, IntersectingLayering):
+        _refuse_touching(drawn)
         cells = split_chords(cells, layering.intersections[:, 0])
         refuse_broken(drawn, cells)
     mesh = stack_sheets(layering, cells, watch)
@@ -385,9 +403,20 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     )
 
 
+def _refuse_touching(drawn: Arrangement) -> None:
+    """Refuse sheets that pass through each other along borders that may not be there on the given points."""
+    if is_moved(drawn):
+        given = given_outline(drawn).points
+        raise InputError(
+            "a surface that passes through itself can be lifted only if its outline does not touch itself",
+            where=given[(given != drawn_outline(drawn).points).any(axis=1)],
+            hint="move the strands apart there",
+        )
+
+
 def _steps(cells: CellTriangulation, drawn: Arrangement) -> Steps:
     """Return the cells with steps at cusps, or as they are where double precision has no room for steps."""
-    cusps = cusps_of(drawn)
+    cusps = cells.places_of(cusps_of(drawn))
     with suppress(PrecisionError):
         steps = with_steps(cells, cusps)
         if steps.cells is not cells:
@@ -413,7 +442,7 @@ def _distance(drawn: Arrangement, gap: float | None) -> float:
         raise PlyfoldError(
             "a surface needs a drawing, and this is a Gauss code alone", hint="build it from points to lift it"
         )
-    size = float(np.ptp(drawn.outline.points, axis=0).max())
+    size = float(np.ptp(given_outline(drawn).points, axis=0).max())
     if gap is None:
         return _DEFAULT_GAP * size
     refuse_unless_number("gap", gap)

@@ -136,7 +136,8 @@ def _with_rings(mesh: CellTriangulation, cusps: Ints) -> Steps:
     spoke_of[twin[twin >= 0]] = np.flatnonzero(twin >= 0)
     points = np.concatenate([mesh.points, added])
     triangles, cell = _divided(mesh, cusps, spoke_of, first, count)
-    return Steps(triangulation(points, triangles, cell, _chain_with_rings(mesh, cusps, spoke_of, first, count)), outer)
+    chain = _chain_with_rings(mesh, cusps, spoke_of, first, count)
+    return Steps(triangulation(points, triangles, cell, chain, mesh.strips), outer)
 
 
 def _end_of(mesh: CellTriangulation, half_edges: Ints) -> Ints:
@@ -155,7 +156,7 @@ def _ring_points(mesh: CellTriangulation, spokes: Ints, cusp: Ints, end: Ints) -
 def _narrower_angle(mesh: CellTriangulation, spokes: Ints) -> Floats:
     """Return the smaller of the angles on both sides of half-edges inside cells, at their starts; 0 of others."""
     angle, twin = np.zeros(len(spokes)), mesh.twin[spokes]
-    inside = np.flatnonzero((twin >= 0) & ~np.isin(spokes, mesh.left) & ~np.isin(twin, mesh.left))
+    inside = np.flatnonzero((twin >= 0) & ~np.isin(spokes, mesh.beside) & ~np.isin(twin, mesh.beside))
     left, right = (_angle_at_start(mesh, side[inside]) for side in (spokes, following(twin)))
     # What is turned to the left leaves an angle of less than half a turn on its right.
     angle[inside] = np.minimum(np.minimum(left, right), np.pi - right)
@@ -192,11 +193,12 @@ def _chain_with_rings(
     mesh: CellTriangulation, cusps: Ints, spoke_of: Ints, first: int, count: int
 ) -> tuple[Ints, Ints, Ints]:
     """Return the chain with the points on the pieces that are spokes."""
-    piece = np.flatnonzero(spoke_of[mesh.left] >= 0)
+    beside = mesh.beside
+    piece = np.flatnonzero((beside >= 0) & (spoke_of[beside] >= 0))
     ring = np.arange(_RINGS)
     # From a cusp the innermost comes first.
     order = np.where(np.isin(mesh.chain[piece], cusps)[:, None], ring[::-1], ring)
-    added = (first + count * order + spoke_of[mesh.left[piece]][:, None]).ravel()
+    added = (first + count * order + spoke_of[beside[piece]][:, None]).ravel()
     at = np.repeat(piece + 1, _RINGS)
     chain_border = np.insert(mesh.chain_border, at, np.repeat(mesh.chain_border[piece], _RINGS))
     return (

@@ -16,6 +16,7 @@ from plyfold.io.mesh.saving import save_model
 from plyfold.options import refuse_unless_number
 from plyfold.ragged import next_in_rows
 from plyfold.surface.files import Colouring, model_of_solid
+from plyfold.surface.left import kinds_of, may_touch
 
 if TYPE_CHECKING:
     from plyfold.surface.lift import Surface
@@ -79,8 +80,9 @@ class Solid:
         CertificateError
             Naming the condition and the place.
         """
-        pieces = [piece.euler_characteristic for piece in self.surface.layering.immersion.pieces]
-        check_solid(self.vertices, self.faces, self.thickness, pieces=pieces, tips=self.surface.cusps)
+        pieces = [euler for _, euler in kinds_of(self.surface)]
+        tips, touching = self.surface.cusps, may_touch(self.surface)
+        check_solid(self.vertices, self.faces, self.thickness, pieces=pieces, tips=tips, touching=touching)
 
     def export(
         self,
@@ -142,7 +144,7 @@ def thicken(surface: Surface, thickness: float) -> Solid:
     below = n + np.arange(n) - np.searchsorted(surface.cusps, np.arange(n))
     below[surface.cusps] = surface.cusps
     vertices = np.concatenate([surface.vertices + up, np.delete(surface.vertices - up, surface.cusps, axis=0)])
-    _require_strict_order(vertices, below)
+    _require_strict_order(vertices, surface.faces, below)
     upper, following = surface.boundary, surface.boundary[next_in_rows(surface.first_boundary)]
     lower, lower_following = below[upper], below[following]
     walls = np.stack([lower, lower_following, following, lower, following, upper], axis=1).reshape(2 * b, 3)
@@ -158,25 +160,28 @@ def _refuse_thickness(surface: Surface, thickness: float) -> None:
         raise InputError(f"the thickness must be a positive number, not {thickness!r}")
     if len(surface.passing):
         raise InputError("a surface that passes through itself bounds no solid", where=surface.intersections[0][:1])
-    if surface.layering.level.max() > 1 and thickness >= surface.gap:
+    if surface.n_layers > 1 and thickness >= surface.gap:
         raise InputError(
             f"sheets that lie over each other are {surface.gap:g} apart, and cannot be {thickness:g} thick",
             hint="make the thickness smaller, or lift the curve with a larger gap",
         )
 
 
-def _require_strict_order(vertices: Floats, below: Ints) -> None:
+def _require_strict_order(vertices: Floats, faces: Ints, below: Ints) -> None:
     """Check that rounding has left both sides of each sheet apart, but for the tips, and neighbouring sheets."""
     n = len(below)
-    x, y, z = vertices[:n].T
-    order = np.lexsort((z, y, x))
-    upward = np.stack([below[order], order], axis=1).ravel()
-    over = (vertices[upward[1:], :2] == vertices[upward[:-1], :2]).all(axis=1) & (upward[1:] != upward[:-1])
-    upward = vertices[upward]
-    if len(bad := np.flatnonzero(over & ~(upward[1:, 2] > upward[:-1, 2]))):
+    x, y, z = vertices[faces].transpose(2, 0, 1)
+    # Copies of one triangle have their corners in the same order.
+    order = np.lexsort((*z.T, *x.T, *y.T))
+    lower, upper = faces[order[:-1]], faces[order[1:]]
+    over = (vertices[lower, :2] == vertices[upper, :2]).all(axis=(1, 2))
+    lower, upper = lower[over].ravel(), upper[over].ravel()
+    low, high = np.concatenate([below, lower]), np.concatenate([np.arange(n), below[upper]])
+    apart = (low != high) & (np.append(np.ones(n, dtype=bool), lower != upper))
+    if len(bad := np.flatnonzero(apart & ~(vertices[high, 2] > vertices[low, 2]))):
         raise PrecisionError(
             "the solid is thinner than rounding errors, or what is between its sheets is",
-            where=upward[bad[:1], :2],
+            where=vertices[low[bad[:1]], :2],
             hint="choose a thickness between nothing and the gap",
         )
 

@@ -1,0 +1,160 @@
+"""What edges do that touch, when points move by infinitely little: which cross, and in what order along an edge.
+
+Each point p moves to p + s · d, and s tends to 0. Every question is the sign of a polynomial in s, and the answer is
+that of its lowest term. With whole coordinates and moves below 2^b the polynomials have whole coefficients of at most
+2^(4b + 7) together, so for s = 2^-(4b + 9) the lowest one outweighs all others. So the points are moved by just that
+much, in whole numbers, however large, and asked as any others. Only what does not follow from the points as given, with
+a bound on the rounding, is asked so.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from plyfold.arrangement.crossings import Contacts, Visits
+from plyfold.arrays import Bools, Floats, Ints, Signs, Wholes
+from plyfold.predicates import orient, parameter_along_edge, whole_numbers
+
+__all__ = ["MovingPoints", "begin_to_move", "order_along_edges", "same_outside", "signed_crossings", "signed_pairs"]
+
+
+@dataclass(frozen=True, eq=False)
+class MovingPoints:
+    """Points of closed polylines as they are given, and when they have begun to move.
+
+    Parameters
+    ----------
+    points : (n, 2) float
+    moved : (n, 2) object
+        The points moved by infinitely little, in whole numbers of some unit.
+    next_point : (n,) int
+        Edge i runs from point i to this one.
+    """
+
+    points: Floats
+    moved: Wholes
+    next_point: Ints
+
+
+def begin_to_move(points: Floats, goal: Floats, next_point: Ints) -> MovingPoints:
+    """Return points that have begun to move straight to other ones.
+
+    Examples
+    --------
+    >>> points = np.array([(0.0, 0.0), (4.0, 0.0), (2.0, 0.0)])
+    >>> goal = np.array([(0.0, 0.0), (4.0, 0.0), (2.0, 1.0)])
+    >>> begin_to_move(points, goal, np.array([1, 2, 0])).moved[2, 1] > 0
+    True
+    """
+    places, goals = whole_numbers(np.stack([points, goal]))[0]
+    places, direction = places - places[0], goals - places
+    largest = max(int(np.abs(numbers).max()) for numbers in (places, direction))
+    # Differences of two numbers have a bit more.
+    bits = largest.bit_length() + 1
+    return MovingPoints(points, (places << (4 * bits + 9)) + direction, next_point)
+
+
+def signed_pairs(pairs: Ints, from_right: Bools, n: int) -> Ints:
+    """Return numbers, in order, for crossing pairs of n edges, shape (k, 2), and the directions in which they cross."""
+    return np.sort((pairs[:, 0] * n + pairs[:, 1]) * 2 + from_right)
+
+
+def signed_crossings(motion: MovingPoints, contacts: Contacts) -> tuple[Ints, Ints]:
+    """Return the pairs of edges that cross when points have begun to move, given what they do before.
+
+    Returns
+    -------
+    crossings : (k,) int
+        Numbers as from :func:`signed_pairs`.
+    undecided : (u, 2) int
+        Pairs of edges of which an end stays on the other, however far they move.
+    """
+    pairs = _touching_pairs(contacts.touches, motion.next_point)
+    first, second = pairs.T
+    side, other_side = _sides(motion, first, second), _sides(motion, second, first)
+    undecided = (side == 0).any(axis=1) | (other_side == 0).any(axis=1)
+    cross = (side[:, 0] * side[:, 1] < 0) & (other_side[:, 0] * other_side[:, 1] < 0)
+    all_pairs = np.concatenate([contacts.edges, pairs[cross]])
+    from_right = np.concatenate([contacts.from_right, side[cross, 1] > 0])
+    return signed_pairs(all_pairs, from_right, len(motion.points)), pairs[undecided]
+
+
+def _touching_pairs(touches: Ints, next_point: Ints) -> Ints:
+    """Return the pairs of edges, no neighbours, of which one ends on the other, the lower number first."""
+    vertex, edge = touches.T
+    previous = np.empty_like(next_point)
+    previous[next_point] = np.arange(len(next_point))
+    rows = np.concatenate([np.stack([previous[vertex], edge], axis=1), touches])
+    rows = rows[(rows[:, 0] != rows[:, 1]) & (next_point[rows] != rows[:, ::-1]).all(axis=1)]
+    return np.unique(np.sort(rows, axis=1), axis=0)
+
+
+def _sides(motion: MovingPoints, edge: Ints, other: Ints) -> Signs:
+    """Return on which side of each edge the other one starts and ends, shape (m, 2)."""
+    start, end = edge[:, None], motion.next_point[edge][:, None]
+    there = np.stack([other, motion.next_point[other]], axis=1)
+    side = orient(*(motion.points[at] for at in (start, end, there)))
+    row, column = np.nonzero(side == 0)
+    a, b, c = (motion.moved[at] for at in (start[row, 0], end[row, 0], there[row, column]))
+    side[row, column] = _signs(_cross(b - a, c - a))
+    return side
+
+
+def order_along_edges(motion: MovingPoints, visits: Visits) -> tuple[Bools, Ints]:
+    """Tell whether consecutive visits on one edge are in order when points have begun to move.
+
+    Returns
+    -------
+    in_order : (m,) bool
+        For each two consecutive visits on one edge.
+    together : (t, 3) int
+        Triples of edges that go on meeting in one point, however far they move.
+    """
+    first = np.flatnonzero(visits.edge[1:] == visits.edge[:-1])
+    edge, other = visits.edge[first], visits.edge[visits.partner]
+    start, end = motion.points[visits.edge], motion.points[motion.next_point[visits.edge]]
+    parameter, error = parameter_along_edge(start, end, start[visits.partner], end[visits.partner])
+    gap, errors = parameter[first + 1] - parameter[first], error[first + 1] + error[first]
+    in_order = np.asarray(gap > errors)
+    unsure = np.flatnonzero(~(np.abs(gap) > errors))
+    triples = np.stack([edge, other[first], other[first + 1]], axis=1)[unsure]
+    order = _order(motion, triples)
+    in_order[unsure] = order < 0
+    return in_order, triples[order == 0]
+
+
+def same_outside(motion: MovingPoints, points: Floats) -> bool:
+    """Tell whether a loop has its leftmost vertex, and turns there, as it does when its points have begun to move.
+
+    That says on which side of it the outside is, given its crossings.
+    """
+    lowest = np.flatnonzero(motion.points[:, 0] == motion.points[:, 0].min()).tolist()
+    corner = min(lowest, key=lambda point: motion.moved[point].tolist())
+    before = int(np.flatnonzero(motion.next_point == corner)[0])
+    around = np.array([before, corner, motion.next_point[corner]])
+    a, b, c = motion.moved[around]
+    turn = _signs(_cross(b - a, c - b))
+    return corner == int(np.lexsort(points.T[::-1])[0]) and bool(turn == orient(*points[around]))
+
+
+def _order(motion: MovingPoints, triples: Ints) -> Signs:
+    """Return −1 where an edge, the first of each row, crosses the second before the third, 1 where after, 0 where both.
+
+    Edge p → q crosses r → s at the share (r − p) × (s − r) / (q − p) × (s − r).
+    """
+    start, end = motion.moved[triples], motion.moved[motion.next_point[triples]]
+    along, across = end[:, 0] - start[:, 0], end[:, 1:] - start[:, 1:]
+    above = _cross(start[:, 1:] - start[:, :1], across)
+    below = _cross(along[:, None], across)
+    growing = _signs(below[:, 0]) * _signs(below[:, 1])
+    return np.asarray(growing * _signs(above[:, 0] * below[:, 1] - above[:, 1] * below[:, 0]))
+
+
+def _cross(one: Wholes, other: Wholes) -> Wholes:
+    return np.asarray(one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0])
+
+
+def _signs(numbers: Wholes) -> Signs:
+    return np.asarray((numbers > 0).astype(np.int8) - (numbers < 0).astype(np.int8))

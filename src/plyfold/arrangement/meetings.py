@@ -1,0 +1,78 @@
+"""Where the edges of an outline meet: its crossings and touches, in the outline's own numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from plyfold.arrangement.crossings import Contacts, Visits, find_contacts, order_visits
+from plyfold.arrays import Bools, Floats, Ints
+from plyfold.clock import UNWATCHED, Watch
+
+__all__ = ["JoinedLoops", "joined_loops", "meetings", "visits_along"]
+
+
+@dataclass(frozen=True, eq=False)
+class JoinedLoops:
+    """All loops as one polyline: each ends with a copy of its first point, and a *jump* leads from there to the next.
+
+    Of one loop the polyline is the loop itself.
+
+    Parameters
+    ----------
+    points : (n, 2) float
+    loop : (n,) int
+        The loop of each point and of the edge that starts there. It is also how far their numbers lie beyond those in
+        the outline.
+    vertex : (n,) int
+        The first point of the loop for the copies of it, and each other point itself.
+    is_jump : (n,) bool
+        True where the edge that starts at a point is a jump.
+    """
+
+    points: Floats
+    loop: Ints
+    vertex: Ints
+    is_jump: Bools
+
+
+def joined_loops(points: Floats, first_point: Ints) -> JoinedLoops:
+    """Return loops as one polyline; loop l has the points ``first_point[l]:first_point[l + 1]``."""
+    if len(first_point) == 2:
+        n = len(points)
+        return JoinedLoops(points, np.zeros(n, dtype=np.int64), np.arange(n), np.zeros(n, dtype=bool))
+    lengths = np.diff(first_point) + 1
+    last = np.cumsum(lengths) - 1
+    vertex = np.arange(int(lengths.sum()))
+    vertex[last] -= lengths - 1
+    loop = np.repeat(np.arange(len(lengths)), lengths)
+    return JoinedLoops(points[vertex - loop], loop, vertex, is_jump=np.isin(np.arange(len(vertex)), last))
+
+
+def meetings(joined: JoinedLoops, watch: Watch = UNWATCHED) -> Contacts:
+    """Return the pairs of edges of an outline that cross, and the vertices that lie on foreign edges."""
+    found = find_contacts(joined.points, watch, np.flatnonzero(joined.is_jump))
+    if not joined.is_jump.any():
+        return found
+    edges = found.edges - joined.loop[found.edges]
+    return replace(found, edges=edges, touches=_own_touches_left_out(joined, found.touches))
+
+
+def _own_touches_left_out(joined: JoinedLoops, touches: Ints) -> Ints:
+    """Leave out the touches of jumps, and those of edges that share the point with which a loop begins and ends."""
+    vertex, edge = joined.vertex[touches[:, 0]], touches[:, 1]
+    following = joined.vertex[(edge + 1) % len(joined.vertex)]
+    kept = ~joined.is_jump[edge] & (vertex != edge) & (vertex != following)
+    rows = np.stack([vertex[kept], edge[kept]], axis=1)
+    return np.unique(rows - joined.loop[rows], axis=0)
+
+
+def visits_along(joined: JoinedLoops, contacts: Contacts) -> Visits:
+    """Return the visits of an outline to its crossings, in order along one loop after the other."""
+    if not joined.is_jump.any():
+        return order_visits(joined.points, contacts)
+    number = np.flatnonzero(~joined.is_jump)
+    visits = order_visits(joined.points, replace(contacts, edges=number[contacts.edges]))
+    loop = joined.loop
+    return replace(visits, edge=visits.edge - loop[visits.edge], triple=visits.triple - loop[visits.triple])

@@ -1,0 +1,311 @@
+"""Triangles of an outline that was moved apart, on the points as they were given: without those that have no area left.
+
+Where strands touch, triangles of the moved outline become flat when their corners go back: all three on a line, or two
+at one place. The surface has no width there. Each of these triangles goes in one of three ways:
+
+* Two corners at one place. The side between them has become a point in which the surface touches itself, a *pinch*:
+  both triangles on that side go, their other sides are put together, and the surface is cut at the point.
+* One corner inside the longest side, and another triangle beyond that side: the side is flipped.
+* One corner inside the longest side, and nothing beyond it. The corner touches the boundary from within: a pinch, too.
+  The triangle goes, and the boundary runs along its two other sides. One that was on the boundary itself is now run
+  there and back with nothing between, a *neck*, and drops out.
+
+What is left does not depend on the order: it is the surface as the outline was given, cut where it has no width. This
+ends. A triangle waits for the one beyond its longest side if that is flat as well, and has two corners at one place or
+a longest side that reaches further: these get longer and longer. So a flip replaces one flat triangle by none, or two
+of the same longest side by two of shorter ones. Everything else makes triangles fewer.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from plyfold.arrays import Bools, Floats, Ints
+from plyfold.errors import InputError, PlyfoldError
+from plyfold.flat.sweep import sweep_triangles
+from plyfold.graphs import components
+from plyfold.halfedges import before, ends_of, following, twins_of
+from plyfold.immersion.immersion import Immersion
+from plyfold.mesh.refine import given_outline, is_moved
+from plyfold.outline.curve import Outline
+from plyfold.predicates import Coordinates, as_coordinates, orient, turn
+
+__all__ = ["Settled", "cuts_of", "settle", "settled_by_points", "settled_triangles"]
+
+
+class Settled(NamedTuple):
+    """Triangles of a surface that was cut where it touches itself.
+
+    Parameters
+    ----------
+    faces : (m, 3) int
+        Their corners, counter-clockwise, each with some area; glued along common sides. Each corner of each piece of
+        the surface has a number of its own, in their order along the outline.
+    point : (corners,) int
+        The point of the outline from which the boundary leaves each corner, or one that touches it there.
+    inside : (corners,) bool
+        The corners at which the boundary leaves from inside an edge.
+    cuts : (c,) int
+        The first point of the outline at each place where the surface was cut, in order.
+    """
+
+    faces: Ints
+    point: Ints
+    inside: Bools
+    cuts: Ints
+
+
+class _Surface(NamedTuple):
+    """Triangles by their half-edges, which start at points of the outline.
+
+    ``beyond`` is the half-edge on the other side; it is −1 on the boundary, where ``edge`` is the edge of the outline
+    on which the half-edge lies. ``flat`` are triangles without area, ``gone`` those that are no more, and ``touching``
+    points at which the surface was cut.
+    """
+
+    places: Coordinates
+    start: list[int]
+    beyond: list[int]
+    edge: list[int]
+    flat: set[int]
+    gone: set[int]
+    touching: set[int]
+
+
+def settled_triangles(immersion: Immersion) -> Settled:
+    """Return triangles of an immersed surface on the points of its outline as given, cut where it touches itself.
+
+    Raises
+    ------
+    InputError
+        If the outline touches itself, and two sides of triangles join the same two cusps.
+
+    Notes
+    -----
+    Signs and places are exact. As :func:`sweep_triangles`; where strands touch also O(n log n), some steps for each
+    triangle without area, and at worst some for each pair of these on a line.
+    """
+    faces, given = sweep_triangles(immersion), given_outline(immersion.arrangement)
+    if not is_moved(immersion.arrangement):
+        return _as_it_is(faces, len(given))
+    _refuse_double_sides(given, _as_it_is(faces, len(given)))
+    return settle(given, faces)
+
+
+def _as_it_is(faces: Ints, n: int) -> Settled:
+    """Return triangles on n points of an outline that stay as they are."""
+    return Settled(faces, np.arange(n), np.zeros(n, dtype=bool), np.empty(0, dtype=np.int64))
+
+
+def settled_by_points(immersion: Immersion) -> Settled:
+    """Return the same; refuse any triangles of which the corners do not tell how they are glued."""
+    settled = settled_triangles(immersion)
+    _refuse_double_sides(given_outline(immersion.arrangement), settled)
+    return settled
+
+
+def cuts_of(immersion: Immersion) -> Floats:
+    """Return the places at which an immersed surface has no width on the points as given, shape (c, 2).
+
+    They are places of points of the outline, in order along it: where two parts of the boundary have come together, in
+    a pinch or along a neck.
+
+    Examples
+    --------
+    >>> from plyfold import find_immersion
+    >>> cuts_of(find_immersion([(0, 0), (1, 1), (2, 0), (2, 2), (1, 1), (0, 2)])).tolist()
+    [[1.0, 1.0]]
+    """
+    return given_outline(immersion.arrangement).points[settled_triangles(immersion).cuts]
+
+
+def _refuse_double_sides(given: Outline, settled: Settled) -> None:
+    """Refuse triangles of which two sides join the same corners.
+
+    They are on the same line then, and leave their ends in the same direction: at both there is a cusp.
+    """
+    if np.count_nonzero(np.concatenate(given.cusps)) > 1:
+        start, end = ends_of(settled.faces)
+        key, times = np.unique(start * len(settled.point) + end, return_counts=True)
+        if len(double := key[times > 1]):
+            raise InputError(
+                "two sides of triangles join the same two cusps",
+                where=given.points[settled.point[list(divmod(int(double[0]), len(settled.point)))]],
+                hint="put a vertex on an edge near one of them",
+            )
+
+
+def settle(given: Outline, faces: Ints) -> Settled:
+    """Return the surface that triangles make when the points of their outline go back to where they were given.
+
+    Parameters
+    ----------
+    given : Outline
+    faces : (n − 2χ, 3) int
+        Triangles on its points, counter-clockwise or flat. No two inner sides join the same points.
+
+    Notes
+    -----
+    Signs and places are exact. O(n log n), and some steps for each pair of flat triangles on a line at worst.
+
+    Examples
+    --------
+    Two triangles that meet in a point:
+
+    >>> from plyfold.outline.curve import Curve
+    >>> bow = Curve([(0, 0), (1, 1), (2, 0), (2, 2), (1, 1), (0, 2)])
+    >>> settle(bow, np.array([(0, 1, 5), (1, 4, 5), (1, 2, 4), (2, 3, 4)])).faces.tolist()
+    [[0, 4, 5], [2, 3, 1]]
+    """
+    sign = orient(*given.points[faces].swapaxes(0, 1))
+    if (sign > 0).all():
+        return _as_it_is(faces, len(given))
+    return _numbered(given, _without_flat_triangles(given.points, faces, np.flatnonzero(sign == 0)))
+
+
+def _without_flat_triangles(points: Floats, faces: Ints, flat: Ints) -> _Surface:
+    places = Coordinates(*(numbers.tolist() for numbers in as_coordinates(points)))
+    start = faces.ravel().tolist()
+    surface = _Surface(places, start, twins_of(faces).tolist(), start.copy(), set(flat.tolist()), set(), set())
+    waiting = flat.tolist()
+    while waiting:
+        triangle = waiting.pop()
+        if triangle in surface.flat:
+            waiting += _settle_one(surface, triangle)
+    return surface
+
+
+def _settle_one(surface: _Surface, triangle: int) -> tuple[int, ...]:
+    """Do away with a flat triangle; return those that have to be seen to, the last one first."""
+    if (short := _side_without_length(surface, triangle)) is not None:
+        _collapse(surface, short)
+        return ()
+    longest = _longest_side(surface, triangle)
+    other = surface.beyond[longest]
+    if other < 0:
+        _open(surface, longest)
+        return ()
+    neighbour = other // 3
+    if neighbour in surface.flat and (
+        _side_without_length(surface, neighbour) is not None or _longest_side(surface, neighbour) != other
+    ):
+        return triangle, neighbour
+    _flip(surface, longest)
+    return triangle, neighbour
+
+
+def _place(surface: _Surface, half_edge: int) -> tuple[float, float]:
+    """Return where a half-edge starts."""
+    point = surface.start[half_edge]
+    return surface.places.x[point], surface.places.y[point]
+
+
+def _side_without_length(surface: _Surface, triangle: int) -> int | None:
+    """Return the first half-edge of a triangle that ends where it starts."""
+    sides = range(3 * triangle, 3 * triangle + 3)
+    return next((side for side in sides if _place(surface, side) == _place(surface, following(side))), None)
+
+
+def _longest_side(surface: _Surface, triangle: int) -> int:
+    """Return the half-edge of a flat triangle that does not touch the corner in its middle."""
+    # On a line, places are in the order of their coordinates.
+    _, middle, _ = sorted(range(3 * triangle, 3 * triangle + 3), key=lambda side: _place(surface, side))
+    return following(middle)
+
+
+def _glue(surface: _Surface, half_edge: int, other: int, edge: int) -> None:
+    """Put a half-edge beside another one or, if that is −1, on an edge of the outline."""
+    surface.beyond[half_edge], surface.edge[half_edge] = other, edge
+    if other >= 0:
+        surface.beyond[other] = half_edge
+
+
+def _remove(surface: _Surface, triangle: int) -> None:
+    surface.gone.add(triangle)
+    surface.flat.discard(triangle)
+
+
+def _collapse(surface: _Surface, short: int) -> None:
+    """Cut the surface at a side that has become a point; the triangles on both sides of it go."""
+    for side in (short, surface.beyond[short]):
+        surface.touching.add(surface.start[side])
+        one, other = (surface.beyond[rest] for rest in (following(side), before(side)))
+        if one >= 0:
+            _glue(surface, one, other, surface.edge[before(side)])
+        elif other >= 0:
+            _glue(surface, other, one, surface.edge[following(side)])
+        _remove(surface, side // 3)
+
+
+def _open(surface: _Surface, longest: int) -> None:
+    """Take away a triangle whose longest side is on the boundary: what is beyond its other sides comes to lie there."""
+    for rest in (following(longest), before(longest)):
+        if surface.beyond[rest] >= 0:
+            _glue(surface, surface.beyond[rest], -1, surface.edge[longest])
+    surface.touching.add(surface.start[before(longest)])
+    _remove(surface, longest // 3)
+
+
+def _flip(surface: _Surface, side: int) -> None:
+    """Replace the side between two triangles by the other diagonal of the two."""
+    start, other = surface.start, surface.beyond[side]
+    ahead, other_ahead = following(side), following(other)
+    outer = [(surface.beyond[half_edge], surface.edge[half_edge]) for half_edge in (other_ahead, ahead)]
+    start[ahead], start[other_ahead] = start[before(other)], start[before(side)]
+    _glue(surface, side, *outer[0])
+    _glue(surface, other, *outer[1])
+    _glue(surface, ahead, other_ahead, -1)
+    for triangle in (side // 3, other // 3):
+        if turn(surface.places, *start[3 * triangle : 3 * triangle + 3]) > 0:
+            surface.flat.discard(triangle)
+        else:
+            surface.flat.add(triangle)
+
+
+# ---- corners ---------------------------------------------------------------------------------------------------------
+
+
+def _numbered(given: Outline, surface: _Surface) -> Settled:
+    """Give each corner of each piece a number of its own: that of the boundary's half-edge which starts there."""
+    kept = np.setdiff1d(np.arange(len(surface.start) // 3), list(surface.gone))
+    half_edges = (3 * kept[:, None] + np.arange(3)).ravel()
+    number = np.full(len(surface.start) + 1, -1)
+    number[half_edges] = np.arange(len(half_edges))
+    start, edge = (np.array(values, dtype=np.int64)[half_edges] for values in (surface.start, surface.edge))
+    beyond = number[np.array(surface.beyond, dtype=np.int64)[half_edges]]
+    boundary = _along_outline(given, start, edge, np.flatnonzero(beyond < 0))
+    fan = _fans(beyond)
+    if not np.array_equal(np.sort(fan[boundary]), np.arange(fan.max(initial=-1) + 1)):
+        raise PlyfoldError("internal check failed: every corner is on the boundary once", where=given.points[:1])
+    corner = np.empty(len(boundary), dtype=np.int64)
+    corner[fan[boundary]] = np.arange(len(boundary))
+    start, edge = start[boundary], edge[boundary]
+    inside = (given.points[start] != given.points[edge]).any(axis=1)
+    faces, cuts = corner[fan].reshape(-1, 3), _first_points(given, surface.touching)
+    return Settled(faces, np.where(inside, start, edge), inside, cuts)
+
+
+def _along_outline(given: Outline, start: Ints, edge: Ints, boundary: Ints) -> Ints:
+    """Return half-edges on the boundary in the order in which the outline runs along them."""
+    places = given.points[start[boundary]]
+    begin, end = given.points[edge[boundary]], given.points[given.next_point[edge[boundary]]]
+    rises = (begin[:, 0] < end[:, 0]) | ((begin[:, 0] == end[:, 0]) & (begin[:, 1] < end[:, 1]))
+    x, y = np.where(rises, places.T, -places.T)
+    return boundary[np.lexsort([y, x, edge[boundary]])]
+
+
+def _fans(beyond: Ints) -> Ints:
+    """Return a number for each half-edge, the same for those that start at the same corner of the same piece."""
+    half_edges = np.arange(len(beyond))
+    across = beyond[before(half_edges)]
+    inner = np.flatnonzero(across >= 0)
+    return components(len(beyond), inner, across[inner])
+
+
+def _first_points(given: Outline, touching: set[int]) -> Ints:
+    """Return the first point of the outline at each of the places where some points are."""
+    place = np.unique(given.points, axis=0, return_inverse=True)[1].reshape(-1)
+    first = np.unique(place, return_index=True)[1]
+    return np.unique(first[place[list(touching)]])
