@@ -50,6 +50,9 @@ from .obstruction import Obstruction as Obstruction
 from .obstruction import Unknown as Unknown
 from .offers.cusps import SuggestedCusps as SuggestedCusps
 from .offers.cusps import suggest_cusps as suggest_cusps
+from .offers.repair import Repaired as Repaired
+from .offers.repair import SmallChange as SmallChange
+from .offers.repair import repair as repair
 from .outline.curve import Curve as Curve
 from .outline.curve import Outline as Outline
 from .outline.ribbons.ribbon import ribbon as ribbon

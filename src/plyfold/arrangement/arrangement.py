@@ -84,7 +84,7 @@ class Arrangement:
         their left in which it runs. The first foot is at the leftmost vertex of a group of loops, the second one
         straight to the left of it. Borders and bridges together connect the boundary of every bounded cell.
     outline : Outline
-        The loops as used, oriented and in general position; None if only the code is known.
+        The loops as used: oriented, without spikes, and with points in contact moved; None if only the code is known.
     given : Outline
         The same points in the same order where they were given; None if only the code is known.
     numbers : (points,) int
@@ -514,9 +514,9 @@ def arrange(curve: OutlineLike, general_position: Literal["perturb", "raise"] = 
         no drawing. A list of curves is an outline: the surface that they bound together is to lie on the left of each,
         so holes run clockwise.
     general_position : {"perturb", "raise"}
-        What to do where a vertex lies on another edge, edges overlap or three edges meet in a point: move vertices
-        as little as possible (``result.curve.repairs`` says which and by how much), or raise an error naming the
-        places. Several curves are never moved.
+        What to do where a vertex lies on another edge, edges overlap or three edges meet in a point: take spikes out
+        and move vertices by infinitely little, outward (``result.outline.repairs`` says which, and by how much), or
+        raise an error naming the places.
 
     Returns
     -------
@@ -532,7 +532,7 @@ def arrange(curve: OutlineLike, general_position: Literal["perturb", "raise"] = 
     CurveError
         If the points do not make a closed curve.
     GeneralPositionError
-        With ``general_position="raise"`` or for several curves, at the touching places.
+        With ``general_position="raise"``, at the touching places; else if doubles leave no room to move them apart.
 
     References
     ----------
@@ -580,11 +580,11 @@ def ways_apart(arranged: Arrangement, inward: bool = False) -> Iterator[Arrangem
     >>> [way.winding.tolist() for inward in (False, True) for way in ways_apart(pinched, inward)]
     [[0, 1], [0, -1, 1, 1]]
     """
-    has_contacts = arranged.given is not None and len(arranged.contacts) > 0
-    if not (inward and has_contacts):
+    if arranged.given is None or len(arranged.contacts) == 0:
         yield arranged
-    if arranged.given is None or not has_contacts:
         return
+    if not inward:
+        yield arranged
     for way in range(0 if inward else 1, number_of_ways(arranged.given)):
         placed = separated(arranged.given, -1 if inward else 1, way=way)
         placed = replace(placed, numbers=arranged.numbers, turned_round=arranged.reversed)

@@ -26,7 +26,7 @@ from plyfold.arrangement.meetings import JoinedLoops, joined_loops, meetings, vi
 from plyfold.arrangement.nesting import nest, same_nest
 from plyfold.arrangement.noding import node_outline
 from plyfold.arrangement.outward import are_moved, outward_vectors, winds_backward
-from plyfold.arrangement.spikes import without_spikes
+from plyfold.arrangement.spikes import tips, without_spikes
 from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GeneralPositionError, InputError
@@ -37,8 +37,8 @@ __all__ = ["GeneralPosition", "in_general_position", "number_of_ways", "separate
 # Sizes of moves as fractions of the drawing's: smaller ones where strands crowd.
 _STEPS = [2.0**-exponent for exponent in range(20, 49, 4)]
 # A step is so many times the rounding of the coordinates at least, so that there are directions to choose from.
-_LEAST_STEP = 64
-_LARGEST_STEP = 2.0**-9
+_LEAST_STEP = 16
+_LARGEST_STEP = 2.0**-4
 _ATTEMPTS = 12
 
 
@@ -266,7 +266,9 @@ def _shown(touching: _Touching, points: Floats) -> GeneralPosition | Ints:
     if len(together) or not (right and _lie_alike(motion, joined, visits)):
         return np.unique(together)
     repairs = *given.repairs, *_moves(given.points, points)
-    outline = outline_of_points(points, given.loop_of_point, np.concatenate(given.cusps), given.rows, repairs)
+    # A cusp at a tip has an angle of 360° that one sees; strands that move outward there leave next to none.
+    cusps = np.concatenate(given.cusps) + (tips(given) if given.has_cusps else 0)
+    outline = outline_of_points(points, given.loop_of_point, cusps, given.rows, repairs)
     return GeneralPosition(outline, given, np.arange(len(given)), joined, visits, False)
 
 

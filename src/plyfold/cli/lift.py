@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plyfold.cli.inputs import DISK, add_command, add_outputs, add_time_limit, prepare, title
+from plyfold.cli.inputs import DISK, add_command, add_outputs, add_repair, add_time_limit, prepare, title
 from plyfold.cli.progress import Stopwatch, timing
 from plyfold.clock import Clock
 from plyfold.wording import counted
@@ -27,6 +27,7 @@ def add_lift_command(commands: Any) -> None:
     lift = add_command(commands, "lift", _lift, "lift a curve to a layered surface that does not cut itself")
     add_time_limit(lift, "all of it but writing")
     add_outputs(lift, ".glb .obj .ply .stl .3mf .html .gif .mp4")
+    add_repair(lift)
     lift.add_argument(
         "--gap", type=float, help="least distance of sheets, in units of the drawing (default: 1/20 of its larger side)"
     )

@@ -35,9 +35,9 @@ from plyfold.immersion.immersion import Immersion, require_disk
 from plyfold.io.mesh.model import DETAIL, Material, Model, size_of
 from plyfold.io.mesh.saving import save_model
 from plyfold.mesh.cells import DEFAULT_TRIANGLES, refuse_sizes, triangulate_cells
-from plyfold.mesh.refine import given_outline
+from plyfold.mesh.refine import given_outline, is_moved
 from plyfold.mesh.sheets import glue_copies
-from plyfold.mesh.strips import is_moved, loop_left
+from plyfold.mesh.strips import loop_left
 from plyfold.outline.given import CurveLike
 from plyfold.outline.points import as_points
 from plyfold.wording import counted

@@ -25,6 +25,7 @@ from plyfold.mesh.refine import (
     chain_of,
     constrained,
     given_outline,
+    is_moved,
     left_of_chain,
     noded_curve,
     planar_mesh,
@@ -34,7 +35,7 @@ from plyfold.mesh.refine import (
     too_close,
     usual_area,
 )
-from plyfold.mesh.strips import Strips, is_moved, noded_strips, strips_of
+from plyfold.mesh.strips import Strips, noded_strips, strips_of
 from plyfold.options import refuse_unless_number
 from plyfold.ragged import next_in_rows
 

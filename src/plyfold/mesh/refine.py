@@ -394,7 +394,8 @@ def given_outline(arrangement: Arrangement) -> Outline:
 
 def is_moved(arrangement: Arrangement) -> bool:
     """Tell whether points of a drawing were moved apart."""
-    return not np.array_equal(given_outline(arrangement).points, drawn_outline(arrangement).points)
+    outline, given = drawn_outline(arrangement), given_outline(arrangement)
+    return outline is not given and not np.array_equal(outline.points, given.points)
 
 
 def noded_curve(arrangement: Arrangement) -> NodedCurve:

@@ -23,7 +23,7 @@ from plyfold.errors import PrecisionError
 from plyfold.mesh.refine import NodedCurve, borders_passed, unit_square
 from plyfold.outline.curve import Outline
 
-__all__ = ["Strips", "is_moved", "loop_left", "noded_strips", "strips_of", "whole_turns"]
+__all__ = ["Strips", "loop_left", "noded_strips", "strips_of", "turns_unseen"]
 
 # Where on a part strands are compared, as shares of its length: at the first one where all are apart.
 _SHARES = (0.4375, 0.59375, 0.296875, 0.71875, 0.515625)
@@ -84,12 +84,6 @@ class Strips:
         return np.searchsorted(along, part, side="left"), np.searchsorted(along, part, side="right") - 1
 
 
-def is_moved(arrangement: Arrangement) -> bool:
-    """Tell whether points of a drawing have been moved apart."""
-    outline, given = arrangement.outline, arrangement.given
-    return outline is not given and outline is not None and not np.array_equal(outline.points, _drawn(given).points)
-
-
 def strips_of(arrangement: Arrangement) -> Strips:
     """Return the borders of a drawing on its given points.
 
@@ -127,10 +121,10 @@ def loop_left(arrangement: Arrangement, places: Floats, faces: Ints, loop: Ints)
     given = _drawn(arrangement.given)
     corners = loop[np.isin(_numbers(places[loop]), _numbers(given.points))]
     is_cusp = np.isin(_numbers(places[corners]), _numbers(given.points[np.concatenate(given.cusps) > 0]))
-    return places[corners], np.where(is_cusp, whole_turns(places, faces)[corners], 0)
+    return places[corners], np.where(is_cusp, turns_unseen(places, faces)[corners], 0)
 
 
-def whole_turns(places: Floats, faces: Ints) -> Ints:
+def turns_unseen(places: Floats, faces: Ints) -> Ints:
     """Return how many full turns the angle at each vertex of a mesh has more than one sees.
 
     Copies of a triangle of the drawing follow each other, and there are so many more of the same at the vertex.

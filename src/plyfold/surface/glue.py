@@ -19,7 +19,7 @@ from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering
 from plyfold.mesh.cells import CellTriangulation
 from plyfold.mesh.sheets import SheetMesh, glue_copies
-from plyfold.mesh.strips import whole_turns
+from plyfold.mesh.strips import turns_unseen
 from plyfold.ragged import count_each, pairs_in_each
 
 __all__ = [
@@ -128,7 +128,7 @@ def stack_sheets(
         stacked = stacked_but_passing(stacked, level, glued.planar_vertex, passing)
     cusps = cusps_of(immersion.arrangement)
     if len(cusps):
-        cusps = np.flatnonzero(whole_turns(mesh.points[glued.planar_vertex], glued.faces))
+        cusps = np.flatnonzero(turns_unseen(mesh.points[glued.planar_vertex], glued.faces))
     return LiftedMesh(
         planar_vertex=glued.planar_vertex,
         faces=glued.faces,

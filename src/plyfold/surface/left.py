@@ -10,7 +10,8 @@ from plyfold.arrangement.polylines import polygon_turning_numbers
 from plyfold.arrays import Floats, Ints
 from plyfold.graphs import components
 from plyfold.halfedges import ends_of
-from plyfold.mesh.strips import is_moved, loop_left
+from plyfold.mesh.refine import is_moved
+from plyfold.mesh.strips import loop_left
 
 if TYPE_CHECKING:
     from plyfold.surface.lift import Surface

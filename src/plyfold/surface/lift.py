@@ -42,8 +42,7 @@ from plyfold.mesh.cells import (
     refuse_sizes,
     triangulate_cells,
 )
-from plyfold.mesh.refine import drawn_outline, given_outline
-from plyfold.mesh.strips import is_moved
+from plyfold.mesh.refine import drawn_outline, given_outline, is_moved
 from plyfold.obstruction import IMMERSION_REASONS, Obstruction, Unknown
 from plyfold.options import refuse_unless_flag, refuse_unless_number
 from plyfold.outline.curve import Curve, Outline
