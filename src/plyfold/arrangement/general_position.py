@@ -94,7 +94,7 @@ def in_general_position(
         If nothing is left of the outline without its spikes.
     GeneralPositionError
         With ``policy="raise"`` at every touching place; with ``"perturb"`` if double precision cannot show strands
-        apart that are to be, or if several cusps lie at one place.
+        apart that are to be.
     """
     if policy not in ("perturb", "raise"):
         raise InputError(f'general_position must be "perturb" or "raise", not {policy!r}')
