@@ -10,7 +10,7 @@ import plyfold as pf
 from plyfold.certify import check_layered, check_solid, check_surface
 from plyfold.errors import CertificateError, GeneralPositionError, InputError
 from plyfold.gallery import CURVES
-from plyfold.mesh.strips import is_moved
+from plyfold.mesh.refine import is_moved
 from plyfold.surface.left import kinds_of, loops_of
 from touching import grown_outlines, rectangles
 
