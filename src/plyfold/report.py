@@ -17,7 +17,9 @@ from plyfold.io.cusp_notation import CuspMark, cusp_marks, written_cusp
 from plyfold.layering.embedding import find_embedding
 from plyfold.layering.orders.search import first_layering
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.offers.cusps import SuggestedCusps, suggest_cusps
+from plyfold.offers.cusps import SuggestedCusps
+from plyfold.offers.offers import offers
+from plyfold.offers.repair import Repaired, percent
 from plyfold.outline.curve import Outline
 
 __all__ = [
@@ -26,8 +28,10 @@ __all__ = [
     "describe",
     "in_words",
     "offer_in_words",
+    "repair_in_words",
     "repair_lines",
     "surface_in_words",
+    "touches_of",
     "verdict",
     "words",
 ]
@@ -35,7 +39,13 @@ __all__ = [
 A_DISK = "a disk of cloth"
 """What one curve without cusps bounds, if it bounds a surface without handles."""
 
-_SECONDS_FOR_AN_OFFER = 2.0
+_SECONDS_FOR_OFFERS = 2.0
+# What does what is offered.
+_COMMANDS = {
+    "repair": "plyfold repair FILE -o OUT",
+    "cusps": "--cusps auto",
+    "fill": "plyfold split FILE --fill nonzero -o OUT",
+}
 _SHOWN_REPAIRS = _SHOWN_CUSPS = _SHOWN_PLACES = 5
 _LONGEST_NUMBER = 12
 _UNDECIDED = "Whether it can be lifted was not decided in time."
@@ -175,8 +185,9 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
         (number of cells by winding number), ``turning_number``, ``reversed``, ``repairs``, ``immersible``,
         ``immersions``; for a surface also ``surface`` (in words), ``touches`` (where it touches itself; no places if
         the outline bounds one that does not), ``pieces``, ``euler_characteristic``, ``sheets``, ``layerable``, and, for
-        a disk, ``examined`` (immersions), otherwise ``reason``, ``sentence`` and ``where``; if it turns too often,
-        perhaps an ``offer``: ``cusps``, and the ``surface`` that it would bound with them.
+        a disk, ``examined`` (immersions), otherwise ``reason``, ``sentence`` and ``where``; and for a drawing
+        ``offers``, what can be done: each has a ``kind``, ``"repair"``, ``"cusps"`` or ``"fill"``, a ``sentence`` and a
+        ``command``, and the first two what they change and the ``surface`` that it would bound.
 
     Examples
     --------
@@ -203,24 +214,69 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
     if isinstance(found, Unknown):
         return figures | {"immersible": None, "immersions": None}
     if isinstance(found, Obstruction):
-        return figures | {"immersible": False, "immersions": 0} | _obstructed(found) | _offer(arrangement, found)
+        return figures | {"immersible": False, "immersions": 0} | _obstructed(found) | _offers(arrangement)
     count = count_immersions(arrangement, time_limit=limit)
     figures |= {"immersible": True, "immersions": None if isinstance(count, Unknown) else count}
     figures |= _surface(found)
     return figures | (_layerable if may_bound_disk(arrangement) else _embeddable)(arrangement, time_limit)
 
 
-def _offer(arrangement: Arrangement, why_not: Obstruction) -> dict[str, Any]:
-    """Return cusps with which the outline would bound a surface in one piece, if it only turns too often."""
-    if why_not.reason != "turning number" or arrangement.outline is None:
+def _offers(arrangement: Arrangement) -> dict[str, Any]:
+    """Return what can be done about an outline that bounds no surface; of a code, nothing is said."""
+    if arrangement.outline is None:
         return {}
-    found = suggest_cusps(arrangement, time_limit=_SECONDS_FOR_AN_OFFER)
-    if not isinstance(found, SuggestedCusps):
-        return {}
+    found = offers(arrangement, _SECONDS_FOR_OFFERS)
     loops = tuple(range(arrangement.n_loops))
-    marks = [CuspMark(loop, point, turns) for (loop, point), turns in found.cusps.items()]
     surface = surface_in_words([Piece(loops, 2 - len(loops))])
-    return {"offer": {"cusps": _described_cusps(found.outline, marks), "surface": surface}}
+    listed = [] if found.repaired is None else [_repair_offer(found.repaired)]
+    listed += [] if found.cusps is None else [_cusps_offer(found.cusps, surface)]
+    fill = {"kind": "fill", "sentence": "what it paints can be cut into polygons", "command": _COMMANDS["fill"]}
+    return {"offers": [*listed, fill]}
+
+
+def repair_in_words(found: Repaired) -> str:
+    """Say what a repair does, and what comes of it.
+
+    Examples
+    --------
+    >>> from plyfold import repair
+    >>> repair_in_words(repair([(0, 0), (60, 0), (60, 41), (61, 41), (61, 40), (0, 40)]))
+    'leaving out 1 loop, 0.0416% of the region, makes it a disk of cloth'
+    """
+    return f"{found.done}, {percent(found.region_change)} of the region, makes it {_repaired_surface(found)}"
+
+
+def _repaired_surface(found: Repaired) -> str:
+    return A_DISK if found.outline.n_loops == 1 else "a surface"
+
+
+def _repair_offer(found: Repaired) -> dict[str, Any]:
+    changes = [
+        {
+            "kind": change.kind,
+            "where": list(change.where),
+            "size": change.size,
+            "region": change.region,
+            "layers": change.layers,
+        }
+        for change in found.changes
+    ]
+    return {
+        "kind": "repair",
+        "sentence": repair_in_words(found),
+        "command": _COMMANDS["repair"],
+        "surface": _repaired_surface(found),
+        "changes": changes,
+        "region_change": found.region_change,
+        "layer_change": found.layer_change,
+    }
+
+
+def _cusps_offer(found: SuggestedCusps, surface: str) -> dict[str, Any]:
+    marks = [CuspMark(loop, point, turns) for (loop, point), turns in found.cusps.items()]
+    cusps = _described_cusps(found.outline, marks)
+    sentence = offer_in_words([*found.cusps.values()], surface, _listed_cusps(cusps))
+    return {"kind": "cusps", "sentence": sentence, "command": _COMMANDS["cusps"], "cusps": cusps, "surface": surface}
 
 
 def _surface(immersion: Immersion) -> dict[str, Any]:
@@ -230,14 +286,21 @@ def _surface(immersion: Immersion) -> dict[str, Any]:
     ]
     return {
         "surface": surface_in_words(immersion.pieces),
-        "touches": _touches(immersion),
+        "touches": touches_of(immersion),
         "pieces": pieces,
         "euler_characteristic": immersion.euler_characteristic,
         "sheets": immersion.n_sheets,
     }
 
 
-def _touches(immersion: Immersion) -> list[list[float]]:
+def touches_of(immersion: Immersion) -> list[list[float]]:
+    """Return where a surface touches itself; nothing, if the outline also bounds a surface in the strict sense.
+
+    Examples
+    --------
+    >>> touches_of(find_immersion([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)]))
+    [[1.0, 1.0]]
+    """
     if not immersion.touches or bounds_strictly(immersion.arrangement):
         return []
     return [list(place) for place in immersion.touches]
@@ -338,15 +401,11 @@ def _headline(figures: dict[str, Any]) -> str:
     plain = figures["loops"] == 1 and not figures["cusps"]
     said = words(0, figures["sentence"], surface=A_DISK if plain else "a surface")
     places = "".join(f"\n  at ({x:.6g}, {y:.6g})" for x, y in figures["where"])
-    return f"{said.headline}. {said.sentence}{places}{_offer_line(figures)}"
+    return f"{said.headline}. {said.sentence}{places}{_offer_lines(figures)}"
 
 
-def _offer_line(figures: dict[str, Any]) -> str:
-    if "offer" not in figures:
-        return ""
-    cusps, surface = figures["offer"]["cusps"], figures["offer"]["surface"]
-    said = offer_in_words([cusp["index"] for cusp in cusps], surface, _listed_cusps(cusps))
-    return f"\n  {said} (--cusps auto)"
+def _offer_lines(figures: dict[str, Any]) -> str:
+    return "".join(f"\n  {offer['sentence']}: {offer['command']}" for offer in figures.get("offers", ()))
 
 
 def _layering_sentence(figures: dict[str, Any]) -> str:

@@ -154,10 +154,11 @@ def test_cusps_that_are_none(cusp, limacon, capsys):
 def test_cusps_are_offered_and_taken(limacon, tmp_path, capsys):
     assert main(["check", limacon]) == 1
     said = capsys.readouterr().out
-    assert "\n  1 turn is too many: with a cusp 0:7 at (1, -1), it is a disk of cloth (--cusps auto)\n" in said
+    assert "\n  1 turn is too many: with a cusp 0:7 at (1, -1), it is a disk of cloth: --cusps auto\n" in said
     main(["check", limacon, "--json"])
     [found] = lines(capsys)
-    assert found["offer"]["cusps"] == [{"loop": 0, "point": 7, "index": 1, "where": [1, -1]}]
+    (offer,) = [offer for offer in found["offers"] if offer["kind"] == "cusps"]
+    assert offer["cusps"] == [{"loop": 0, "point": 7, "index": 1, "where": [1, -1]}]
     assert main(["check", limacon, "--cusps", "auto"]) == 0
     assert "note: cusp proposed at (1, -1)\n" in capsys.readouterr().out
     assert main(["convert", limacon, "--cusps", "auto", "-o", str(tmp_path / "out.json")]) == 0

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import CurveLike, arrange, require_one_loop
+from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange, require_one_loop
 from plyfold.arrays import Ints
 from plyfold.graphs import spanning_tree
 
-__all__ = ["lobe_turning_numbers"]
+__all__ = ["lobe_turning_numbers", "quarter_turns"]
 
 
 def lobe_turning_numbers(curve: CurveLike) -> Ints:
@@ -49,22 +49,24 @@ def lobe_turning_numbers(curve: CurveLike) -> Ints:
     require_one_loop(drawn)
     first = np.flatnonzero(np.arange(len(drawn.partner)) < drawn.partner)
     second = drawn.partner[first]
-    along = np.concatenate([[0], np.cumsum(_quarter_turns(drawn.left_cell, drawn.right_cell))])
+    along = np.concatenate([[0], np.cumsum(quarter_turns(drawn))])
     corner = np.where(drawn.ccw[second], 1, -1)
     lobe = (along[second] - along[first] + corner) // 4
     return np.column_stack([lobe, drawn.turning_number - lobe])
 
 
-def _quarter_turns(left: Ints, right: Ints) -> Ints:
+def quarter_turns(drawn: Arrangement) -> Ints:
     """Return how many quarters each border turns to the left in a drawing whose crossings are right angles.
 
-    A cell with c corners lacks 4 − c quarters. What a cell and all cells behind it in the tree lack together, the
-    border towards the root must turn.
+    A cell with c corners and one boundary lacks 4 − c quarters, and 4 more for each further boundary. What a cell and
+    all cells behind it in the tree lack together, the border towards the root must turn.
     """
-    cells = int(max(left.max(), right.max())) + 1
+    left, right, cells = drawn.left_cell, drawn.right_cell, drawn.n_cells
     parent, border, order = spanning_tree(cells, left, right)
-    corners = np.bincount(np.concatenate([left, right]), minlength=cells)
-    lacking = 4 - corners
+    starts_at_crossing = np.append(drawn.crossing_of_visit, -1)[drawn.start_visit] >= 0
+    corners = np.bincount(left[starts_at_crossing[drawn.next_border]], minlength=cells)
+    corners += np.bincount(right[starts_at_crossing], minlength=cells)
+    lacking = 4 * (2 - drawn.n_cycles) - corners
     for level in _levels(parent, order)[:0:-1]:
         np.add.at(lacking, parent[level], lacking[level])
     turns = np.zeros(len(left), dtype=np.int64)

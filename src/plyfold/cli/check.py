@@ -6,7 +6,7 @@ import argparse
 import json
 from typing import Any
 
-from plyfold.cli.inputs import DISK, NO_DISK, UNKNOWN, add_command, add_time_limit, read_arrangement
+from plyfold.cli.inputs import DISK, NO_DISK, UNKNOWN, add_command, add_repair, add_time_limit, read_arrangement
 from plyfold.cli.progress import Stopwatch, timing
 from plyfold.loading import FOR_LAYERINGS, load_libraries
 
@@ -30,8 +30,10 @@ the object that --json prints, with --each one on a line for each shape:
   layerable                 whether an immersion can be lifted; null: unknown, the time limit (if immersible)
   examined, levels          immersions of a disk tried until one could be lifted, and the layers of that one
   reason, sentence, where   why not, in a word, in a sentence and at which places (if not immersible or layerable)
-  offer                     object: cusps (list as above), and the surface that it would bound with them; where some
-                            turns are too many, and cusps for them are found in two seconds
+  offers                    list of what makes it one, as far as it is found in two seconds (if not immersible): each
+                            has kind, sentence and command. Kind "repair": changes (list of {kind, where, size, region,
+                            layers}), region_change, layer_change, surface; "cusps": cusps (list as above), surface;
+                            "fill"
   seconds                   object: stage -> seconds
 or, with exit code 2, {error, where, hint}
 """
@@ -41,6 +43,7 @@ def add_check_command(commands: Any) -> None:
     """Add the subcommand to a parser."""
     check = add_command(commands, "check", _check, "say what surface an outline bounds, with all figures")
     add_time_limit(check)
+    add_repair(check)
     check.add_argument("--json", action="store_true", help="print one JSON object and nothing else (see below)")
     check.epilog, check.formatter_class = _JSON_GUIDE, argparse.RawDescriptionHelpFormatter
 

@@ -15,6 +15,7 @@ from plyfold.cli.gallery import add_gallery_command
 from plyfold.cli.inputs import BAD_INPUT, NO_DISK, UNKNOWN
 from plyfold.cli.lift import add_lift_command
 from plyfold.cli.progress import clear_progress
+from plyfold.cli.repair import add_repair_command
 from plyfold.cli.sketch import add_sketch_command
 from plyfold.cli.streams import complain, is_of_a_stream, over_any_streams
 from plyfold.errors import NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
@@ -27,6 +28,7 @@ _COMMANDS = (
     add_lift_command,
     add_draw_command,
     add_flat_commands,
+    add_repair_command,
     add_convert_command,
     add_gallery_command,
     add_sketch_command,
@@ -41,6 +43,7 @@ examples:
   plyfold lift loop.svg -o loop.html         the layered surface, as a 3D page for any browser
   plyfold lift loop.csv -o a.glb -o a.obj    as meshes; the ending chooses the format
   plyfold draw loop.svg -o loop.png          cells, disk layout, layers and surface in one picture
+  plyfold repair stroke.svg -o disk.svg      without its tiny loops, where these keep it from being a disk
   plyfold split loop.svg -o pieces.geojson   simple polygons that cover the disk once
   plyfold unwrap loop.svg -o loop.obj        texture coordinates: the disk one-to-one onto the round one
   plyfold convert letter.svg -o letter.json  the outline in another format, with its holes and cusps

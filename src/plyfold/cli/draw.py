@@ -14,6 +14,7 @@ from plyfold.cli.inputs import (
     NO_DISK,
     add_command,
     add_outputs,
+    add_repair,
     add_time_limit,
     prepare,
     read_as_given,
@@ -43,6 +44,7 @@ def add_draw_command(commands: Any) -> None:
     draw = add_command(commands, "draw", _draw, "draw the arrangement, the disk layout, the layers and the surface")
     add_time_limit(draw, "lifting it")
     add_outputs(draw, ".svg .png .pdf; of the view over-under .svg .tikz .tex; of a mask .png .npy .csv")
+    add_repair(draw)
     draw.add_argument(
         "--what",
         choices=["all", "arrangement", "layout", "layers", "surface", "over-under"],

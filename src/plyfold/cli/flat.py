@@ -11,9 +11,12 @@ from plyfold.cli.inputs import (
     NO_DISK,
     add_command,
     add_outputs,
+    add_repair,
+    arrange_outline,
     prepare,
     read_arrangement,
     read_as_given,
+    read_drawing,
     refuse_outputs,
     say_notes,
     write_texts,
@@ -38,6 +41,7 @@ def add_flat_commands(commands: Any) -> None:
     """Add the subcommands to a parser."""
     split = add_command(commands, "split", _split, "cut a disk into simple polygons, or any curves into cells or fills")
     add_outputs(split, ".geojson .wkt .svg")
+    add_repair(split)
     what = split.add_mutually_exclusive_group()
     what.add_argument(
         "--cells",
@@ -55,6 +59,7 @@ def add_flat_commands(commands: Any) -> None:
         commands, "triangulate", _triangulate, "cut a disk into triangles on the points of the curve"
     )
     add_outputs(triangles, ".obj .csv")
+    add_repair(triangles)
     unwrap = add_command(commands, "unwrap", _unwrap, "map a disk one-to-one onto the round disk: texture coordinates")
     add_outputs(unwrap, ".obj .ply .glb")
     unwrap.add_argument(
@@ -119,17 +124,17 @@ def _direction(turned: bool) -> str:
 
 
 def _triangulate(options: argparse.Namespace) -> int:
-    from plyfold.flat.triangulate import triangulate
+    from plyfold.flat.triangulate import chosen_immersion, triangulate
     from plyfold.io.pieces import TRIANGLE_WRITERS
-    from plyfold.mesh.refine import given_outline
 
     watch = Stopwatch()
-    arranged = prepare(options, tuple(TRIANGLE_WRITERS), watch)
+    refuse_outputs(options, tuple(TRIANGLE_WRITERS))
+    outline = read_drawing(options, watch)
+    arranged = arrange_outline(outline, options, watch)
+    say_notes(arranged.outline)
     watch("triangulating")
-    faces = triangulate(arranged)
+    faces, points = triangulate(outline, chosen_immersion(arranged, None)), outline.points
     watch.stop()
-    drawn = given_outline(arranged)
-    points = (drawn.reversed() if arranged.reversed else drawn).points
     print(f"{len(faces):,} triangles")
     write_texts(options, {ending: partial(write, points, faces) for ending, write in TRIANGLE_WRITERS.items()})
     return DISK

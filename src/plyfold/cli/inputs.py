@@ -14,12 +14,14 @@ from typing import TYPE_CHECKING, Any
 from plyfold.cli.drawing import add_drawing_options, read_outline
 from plyfold.cli.progress import Stopwatch
 from plyfold.clock import Clock, Watch
-from plyfold.errors import InputError
+from plyfold.errors import InputError, NotImmersibleError, TimeLimitError
 from plyfold.io.saving import refuse_output, save_bytes
 from plyfold.loading import FOR_CROSSINGS, FOR_MESHES, load_libraries
+from plyfold.obstruction import Obstruction
 
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
+    from plyfold.offers.repair import Repaired
     from plyfold.outline.curve import Outline
 
 __all__ = [
@@ -29,11 +31,15 @@ __all__ = [
     "UNKNOWN",
     "add_command",
     "add_outputs",
+    "add_repair",
     "add_time_limit",
+    "arrange_outline",
     "prepare",
     "read_arrangement",
     "read_as_given",
+    "read_drawing",
     "refuse_outputs",
+    "repaired",
     "say_notes",
     "title",
     "write_texts",
@@ -71,6 +77,67 @@ def _seconds(text: str) -> float:
     return seconds
 
 
+def add_repair(command: argparse.ArgumentParser, is_option: bool = True) -> None:
+    """Give a subcommand the options of a repair: ``--repair`` itself, unless that is what it does, and the caps."""
+    if is_option:
+        command.add_argument(
+            "--repair", action="store_true", help="leave out tiny loops and undo lenses first, where it is no disk"
+        )
+    command.add_argument(
+        "--allow",
+        type=_part,
+        default=0.01,
+        metavar="P",
+        help="the part of the region that it may change (default: 1%%)",
+    )
+    command.add_argument(
+        "--allow-layers",
+        type=_part,
+        default=0.2,
+        metavar="P",
+        help="the part of all that lies in layers, each counted, that it may change (default: 20%%)",
+    )
+
+
+def _part(text: str) -> float:
+    """Read a part of a whole.
+
+    Examples
+    --------
+    >>> _part("2%"), _part("0.02")
+    (0.02, 0.02)
+    """
+    number = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
+    if not number >= 0:
+        raise argparse.ArgumentTypeError(f"{text} is no part of a whole, such as 1% or 0.01")
+    return number
+
+
+def repaired(outline: Outline, options: argparse.Namespace, watch: Stopwatch, clock: Clock) -> Repaired:
+    """Return an outline with small changes that make it that of a disk; raise an error if there are none such."""
+    from plyfold.offers.repair import Repaired, repair
+
+    load_libraries(FOR_CROSSINGS, watch)
+    watch("repairing")
+    found = repair(outline, options.allow, options.allow_layers, clock.left)
+    if isinstance(found, Repaired):
+        return found
+    if isinstance(found, Obstruction):
+        raise NotImmersibleError(found, hint="--allow and --allow-layers allow more")
+    raise TimeLimitError(str(found), hint="allow more time")
+
+
+def read_drawing(options: argparse.Namespace, watch: Stopwatch, clock: Clock | None = None) -> Outline:
+    """Return the outline that is named, repaired if that is asked for; then say so."""
+    outline = read_outline(options, watch)
+    if not getattr(options, "repair", False):
+        return outline
+    found = repaired(outline, options, watch, clock or Clock(None))
+    watch.stop()
+    print(f"repaired: {found}", file=sys.stderr)
+    return found.outline
+
+
 def add_outputs(command: argparse.ArgumentParser, endings: str) -> None:
     """Give a subcommand the options ``-o``, of which there must be one, and ``--force``."""
     command.add_argument("-o", "--output", action="append", required=True, metavar="OUT", help=f"one of {endings}")
@@ -79,9 +146,15 @@ def add_outputs(command: argparse.ArgumentParser, endings: str) -> None:
 
 def read_arrangement(options: argparse.Namespace, watch: Stopwatch, clock: Clock | None = None) -> Arrangement:
     """Return the arrangement of the drawing that is named."""
+    return arrange_outline(read_drawing(options, watch, clock), options, watch, clock)
+
+
+def arrange_outline(
+    outline: Outline, options: argparse.Namespace, watch: Stopwatch, clock: Clock | None = None
+) -> Arrangement:
+    """Return the arrangement of an outline that was read."""
     from plyfold.arrangement.arrangement import watched_arrangement
 
-    outline = read_outline(options, watch)
     load_libraries(FOR_CROSSINGS, watch)
     return watched_arrangement(outline, options.general_position, Watch(clock or Clock(None), watch))
 
@@ -100,7 +173,7 @@ def read_as_given(options: argparse.Namespace, watch: Stopwatch) -> Outline:
     """Return the outline with nothing moved, and say what was changed; refuse one that touches itself if asked to."""
     from plyfold.arrangement.arrangement import arrange
 
-    drawn = read_outline(options, watch)
+    drawn = read_drawing(options, watch)
     say_notes(drawn)
     load_libraries((*FOR_CROSSINGS, *FOR_MESHES), watch)
     if options.general_position == "raise":

@@ -1,0 +1,381 @@
+"""What is left of an outline after loops are left out and lenses undone: other ways along the borders of its drawing.
+
+Nothing is arranged anew: the cells stay those of the drawing, and each move changes their winding numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrangement.lobes import quarter_turns
+from plyfold.graphs import spanning_tree
+from plyfold.mesh.refine import borders_at_points, drawn_outline
+from plyfold.offers.areas import CellAreas, Measure, areas_of
+
+__all__ = ["Effect", "Move", "Plan", "Rerouted", "Run", "plan_of"]
+
+
+# What is narrower than so many roundings of coordinates.
+_HAIR = 2.0**10
+
+
+class Run(NamedTuple):
+    """A part of the outline, from one visit on to another."""
+
+    start: int
+    end: int
+
+
+class Move(NamedTuple):
+    """What is done to some runs: a single one is left out, from a crossing back to it; two change places.
+
+    These two cross at both of their ends and nowhere between.
+    """
+
+    runs: tuple[Run, ...]
+
+    @property
+    def is_lens(self) -> bool:
+        """Whether two runs change places."""
+        return len(self.runs) == 2
+
+    @property
+    def visits(self) -> tuple[int, ...]:
+        """The visits at the ends of the runs."""
+        return tuple(visit for strand in self.runs for visit in strand)
+
+
+class Effect(NamedTuple):
+    """By how much a move changes the winding number of each cell; and the cells along its runs.
+
+    Between two runs these are the cells between them, each as often as the way round goes round it. ``is_all`` is
+    false if only some are there, since they are too large.
+    """
+
+    times: dict[int, int]
+    inside: dict[int, int]
+    is_all: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """A drawing as lists, for walks along its borders and through its cells.
+
+    Parameters
+    ----------
+    drawn : Arrangement
+    areas : CellAreas
+    partner, border_after, border_before, loop : list of int
+        Of each visit.
+    next_border, left, right : list of int
+        Of each border.
+    cusps : list of int
+        How many cusps come before each visit along its loop and the earlier ones; last, all of them.
+    parent, link : list of int
+        Of each cell, the one before it on a way to the unbounded one, and a border between the two.
+    """
+
+    drawn: Arrangement
+    areas: CellAreas
+    partner: list[int]
+    border_after: list[int]
+    border_before: list[int]
+    loop: list[int]
+    next_border: list[int]
+    left: list[int]
+    right: list[int]
+    cusps: list[int]
+    parent: list[int]
+    link: list[int]
+
+    @cached_property
+    def cells(self) -> tuple[tuple[int, ...], ...]:
+        """The darts round each cell."""
+        return self.drawn.cells
+
+    def places(self, strand: Run) -> Iterator[int]:
+        """Yield the borders of the drawing from one visit on to another one of its loop."""
+        border, last = self.border_after[strand.start], self.border_before[strand.end]
+        yield border
+        while border != last:
+            border = self.next_border[border]
+            yield border
+
+    def has_cusp(self, run: Run) -> bool:
+        """Tell whether a cusp lies on a strand."""
+        start, end = run
+        before_start, before_end = self.cusps[start], self.cusps[end]
+        if start < end:
+            return before_end > before_start
+        first, last = self.drawn.first_visit[self.loop[start] : self.loop[start] + 2].tolist()
+        return bool(self.cusps[last] > before_start or before_end > self.cusps[first])
+
+    @cached_property
+    def leftmost(self) -> list[int]:
+        """For each loop the border with its leftmost point, the lowest of several."""
+        outline = drawn_outline(self.drawn)
+        border = borders_at_points(self.drawn)[1]
+        x, y = outline.points.T
+        loop = self.drawn.loop_of_border[border]
+        order = np.lexsort((y, x, loop))
+        first: list[int] = border[order[np.unique(loop[order], return_index=True)[1]]].tolist()
+        return first
+
+    def has_leftmost(self, strand: Run) -> bool:
+        """Tell whether the leftmost point of a loop is on a strand of it."""
+        return self.leftmost[self.loop[strand.start]] in self.places(strand)
+
+    def is_hair(self, strand: Run, inside: Mapping[int, int]) -> bool:
+        """Tell whether the cells beside a strand are so narrow, all together, that rounding may confuse their sides."""
+        drawn = self.drawn
+        start, end = drawn.crossings[drawn.crossing_of_visit[[*strand]]]
+        rounding = float(np.spacing(np.abs(drawn.crossings).max()))
+        area = Measure.of(self.areas, {cell: abs(times) for cell, times in inside.items()})
+        return area.most <= _HAIR * rounding * (float(np.hypot(*(end - start))) + _HAIR * rounding)
+
+
+def plan_of(drawn: Arrangement) -> Plan:
+    """Return a drawing as lists."""
+    parent, link, _ = spanning_tree(drawn.n_cells, drawn.left_cell, drawn.right_cell)
+    return Plan(
+        drawn=drawn,
+        areas=areas_of(drawn),
+        partner=drawn.partner.tolist(),
+        border_after=drawn.border_after.tolist(),
+        border_before=drawn.border_before.tolist(),
+        loop=drawn.loop_of_border[drawn.border_after].tolist(),
+        next_border=drawn.next_border.tolist(),
+        left=drawn.left_cell.tolist(),
+        right=drawn.right_cell.tolist(),
+        cusps=np.append(0, np.cumsum(drawn.cusp_index > 0)).tolist(),
+        parent=parent.tolist(),
+        link=link.tolist(),
+    )
+
+
+@dataclass(eq=False)
+class Rerouted:
+    """An outline on its way, changed by every move.
+
+    Parameters
+    ----------
+    plan : Plan
+    winding : list of int
+        Of each cell of the drawing.
+    path : list of list of int
+        The darts that are passed in place of each border of the drawing: itself at first.
+    quarters : list of int
+        How many quarters the outline turns there, its corner with what comes next included.
+    turning : int
+        How often the whole outline turns, cusps taken off.
+    after, before : list of int
+        For each visit that is still one the next and the previous of its loop. The feet of bridges count for nothing.
+    is_live : list of bool
+    parted : set of int
+        The crossings at which two runs touch now, and are to come apart.
+    """
+
+    plan: Plan
+    winding: list[int]
+    path: list[list[int]]
+    quarters: list[int]
+    turning: int
+    after: list[int]
+    before: list[int]
+    is_live: list[bool]
+    parted: set[int]
+
+    @classmethod
+    def of(cls, plan: Plan) -> Rerouted:
+        """Return the outline as it is drawn."""
+        drawn = plan.drawn
+        is_live = (drawn.crossing_of_visit >= 0) | (drawn.cusp_index > 0)
+        after, before = np.full((2, len(drawn.partner)), -1)
+        for first, last in zip(drawn.first_visit[:-1], drawn.first_visit[1:], strict=True):
+            live = first + np.flatnonzero(is_live[first:last])
+            after[live], before[live] = np.roll(live, -1), np.roll(live, 1)
+        return cls(
+            plan=plan,
+            winding=drawn.winding.tolist(),
+            path=[[2 * border] for border in range(drawn.n_borders)],
+            quarters=quarter_turns(drawn).tolist(),
+            turning=drawn.euler_characteristic,
+            after=after.tolist(),
+            before=before.tolist(),
+            is_live=is_live.tolist(),
+            parted=set(),
+        )
+
+    # ---- what can be done --------------------------------------------------------------------------------------------
+
+    def can_be_done(self, move: Move) -> bool:
+        """Tell whether a move that once was possible still is."""
+        if not all(self.is_live[visit] for visit in move.visits):
+            return False
+        return not move.is_lens or all(self.after[strand.start] == strand.end for strand in move.runs)
+
+    def lenses_at(self, visit: int) -> Iterator[Move]:
+        """Yield the lenses of which a strand begins at a visit: two where the other loop has these crossings alone."""
+        partner, end = self.plan.partner, self.after[visit]
+        start, last = partner[visit], partner[end]
+        if partner[end] == end or start == visit or len({visit, start, end, last}) < 4:
+            return
+        for other in (Run(start, last), Run(last, start)):
+            if self.after[other.start] == other.end:
+                yield Move(tuple(sorted([Run(visit, end), other])))
+
+    def runs_back(self, lens: Move) -> bool:
+        """Tell whether the two runs of a lens run against each other."""
+        return self.plan.partner[lens.runs[0].start] == lens.runs[1].end
+
+    def darts(self, strand: Run) -> list[int]:
+        """Return the darts along a strand."""
+        return [dart for place in self.plan.places(strand) for dart in self.path[place]]
+
+    def effect(self, move: Move, most: float = float("inf")) -> Effect:
+        """Return what a move would do to winding numbers; not all of it if the areas concerned add up to more."""
+        if not move.is_lens:
+            times, is_all = _wound(self.plan, self._ways(move.runs[0], -1), most)
+            return Effect(times, times, is_all)
+        if not self.runs_back(move):
+            return Effect({}, *self._between(move, float("inf")))
+        inside, is_all = self._between(move, most)
+        return Effect({cell: 2 * times for cell, times in inside.items()}, inside, is_all)
+
+    def _between(self, lens: Move, most: float) -> _Wound:
+        """Return how often the way round what lies between the runs of a lens, backward along the first, winds."""
+        one, other = lens.runs
+        way = -1 if self.runs_back(lens) else 1
+        return _wound(self.plan, self._ways(one, -1) | self._ways(other, way), most)
+
+    def _ways(self, strand: Run, way: int) -> dict[int, int]:
+        """Return how often a strand passes borders forward, times ``way``."""
+        return {dart // 2: -way if dart % 2 else way for dart in self.darts(strand)}
+
+    def is_thin(self, lens: Move, inside: Mapping[int, int]) -> bool:
+        """Tell whether what lies between the runs of a lens is on its inner side, given the cells there.
+
+        If not, the rest of the drawing lies between them.
+        """
+        start = lens.runs[0].start
+        dart = self.path[self.plan.border_after[start]][0]
+        is_left = bool(self.plan.drawn.ccw[start]) != self.runs_back(lens)
+        side = self.plan.left if is_left == (dart % 2 == 0) else self.plan.right
+        return side[dart // 2] in inside
+
+    # ---- doing it ----------------------------------------------------------------------------------------------------
+
+    def make(self, move: Move, effect: Effect) -> set[int]:
+        """Make a move, given its effect; return visits with new neighbours. Some of these may be none any more."""
+        for cell, times in effect.times.items():
+            self.winding[cell] += times
+        ended = self._swap(move, effect.inside) if move.is_lens else self._leave_out(move.runs[0])
+        return {beside for visit in ended for beside in self._end_visit(visit)}
+
+    def _swap(self, lens: Move, inside: Mapping[int, int]) -> list[int]:
+        """Let two runs change places; return the visits that are none any more.
+
+        Strands that are too near each other to be told apart after rounding are cut short instead.
+        """
+        one, other = lens.runs
+        ways = [self.darts(strand) for strand in (other, one)]
+        if self.runs_back(lens):
+            ways = [[dart ^ 1 for dart in reversed(way)] for way in ways]
+        is_hair = self.plan.is_hair(one, inside)
+        for strand, way in zip((one, other), ways, strict=True):
+            for place in self.plan.places(strand):
+                self.path[place] = []
+            self.path[self.plan.border_after[strand.start]] = [] if is_hair else way
+        self.parted.update(self.plan.drawn.crossing_of_visit[[*one]].tolist())
+        return [*one, *other]
+
+    def _leave_out(self, lobe: Run) -> list[int]:
+        """Leave out a strand from a crossing back to it; return the visits that are none any more."""
+        start, end = lobe
+        corner = 1 if self.plan.drawn.ccw[end] else -1
+        turns = corner
+        for place in self.plan.places(lobe):
+            self.path[place] = []
+            turns += self.quarters[place]
+            self.quarters[place] = 0
+        # What is left turns at the crossing the other way.
+        self.quarters[self.plan.border_before[start]] -= corner
+        self.turning -= turns // 4
+        visits = [start]
+        while visits[-1] != end:
+            visits.append(self.after[visits[-1]])
+        return [each for visit in visits for each in {visit, self.plan.partner[visit]}]
+
+    def _end_visit(self, visit: int) -> tuple[int, int]:
+        """Let a visit be none any more; return those beside it."""
+        before, after = self.before[visit], self.after[visit]
+        if self.is_live[visit]:
+            self.is_live[visit] = False
+            self.after[before], self.before[after] = after, before
+        return before, after
+
+
+# ---- winding numbers -------------------------------------------------------------------------------------------------
+
+
+class _Wound(NamedTuple):
+    """How often closed ways go round cells: of those where that is not 0.
+
+    ``is_all`` is false if the walk through the cells was ended since they are too large.
+    """
+
+    times: dict[int, int]
+    is_all: bool
+
+
+def _wound(plan: Plan, ways: Mapping[int, int], most: float = float("inf")) -> _Wound:
+    """Return how often closed ways go round each cell, given how often they pass borders forward.
+
+    Parameters
+    ----------
+    plan : Plan
+    ways : mapping from border to int
+    most : float
+        End when the areas of the cells, so often, are surely more.
+    """
+    known = {0: 0}
+    times: dict[int, int] = {}
+    area = 0.0
+    for border in ways:
+        waiting = [_toward_the_outside(plan, ways, side[border], known) for side in (plan.left, plan.right)]
+        while waiting:
+            cell = waiting.pop()
+            number = known[cell]
+            if number == 0 or cell in times:
+                continue
+            times[cell] = number
+            area += abs(number) * (plan.areas.rounded[cell] - plan.areas.error[cell])
+            if area > most:
+                return _Wound(times, False)
+            for dart in plan.cells[cell]:
+                beyond = (plan.left if dart % 2 else plan.right)[dart // 2]
+                if beyond not in times:
+                    jump = ways.get(dart // 2, 0)
+                    known[beyond] = number + (jump if dart % 2 else -jump)
+                    waiting.append(beyond)
+    return _Wound(times, True)
+
+
+def _toward_the_outside(plan: Plan, ways: Mapping[int, int], cell: int, known: dict[int, int]) -> int:
+    """Make known how often the ways go round a cell, from a cell of which it is known; return the cell."""
+    chain, at = [], cell
+    while at not in known:
+        chain.append(at)
+        at = plan.parent[at]
+    for step in reversed(chain):
+        border = plan.link[step]
+        jump = ways.get(border, 0)
+        known[step] = known[at] + (jump if plan.left[border] == step else -jump)
+        at = step
+    return cell
