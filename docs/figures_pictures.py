@@ -16,7 +16,6 @@ from plyfold.disk.motion import Motion
 from plyfold.draw.canvas import line, polygon, write
 from plyfold.draw.placement import Frame
 from plyfold.gallery import CURVES
-from plyfold.offers.kinks import find_kink
 from plyfold.paper.collapsed import edge_collapsed_graph, linear_spanning_subtrees
 
 DRAWING = (-90.0, 90.0)
@@ -180,9 +179,7 @@ def figure_9() -> None:
     with panels("figure-09", 1, 4, (13, 3.7)) as axes:
         for name in ("figure-eight", "kinked-circle", "limacon", "doubled-circle"):
             arrangement = arranged(name)
-            obstruction, kink = pf.find_immersion(arrangement), find_kink(arrangement)
-            where = obstruction.where or kink.places
-            draw.plot_obstruction(arrangement, replace(obstruction, where=where), ax=next(axes))
+            draw.plot_obstruction(arrangement, pf.find_immersion(arrangement), ax=next(axes))
 
 
 # ---- sections 3 and 4 ----------------------------------------------------------------------------------------------

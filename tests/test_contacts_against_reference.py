@@ -6,7 +6,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
-from nightly.contacts import certified, judge_as_placed
+from nightly.contacts import certified, judge_as_placed, without_touches
 from plyfold.errors import CurveError
 from reference.contacts import (
     answer,
@@ -42,32 +42,45 @@ KNOWN = {
 
 
 def reference_counts(outline):
-    """How many surfaces an outline bounds, strictly and as a limit; None where the reference takes too long."""
+    """How many surfaces an outline bounds, strictly and as a limit.
+
+    None where the reference takes too long, or where nothing is left without spikes.
+    """
     left = list(map(without_spikes, map(exact, outline.loops)))
     # Only loops without cusps have spikes here.
     marks = [index if any(index) else [0] * len(loop) for loop, index in zip(left, outline.cusps, strict=True)]
     loops, cusps = [loop for loop in left if loop], [list(index) for index in marks if len(index)]
-    for directed, index in either_direction(loops, cusps):
+    for directed, index in either_direction(loops, cusps) if loops else ():
         winding = touching_drawing(directed).winding
         if max(winding) > MOST_SHEETS:
             return None
         if min(winding) >= 0:
             directed, index = with_vertices_at_cusps(directed, index)  # noqa: PLW2901
             return count_strict(directed, index), count_outward(np.random.default_rng(0), directed, index)
-    return 0, 0
+    return (0, 0) if loops else None
 
 
 def judge(outline):
     """The answers about an outline without spikes at cusps; return the numbers of surfaces."""
     counts = reference_counts(outline)
     if counts is not None:
-        assert (bool(pf.count_immersions(outline)), pf.count_immersions(outline)) == (counts[1] > 0, counts[1])
+        drawn = pf.arrange(outline)
+        assert (without_touches(drawn), pf.count_immersions(drawn)) == counts
         certified(outline)
     return counts
 
 
 @pytest.mark.parametrize("name", KNOWN)
-def test_all_positions_of_the_page_from_every_start(name):
+def test_all_positions_of_the_page_from_some_starts(name):
+    expected = answer(KNOWN[name])
+    for number, placed in enumerate(positions(KNOWN[name])):
+        for changed in list(starts(placed))[number % 4 :: 4]:
+            judge_as_placed(changed, expected)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", KNOWN)
+def test_every_start_in_every_position(name):
     expected = answer(KNOWN[name])
     for placed in positions(KNOWN[name]):
         for changed in starts(placed):
@@ -75,7 +88,7 @@ def test_all_positions_of_the_page_from_every_start(name):
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_random_polygons_from_every_start(seed):
+def test_random_polygons_from_many_starts(seed):
     polygon = random_touching(np.random.default_rng(seed), most=7)
     expected = answer(polygon)
     for number, placed in enumerate(positions(polygon)):
@@ -91,13 +104,13 @@ def test_scales_and_places(scale, shift):
 
 
 def test_several_loops():
-    found = [judge(pf.Outline(random_touching_loops(np.random.default_rng(seed)))) for seed in range(25)]
+    found = [judge(pf.Outline(random_touching_loops(np.random.default_rng(seed)))) for seed in range(18)]
     assert {(0, 0), (0, 1), (1, 1)} <= set(found)
 
 
 def test_cusps():
     found = []
-    for seed in range(40):
+    for seed in range(30):
         polygon, cusps = random_touching_with_cusps(np.random.default_rng(seed), 1)
         if contacts([exact(polygon)]):
             found.append(judge(pf.Outline([polygon], [cusps])))
@@ -113,14 +126,13 @@ def test_a_zigzag_is_a_cusp_only_where_it_is_marked():
         assert pf.bounds_disk(pf.Curve(zigzag, cusps={tip: 1}))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(touching_outlines())
 def test_any_outline(outline):
-    assume(any(without_spikes(exact(loop)) for loop in outline.loops))
     judge(outline)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(touching_outlines(), st.data())
 def test_any_outline_with_a_cusp(outline, data):
     assume(all(without_spikes(exact(loop)) == exact(loop) for loop in outline.loops))
@@ -138,7 +150,7 @@ def test_nothing_is_left():
 @pytest.mark.slow
 @pytest.mark.parametrize("part", range(4))
 def test_more_of_all_kinds(part):
-    for seed in range(10_000 + part, 12_000, 4):
+    for seed in range(10_000 + part, 11_000, 4):
         rng = np.random.default_rng(seed)
         judge(pf.Outline(random_touching_loops(rng)))
         polygon, cusps = random_touching_with_cusps(rng, 1)

@@ -99,10 +99,10 @@ def test_several_are_no_single_curve(value, call):
 
 
 def test_several_are_an_outline():
-    """But strokes are none, nor curves that overlap."""
-    for name in ("strokes", "curves"):
-        with pytest.raises(PlyfoldError):
-            pf.lift(SEVERAL[name][0])
+    """But strokes are none. Curves that overlap bound pieces that lie over each other."""
+    with pytest.raises(PlyfoldError):
+        pf.lift(SEVERAL["strokes"][0])
+    assert len(pf.find_immersion(SEVERAL["curves"][0]).pieces) == 2
     assert len(pf.lift(SEVERAL["geometries"][0], triangles=50).outline.loops) == 2
 
 
@@ -147,8 +147,9 @@ def test_lists_that_are_not_signed_codes(code):
 
 GPX = '<?xml version="1.0"?><gpx xmlns="http://www.topografix.com/GPX/1/1"><trk><trkseg/></trk></gpx>'
 FILES = {
-    "track.gpx": (GPX, "GPX", "GeoJSON"),
-    "track.txt": (GPX, "GPX", "GeoJSON"),
+    "track.gpx": (GPX, "no track", "lat and lon"),
+    "track.txt": (GPX, "no track", "lat and lon"),
+    "track.svg": (GPX, "its root is <gpx>", "path"),
     "place.kml": ('<kml xmlns="http://www.opengis.net/kml/2.2"/>', "KML", "GeoJSON"),
     "pd.txt": ("PD[X[1,4,2,5],X[3,6,4,1],X[5,2,6,3]]", "PD code", NONE_YET),
     "pd.json": ("[[1,4,2,5],[3,6,4,1],[5,2,6,3]]", "PD code", NONE_YET),
@@ -209,7 +210,7 @@ def limits():
         "code": lambda: pf.GaussCode.parse("1+ 1+ / outer 1"),
         "name": lambda: pf.gallery.named_curve("milnr"),
         "file": lambda: pf.read("no-such-file.svg"),
-        "list": lambda: pf.lift([SQUARE, SQUARE]),
+        "list": lambda: pf.lift([eight, eight]),
     }
 
 

@@ -67,6 +67,8 @@ def test_public_names():
         "paper",
         "read",
         "repair",
+        "ribbon",
+        "ribbon_layering",
         "sample_immersion",
         "save",
         "suggest_cusps",

@@ -55,6 +55,7 @@ EXCEPTIONS = {
     ("plyfold.outline.curve", "plyfold.draw.svg"): "_repr_svg_ of a curve",
     ("plyfold.obstruction", "plyfold.draw.notebook"): "_repr_png_ of an obstruction",
     ("plyfold.immersion.immersion", "plyfold.draw.notebook"): "_repr_png_ of an immersion that is no disk",
+    ("plyfold.immersion.immersion", "plyfold.flat.settle"): "touches: where the triangles of an immersion are cut",
     ("plyfold.disk.unwrap", "plyfold.draw.notebook"): "_repr_png_ of an unwound disk",
     ("plyfold.surface.thicken", "plyfold.draw.notebook"): "_repr_png_ of a solid",
     ("plyfold.surface.lift", "plyfold.draw.film"): "export to .gif and .mp4",
@@ -69,6 +70,7 @@ SAME_THINGS = {
     "Signs": "certify shares nothing with what it checks",
     "find_immersion": "the exact one, and that of the paper as pf.paper.find_immersion",
     "find_layering": "the exact one, and that of the paper as pf.paper.find_layering",
+    "ribbon": "a line with a width, and one whose normals are guessed from its points as pf.gallery.ribbon",
     "save": "an outline, and a figure as pf.draw.save",
 }
 

@@ -39,6 +39,7 @@ from .layering.embedding import embeddings as embeddings
 from .layering.embedding import find_embedding as find_embedding
 from .layering.layering import Layering as Layering
 from .layering.levels.casing import embed_cased as embed_cased
+from .layering.levels.heights import ribbon_layering as ribbon_layering
 from .layering.orders.counting import count_layerings as count_layerings
 from .layering.orders.intersections import IntersectingLayering as IntersectingLayering
 from .layering.orders.intersections import least_intersecting_layering as least_intersecting_layering
@@ -54,6 +55,7 @@ from .offers.repair import SmallChange as SmallChange
 from .offers.repair import repair as repair
 from .outline.curve import Curve as Curve
 from .outline.curve import Outline as Outline
+from .outline.ribbons.ribbon import ribbon as ribbon
 from .surface.lift import Surface as Surface
 from .surface.lift import lift as lift
 

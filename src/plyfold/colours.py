@@ -84,6 +84,7 @@ _PAGE: Mapping[str, tuple[str, str]] = {
     "accent": (ACCENT, "#f29b6b"),
     "wrong": (OBSTRUCTION, "#ff6b78"),
     "cusp": (CUSP, "#d9a3e2"),
+    "touch": ("#8f5f00", "#f2c55c"),
     "good": ("#10705a", "#6fd3b5"),
     "lit": ("#f2b632", "#d99a1c"),
     "dot": ("#cfd6e0", "#333c4b"),

@@ -12,7 +12,7 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.errors import TimeLimitError
 from plyfold.immersion.immersion import Immersion, Piece
 from plyfold.immersion.obstructions import may_bound_disk
-from plyfold.immersion.solve import count_immersions, find_immersion, immersions
+from plyfold.immersion.solve import bounds_strictly, count_immersions, find_immersion, immersions
 from plyfold.io.cusp_notation import CuspMark, cusp_marks, written_cusp
 from plyfold.layering.embedding import find_embedding
 from plyfold.layering.orders.search import first_layering
@@ -28,8 +28,10 @@ __all__ = [
     "describe",
     "in_words",
     "offer_in_words",
+    "repair_in_words",
     "repair_lines",
     "surface_in_words",
+    "touches_of",
     "verdict",
     "words",
 ]
@@ -44,7 +46,7 @@ _COMMANDS = {
     "cusps": "--cusps auto",
     "fill": "plyfold split FILE --fill nonzero -o OUT",
 }
-_SHOWN_REPAIRS = _SHOWN_CUSPS = 5
+_SHOWN_REPAIRS = _SHOWN_CUSPS = _SHOWN_PLACES = 5
 _LONGEST_NUMBER = 12
 _UNDECIDED = "Whether it can be lifted was not decided in time."
 
@@ -57,7 +59,9 @@ class Words:
     sentence: str
 
 
-def words(immersions: int | None, obstruction: str = "", decided: bool = True, surface: str = A_DISK) -> Words:
+def words(
+    immersions: int | None, obstruction: str = "", decided: bool = True, surface: str = A_DISK, touches: bool = False
+) -> Words:
     """Return the verdict on an outline in words.
 
     Parameters
@@ -70,6 +74,8 @@ def words(immersions: int | None, obstruction: str = "", decided: bool = True, s
         Whether it is known if that one can be lifted.
     surface : str
         What it bounds, or might have bounded, as :func:`surface_in_words` says.
+    touches : bool
+        Whether that touches itself, so that the outline is a limit of outlines of such surfaces.
 
     Examples
     --------
@@ -77,12 +83,16 @@ def words(immersions: int | None, obstruction: str = "", decided: bool = True, s
     ('A disk of cloth, in 2 ways', 'This is the outline of a disk of cloth, which can lie in 2 ways.')
     >>> words(1, surface="a ring of cloth").sentence
     'This is the outline of a ring of cloth, which can lie in one way.'
+    >>> words(1, touches=True).headline
+    'A disk of cloth that touches itself'
     >>> words(0, "The curve turns 2 times, and the outline of a disk turns once.").headline
     'No disk'
     """
     if immersions == 0:
         return Words("No disk" if surface == A_DISK else "No surface", obstruction)
     ways = f", in {in_words(immersions)} ways" if immersions is not None and immersions > 1 else ""
+    if touches:
+        surface += " that touches itself" if surface.startswith("a ") else ", which touch themselves or each other"
     headline = f"{surface[0].upper()}{surface[1:]}{ways}"
     if obstruction:
         return Words(f"{headline}; this one cannot be lifted", obstruction)
@@ -173,10 +183,11 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
     dict
         ``points``, ``loops``, ``cusps`` (of each: ``loop``, ``point``, ``index``, ``where``), ``crossings``, ``cells``
         (number of cells by winding number), ``turning_number``, ``reversed``, ``repairs``, ``immersible``,
-        ``immersions``; for a surface also ``surface`` (in words), ``pieces``, ``euler_characteristic``, ``sheets``,
-        ``layerable``, and, for a disk, ``examined`` (immersions), otherwise ``reason``, ``sentence`` and ``where``; and
-        for a drawing ``offers``, what can be done: each has a ``kind``, ``"repair"``, ``"cusps"`` or ``"fill"``, a
-        ``sentence`` and a ``command``, and the first two what they change and the ``surface`` that it would bound.
+        ``immersions``; for a surface also ``surface`` (in words), ``touches`` (where it touches itself; no places if
+        the outline bounds one that does not), ``pieces``, ``euler_characteristic``, ``sheets``, ``layerable``, and, for
+        a disk, ``examined`` (immersions), otherwise ``reason``, ``sentence`` and ``where``; and for a drawing
+        ``offers``, what can be done: each has a ``kind``, ``"repair"``, ``"cusps"`` or ``"fill"``, a ``sentence`` and a
+        ``command``, and the first two what they change and the ``surface`` that it would bound.
 
     Examples
     --------
@@ -223,9 +234,23 @@ def _offers(arrangement: Arrangement) -> dict[str, Any]:
     return {"offers": [*listed, fill]}
 
 
+def repair_in_words(found: Repaired) -> str:
+    """Say what a repair does, and what comes of it.
+
+    Examples
+    --------
+    >>> from plyfold import repair
+    >>> repair_in_words(repair([(0, 0), (60, 0), (60, 41), (61, 41), (61, 40), (0, 40)]))
+    'leaving out 1 loop, 0.0416% of the region, makes it a disk of cloth'
+    """
+    return f"{found.done}, {percent(found.region_change)} of the region, makes it {_repaired_surface(found)}"
+
+
+def _repaired_surface(found: Repaired) -> str:
+    return A_DISK if found.outline.n_loops == 1 else "a surface"
+
+
 def _repair_offer(found: Repaired) -> dict[str, Any]:
-    surface = A_DISK if found.outline.n_loops == 1 else "a surface"
-    sentence = f"{found.done}, {percent(found.region_change)} of the region, makes it {surface}"
     changes = [
         {
             "kind": change.kind,
@@ -238,9 +263,9 @@ def _repair_offer(found: Repaired) -> dict[str, Any]:
     ]
     return {
         "kind": "repair",
-        "sentence": sentence,
+        "sentence": repair_in_words(found),
         "command": _COMMANDS["repair"],
-        "surface": surface,
+        "surface": _repaired_surface(found),
         "changes": changes,
         "region_change": found.region_change,
         "layer_change": found.layer_change,
@@ -261,10 +286,24 @@ def _surface(immersion: Immersion) -> dict[str, Any]:
     ]
     return {
         "surface": surface_in_words(immersion.pieces),
+        "touches": touches_of(immersion),
         "pieces": pieces,
         "euler_characteristic": immersion.euler_characteristic,
         "sheets": immersion.n_sheets,
     }
+
+
+def touches_of(immersion: Immersion) -> list[list[float]]:
+    """Return where a surface touches itself; nothing, if the outline also bounds a surface in the strict sense.
+
+    Examples
+    --------
+    >>> touches_of(find_immersion([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)]))
+    [[1.0, 1.0]]
+    """
+    if not immersion.touches or bounds_strictly(immersion.arrangement):
+        return []
+    return [list(place) for place in immersion.touches]
 
 
 def _cusps(outline: Outline | None) -> list[dict[str, Any]]:
@@ -330,11 +369,17 @@ def _rows(figures: dict[str, Any]) -> dict[str, str]:
         "cusps": _listed_cusps(figures["cusps"]),
         "Euler characteristic": str(figures.get("euler_characteristic", "")),
         "immersions": "unknown" if figures["immersions"] is None else f"{figures['immersions']:,}",
+        "touches itself at": _listed_places(figures["touches"]) if figures["immersible"] else "",
         "layering": _layering_sentence(figures) if figures["immersible"] else "",
     }
     if rows["Euler characteristic"] == "1" and not rows["loops"]:
         rows["Euler characteristic"] = ""
     return {name: value for name, value in rows.items() if value}
+
+
+def _listed_places(places: list[list[float]]) -> str:
+    more = f" and {len(places) - _SHOWN_PLACES} more" if len(places) > _SHOWN_PLACES else ""
+    return ", ".join("({:.6g}, {:.6g})".format(*place) for place in places[:_SHOWN_PLACES]) + more
 
 
 def _listed_cusps(cusps: list[dict[str, Any]]) -> str:
@@ -349,7 +394,8 @@ def _cusp_and_place(cusp: dict[str, Any]) -> str:
 
 def _headline(figures: dict[str, Any]) -> str:
     if figures["immersible"]:
-        return f"Yes. {words(figures['immersions'], surface=figures['surface']).sentence}"
+        said = words(figures["immersions"], surface=figures["surface"], touches=bool(figures["touches"]))
+        return f"Yes. {said.sentence}"
     if figures["immersible"] is None:
         return "Unknown. Whether this is the outline of a surface was not decided in time."
     plain = figures["loops"] == 1 and not figures["cusps"]

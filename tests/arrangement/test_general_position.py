@@ -6,8 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
+from plyfold.arrangement.polylines import polygon_turning_number
 from plyfold.errors import CurveError, GeneralPositionError
 from reference import crossings as reference
+from reference.crossings import cross, exact, minus
 
 TOUCHING = {
     "vertex touches an edge": ([(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)], 0),
@@ -16,7 +18,7 @@ TOUCHING = {
         [(-1, -1), (1, 1), (2, 1), (2, -1), (1, -1), (-1, 1), (-2, 1), (-2, 0), (3, 0)],
         6,
     ),
-    "a spike": ([(0, 0), (4, 0), (8, 0), (4, 0), (4, 4)], 0),
+    "two strands in opposite directions": ([(0, 0), (4, 0), (4, 2), (2, 2), (2, 0), (0, 0), (0, 4), (-4, 4)], 0),
     "a square run through twice": ([(0, 0), (4, 0), (4, 4), (0, 4)] * 2, 1),
     "two corners touch": ([(0, 0), (2, 2), (4, 0), (4, 4), (2, 2), (0, 4)], 0),
 }
@@ -84,4 +86,60 @@ def test_the_answer_does_not_depend_on_the_frame(points, start):
     assert summary(points * 1e8) == expected
     assert summary(points + np.array([12345, -777])) == expected
     assert summary(np.roll(points, start, axis=0)) == expected
-    assert summary(points[::-1]) == expected
+    # A curve that turns 0 times has no direction of its own, and no outside to move to.
+    assert expected[1] == 0 or summary(points[::-1]) == expected
+
+
+@settings(max_examples=100, deadline=None)
+@given(grid)
+def test_points_in_contact_move_outward(points):
+    """To the right of both edges, in fractions; the others stay, and none is near where it was not."""
+    try:
+        drawn = pf.arrange(points)
+    except CurveError:
+        return
+    given, moved = (list(map(tuple, outline.points.tolist())) for outline in (drawn.given, drawn.outline))
+    if polygon_turning_number(drawn.given.points) == 0 or len(drawn.contacts) == 0:
+        return
+    assert {v for v, (p, q) in enumerate(zip(given, moved, strict=True)) if p != q} >= set(drawn.contacts.tolist())
+    for v in drawn.contacts.tolist():
+        before, here, after, goal = (
+            exact([p])[0] for p in (given[v - 1], given[v], given[(v + 1) % len(given)], moved[v])
+        )
+        away = minus(goal, here)
+        assert cross(minus(here, before), away) < 0
+        assert cross(minus(after, here), away) < 0
+        assert max(map(abs, away)) < 1e-4
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_crowded_grids(seed):
+    """Points that lie on each other several times, and everything on edges: crossings as in fractions."""
+    rng = np.random.default_rng(seed)
+    points = rng.integers(0, 5, (24, 2))
+    drawn = pf.arrange(points)
+    drawn.check()
+    code, _, _ = reference.crossings(drawn.curve.points.tolist())
+    assert (drawn.partner.tolist(), drawn.ccw.tolist()) == (list(code.partner), list(map(bool, code.ccw)))
+
+
+def test_hundreds_of_points_on_a_crowded_grid():
+    points = np.random.default_rng(1).integers(0, 10, (300, 2))
+    drawn = pf.arrange(points)
+    drawn.check()
+    assert drawn.n_crossings > 5000
+
+
+def test_far_from_the_origin_steps_are_as_short_as_they_can_be():
+    drawn = pf.arrange(np.array(TOUCHING["two corners touch"][0]) + 2.0**44)
+    assert drawn.n_crossings == 0
+    assert drawn.outline.repairs
+
+
+def test_no_room_between_doubles():
+    """Neighbours among doubles, with a vertex between two of them."""
+    one = 1.0 + 2**-52 * np.arange(4)
+    points = [(one[0], one[0]), (one[2], one[0]), (one[2], one[2]), (one[1], one[0]), (one[0], one[2])]
+    with pytest.raises(GeneralPositionError) as caught:
+        pf.arrange(points)
+    assert caught.value.where

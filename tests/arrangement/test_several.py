@@ -210,15 +210,39 @@ def test_a_crossing_at_the_height_of_a_loop_inside():
                 assert_as_in_fractions(polygons)
 
 
-def test_copies_and_touching_loops_are_refused():
-    for other in (diamond(4), [(4, 0), (9, 0), (9, 9)], [(2, 2), (9, 9), (9, 0)]):
-        with pytest.raises(GeneralPositionError, match="vertices on other edges"):
-            arrange([diamond(4), other])
+@pytest.mark.parametrize("other", [diamond(4), [(4, 0), (9, 0), (9, 9)], [(2, 2), (9, 9), (9, 0)]])
+def test_copies_and_touching_loops(other):
+    """They are refused with their places, or moved apart."""
+    with pytest.raises(GeneralPositionError, match="vertices on other edges"):
+        arrange([diamond(4), other], general_position="raise")
+    found = arrange([diamond(4), other])
+    found.check()
+    assert {repair.kind for repair in found.outline.repairs} == {"vertex moved"}
+    assert_as_in_fractions([loop.tolist() for loop in found.outline.loops])
+
+
+def test_three_edges_of_several_loops_through_a_point():
+    loops = [[(-2, 0), (2, 0), (0, 5)], [(-1, -1), (1, 1), (0, 3)], [(-1, 1), (1, -1), (9, -5), (9, 9)]]
     with pytest.raises(GeneralPositionError, match=r"three edges: [1-9]") as caught:
-        arrange([[(-2, 0), (2, 0), (0, 5)], [(-1, -1), (1, 1), (0, 3)], [(-1, 1), (1, -1), (9, -5), (9, 9)]])
+        arrange(loops, general_position="raise")
     assert (0, 0) in caught.value.where
+    found = arrange(loops)
+    found.check()
+    assert_as_in_fractions([loop.tolist() for loop in found.outline.loops])
+
+
+def test_no_loop():
     with pytest.raises(InputError):
         arrange([])
+
+
+def test_touching_loops_nested_in_a_touching_one():
+    """Inside a square that touches its copy, small loops that touch each other and one of its corners."""
+    square = [(0, 0), (9, 0), (9, 9), (0, 9)]
+    inside = [[(0, 0), (2, 1), (1, 2)], [(1, 2), (2, 1), (3, 3)], [(5, 5), (6, 5), (6, 6)], [(6, 6), (6, 5), (7, 5)]]
+    found = arrange([square, square, *inside])
+    found.check()
+    assert_as_in_fractions([loop.tolist() for loop in found.outline.loops])
 
 
 OUTER = [(0, 0), (9, 0), (9, 9), (0, 9)]

@@ -8,7 +8,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
-from plyfold.errors import CurveError, NotImmersibleError
+from plyfold.certify import check_pieces
+from plyfold.errors import CurveError, GeneralPositionError, NotImmersibleError
 from plyfold.flat.settle import Settled, cuts_of, settle, settled_triangles
 from plyfold.mesh.refine import given_outline
 from reference import random_curves
@@ -76,8 +77,7 @@ def check_polygons(points):
 
 def check_refined(points, share):
     """Check triangles with more points: they are positive, and together the outline; pieces have nothing in common."""
-    drawn = pf.arrange(points)
-    outline = rational(given_outline(drawn).points.tolist())
+    outline = rational(pf.arrange(points).given.points.tolist())
     places, faces = pf.triangulate(points, refine=share * float(double_area(outline)) / 2)
     corners = [[rational(places.tolist())[corner] for corner in face] for face in faces.tolist()]
     assert all(double_area(triangle) > 0 for triangle in corners)
@@ -122,9 +122,26 @@ def test_a_point_inside_an_edge():
         frozenset({(2, 0), (4, 0), (4, 2), (3, 2)}),
     }
     assert len(pf.triangulate(TOUCHED_EDGE)) == 4
+    assert cuts_of(pf.find_immersion(TOUCHED_EDGE)).tolist() == [[2, 0]]
     places, fine = pf.triangulate(TOUCHED_EDGE, refine=0.25)
     assert places[7].tolist() == [2, 0]
     assert len(pieces_of(fine.tolist())) == 2
+
+
+@pytest.mark.parametrize("turn", [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1)])
+def test_many_points_inside_an_edge(turn):
+    """They are corners in the order in which the edge comes to them, wherever it runs."""
+    c, s = turn
+    comb = [(0, 0), (8, 0), (8, 2), (7, 2), (6, 0), (5, 2), (4, 0), (3, 2), (2, 0), (1, 2), (0, 2), (-1, 1)]
+    there = [(c * x - s * y, s * x + c * y) for x, y in comb]
+    assert check(there) == 4
+    assert len(cuts_of(pf.find_immersion(there))) == 3
+    settled = settled_triangles(pf.find_immersion(there))
+    assert settled.point[settled.inside].tolist() == [8, 6, 4]
+    with_spike = [*there[:3], (9 * c - 3 * s, 9 * s + 3 * c), *there[2:]]
+    places, faces = pf.triangulate(with_spike, refine=0.5)
+    assert places[:14].tolist() == [list(place) for place in with_spike]
+    assert len(pieces_of(faces.tolist())) == 4
 
 
 def test_many_pieces_at_one_point():
@@ -185,6 +202,93 @@ def test_whatever_the_triangles_were(diagonals):
         frozenset({1, 2, 3}),
     }
     assert settled.cuts.tolist() == [1]
+
+
+def test_spikes_are_no_corners():
+    """They keep their numbers, and no triangle has them."""
+    points = [(0, 0), (4, 0), (4, 4), (6, 6), (4, 4), (0, 4), (0, 2), (-1, 2), (0, 2)]
+    for given_points in (points, points[::-1]):
+        faces = pf.triangulate(given_points)
+        corners = [rational([given_points[corner] for corner in face]) for face in faces.tolist()]
+        assert all(double_area(triangle) > 0 for triangle in corners)
+        assert sum(double_area(triangle) for triangle in corners) == 32
+        places, fine = pf.triangulate(given_points, refine=3.0)
+        assert places[:9].tolist() == [list(place) for place in given_points]
+        assert sum(double_area(rational(places[face].tolist())) for face in fine) == 32
+        assert pf.triangulate(pf.Curve(given_points), pf.find_immersion(given_points)).tolist() == faces.tolist()
+        drawn = pf.arrange(given_points)
+        left = drawn.given.points[np.argsort(drawn.numbers)]
+        for named, rows in ((left, pf.triangulate(drawn)), pf.triangulate(drawn, refine=3.0)):
+            assert sum(double_area(rational(named[face].tolist())) for face in rows) == 32
+
+
+def random_loops(seed, count):
+    """One to three loops on a small grid, mostly in a square, and a cusp on some."""
+    rng = np.random.default_rng(seed)
+    for _ in range(count):
+        size, n_loops = int(rng.integers(2, 6)), int(rng.integers(1, 4))
+        loops = [rng.integers(0, size + 1, (int(rng.integers(3, 7)), 2)).tolist() for _ in range(n_loops)]
+        if rng.random() < 0.7:
+            loops[0] = [(0, 0), (size // 2, 0), (size, 0), (size, size), (0, size)]
+        yield loops, {(int(rng.integers(n_loops)), 0): 1} if rng.random() < 0.4 else {}
+
+
+def test_loops_and_cusps():
+    """Several loops that touch each other, too; by the checker of pieces, which knows nothing of all this."""
+    cut = {False: 0, True: 0}
+    for loops, cusps in random_loops(seed=5, count=500):
+        try:
+            immersion = pf.find_immersion(pf.Outline(loops, cusps))
+        except (CurveError, GeneralPositionError):  # an edge that runs over a cusp that stays
+            continue
+        if immersion:
+            drawn, settled = immersion.arrangement.given, settled_triangles(immersion)
+            check_pieces(drawn.loops, drawn.points[settled.point], settled.faces, drawn.cusps)
+            places = [rational(drawn.points[settled.point[face]].tolist()) for face in settled.faces]
+            outlines = [side for loop in drawn.loops for side in sides(rational(loop.tolist()))]
+            assert are_the_same([side for triangle in places for side in sides(triangle)], outlines)
+            cut[drawn.has_cusps] += len(settled.cuts) > 0
+    assert cut[False] > 20
+    assert cut[True] > 3
+
+
+def shapes(points):
+    """The pieces of an outline, each by the places of its corners; straight ones are left out."""
+    immersion = pf.find_immersion(points)
+    settled, drawn = settled_triangles(immersion), immersion.arrangement.given
+    polygons = [drawn.points[settled.point[boundary_of(piece)]] for piece in pieces_of(settled.faces.tolist())]
+    return [[tuple(place) for place in polygon.tolist()] for polygon in polygons]
+
+
+def as_one_sees(polygons):
+    """Without corners of 180 degrees, from the lowest corner on, in order."""
+    seen = []
+    for polygon in polygons:
+        ends = zip(polygon[-1:] + polygon[:-1], polygon, polygon[1:] + polygon[:1], strict=True)
+        corners = [here for before, here, after in ends if double_area(rational([before, here, after]))]
+        least = corners.index(min(corners))
+        seen.append(corners[least:] + corners[:least])
+    return sorted(seen)
+
+
+def test_the_same_pieces_in_every_position_and_from_every_start():
+    found = 0
+    for points in random_grid_polygons(seed=8, count=400):
+        try:
+            if has_spikes(points) or pf.count_immersions(points) != 1:
+                continue
+        except CurveError:
+            continue
+        pieces = shapes(points)
+        if len(pieces) > 1:
+            found += 1
+            for start, (turn, mirror) in enumerate(product(range(4), (1, -1))):
+                there = np.array([[1, 0], [0, mirror]]) @ np.linalg.matrix_power(np.array([[0, -1], [1, 0]]), turn)
+                moved = np.roll(np.array(points) @ there, start, axis=0)
+                back = [[tuple(place) for place in np.array(piece) @ there.T] for piece in shapes(moved)]
+                back = [piece[::mirror] for piece in back]
+                assert as_one_sees(back) == as_one_sees(pieces)
+    assert found > 5
 
 
 def random_grid_polygons(seed, count):

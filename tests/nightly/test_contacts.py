@@ -10,7 +10,7 @@ FIRST_SEED = 10_000_000
 """Far from the seeds of the nightly run."""
 
 
-@pytest.mark.parametrize("seed", range(FIRST_SEED, FIRST_SEED + 20))
+@pytest.mark.parametrize("seed", range(FIRST_SEED, FIRST_SEED + 12))
 def test_a_slice_of_outlines(seed):
     rng = np.random.default_rng(seed)
     contacts.judge(random_touching(rng), rng, places=8, tries=10)
@@ -25,7 +25,7 @@ def test_many_moves_in_all_positions(part):
 
 
 def test_failures_are_counted(monkeypatch, capsys):
-    monkeypatch.setattr(contacts, "judge", lambda polygon, rng, places, tries: 1 / (len(polygon) % 2))
+    monkeypatch.setattr(contacts, "judge", lambda polygon, rng, places, tries: 1 / (rng.random() < 0.5))
     monkeypatch.setattr("sys.argv", ["contacts", "--outlines", "12"])
     assert contacts.main() == 1
     assert "ZeroDivisionError" in capsys.readouterr().out

@@ -86,7 +86,7 @@ class TestStrict:
 
     def test_curves(self):
         rng, bound = np.random.default_rng(1), 0
-        for i in range(80):
+        for i in range(50):
             polygon = random_polygon(rng, 8) if i % 2 else glued_disk(rng, 8)
             for points in (polygon, polygon[::-1]):
                 code = crossings(points).code
@@ -97,7 +97,7 @@ class TestStrict:
 
     def test_loops_and_cusps(self):
         rng, compared, bound = np.random.default_rng(2), 0, 0
-        while compared < 60:
+        while compared < 40:
             loops = [*small_loops(rng, 5), FRAME]
             cusps = [[int(rng.random() < 0.1) for _ in loop] for loop in loops]
             try:
@@ -170,12 +170,12 @@ def judged_with_cusps(seeds, tries):
 
 class TestTheorem:
     def test_random_polygons(self):
-        found = [judge_polygon(random_touching(np.random.default_rng(seed)), tries=10) for seed in range(150)]
-        assert sum(answers == (0, 1) for answers in found) > 20
-        assert sum(answers == (1, 1) for answers in found) > 5
+        found = [judge_polygon(random_touching(np.random.default_rng(seed)), tries=10) for seed in range(60)]
+        assert sum(answers == (0, 1) for answers in found) > 10
+        assert sum(answers == (1, 1) for answers in found) > 2
 
     def test_cusps(self):
-        found = list(judged_with_cusps(range(40), tries=5))
+        found = list(judged_with_cusps(range(20), tries=5))
         assert {(0, 0), (0, 1)} < set(found)
 
     @pytest.mark.slow
@@ -188,7 +188,7 @@ class TestTheorem:
 
     @pytest.mark.slow
     def test_more_random_polygons(self):
-        for seed in range(1_000, 3_000):
+        for seed in range(1_000, 2_000):
             judge_polygon(random_touching(np.random.default_rng(seed)), tries=60)
             judge_polygon(random_touching(np.random.default_rng(seed), most=14), tries=10)
 

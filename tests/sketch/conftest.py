@@ -69,9 +69,9 @@ class Server:
 
     def post(self, name, body, **headers):
         """Send bytes, or a question as JSON; ``X_File_Name`` stands for ``X-File-Name``."""
-        content = body if isinstance(body, bytes) else json.dumps({"version": 2} | body).encode()
+        content = body if isinstance(body, bytes) else json.dumps({"version": 3} | body).encode()
         given = {key.replace("_", "-"): value for key, value in headers.items()}
-        return self.request("POST", f"/api/v2/{name}", content, {"Content-Type": "application/json"} | given)
+        return self.request("POST", f"/api/v3/{name}", content, {"Content-Type": "application/json"} | given)
 
 
 @contextmanager

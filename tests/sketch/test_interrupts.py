@@ -21,7 +21,7 @@ from plyfold.sketch.workers import Question, Workers
 
 if __name__ == "__main__":
     workers = Workers()
-    question = Question("look", b'{"version": 2, "points": [[0, 0], [1, 0], [0, 1]]}', {}, 300)
+    question = Question("look", b'{"version": 3, "points": [[0, 0], [1, 0], [0, 1]]}', {}, 300)
     print(workers.ask(question).status)
     workers.close()
 """

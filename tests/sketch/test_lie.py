@@ -1,11 +1,14 @@
 """How the cloth lies, as the page is told: every number of it against the definitions."""
 
+from base64 import b64decode
 from dataclasses import asdict
 from itertools import combinations
 
 import numpy as np
 import pytest
 import shapely
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
 
 from coarse import CURVES
 from plyfold.errors import TimeLimitError
@@ -194,3 +197,37 @@ def test_a_surface_that_cuts_itself_only_where_that_is_asked_for():
 def test_no_surface_without_a_disk():
     answer = lifted(Lift(closed(CURVES["figure-eight"].curve.points.tolist()), 0, 0, None, 300))
     assert answer["obstruction"]["reason"] == "turning number"
+
+
+# ---- outlines that touch themselves ----------------------------------------------------------------------------------
+
+
+def pieces_of(mesh):
+    """Return the sets of vertices of a mesh, as the page reads it, that hang together by triangles."""
+    faces = np.frombuffer(b64decode(mesh["faces"]), "<u4").reshape(-1, 3)
+    joined = csr_array(
+        (np.ones(2 * len(faces)), (faces[:, [0, 0]].ravel(), faces[:, 1:].ravel())), (faces.max() + 1,) * 2
+    )
+    count, piece = connected_components(joined, directed=False)
+    return [np.flatnonzero(piece == number) for number in range(count)]
+
+
+def test_a_surface_is_cut_where_it_touches_itself():
+    pinched = closed([(0, 0), (4, 0), (2, 2), (4, 4), (0, 4), (2, 2)])
+    answer = lie(Lie(pinched, 0, 0, None))
+    assert answer["touches"] == [[2, 2]]
+    assert "touches itself" in answer["verdict"]["headline"]
+    mesh = lifted(Lift(pinched, 0, 0, None, 100))["mesh"]
+    places = (
+        np.frombuffer(b64decode(mesh["vertices"]), "<f4").reshape(-1, 3)[:, :2] * mesh["scale"] + mesh["centre"][:2]
+    )
+    at_pinch = (places == 2).all(axis=1)
+    assert [at_pinch[piece].sum() for piece in pieces_of(mesh)] == [1, 1]
+
+
+def test_a_slit_is_no_place_where_a_surface_touches_itself():
+    hole = [(2, 3), (2, 4), (4, 4), (4, 2), (2, 2), (2, 3)]
+    slit = closed([(0, 0), (6, 0), (6, 6), (0, 6), (0, 3), *hole, (0, 3)])
+    answer = lie(Lie(slit, 0, 0, None))
+    assert answer["touches"] == []
+    assert answer["verdict"]["headline"] == "A disk of cloth"

@@ -1,5 +1,6 @@
 """What the page is told of a loop, against the definitions."""
 
+from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
 
@@ -246,27 +247,51 @@ def test_a_point_that_cannot_be_a_cusp_is_refused_with_the_reason():
     assert "2 sheets" in verdict["sentence"]
 
 
-def test_cusps_may_help_where_the_outline_turns_too_often():
-    assert asked(LIMACON)["verdict"]["cusps_may_help"]
-    assert not asked(CURVES["figure-eight"].curve.points.tolist())["verdict"]["cusps_may_help"]
-    assert not loops(9 * SQUARE, 3 * SQUARE[::-1])["verdict"]["cusps_may_help"]
+# ---- outlines that touch themselves ----------------------------------------------------------------------------------
+
+PINCHED = [[0, 0], [4, 0], [2, 2], [4, 4], [0, 4], [2, 2]]
+KEYHOLE = [[0, 0], [6, 0], [6, 6], [0, 6], [0, 3], [2, 3], [2, 4], [4, 4], [4, 2], [2, 2], [2, 3], [0, 3]]
 
 
-# ---- kinks -----------------------------------------------------------------------------------------------------------
+def test_a_disk_that_touches_itself_is_a_verdict_of_its_own():
+    answer = asked(PINCHED)
+    assert answer["verdict"]["immersible"]
+    assert answer["verdict"]["headline"] == "A disk of cloth that touches itself"
+    assert answer["verdict"]["touches"] == answer["contacts"] == [[2, 2]]
+    assert points_of(answer) == PINCHED
+    assert answer["cells_by_winding"] == [[1, 2]]
 
 
-@pytest.mark.parametrize("name", ["figure-eight", "limacon", "kinked-circle"])
-def test_without_its_kink_the_loop_is_a_disk(name):
-    answer = asked(CURVES[name].curve.points.tolist())
-    kink = answer["verdict"]["kink"]
-    assert len(kink["where"]) == len(kink["lobes"]) == (2 if name == "kinked-circle" else 1)
-    for where, lobe in zip(kink["where"], kink["lobes"], strict=True):
-        assert where in answer["crossings"]
-        assert lobe[0] == where
-        assert where in kink["points"]
-    assert asked(kink["points"])["verdict"]["immersible"]
-    kept = {tuple(p) for p in kink["points"]} | {tuple(p) for lobe in kink["lobes"] for p in lobe}
-    assert {tuple(p) for p in points_of(answer)} <= kept
+def test_contacts_where_the_surface_does_not_touch_itself_are_named_and_make_no_cells():
+    answer = asked(KEYHOLE)
+    assert answer["verdict"]["headline"] == "A disk of cloth"
+    assert answer["verdict"]["touches"] == []
+    assert answer["contacts"] == [[0, 3], [2, 3]]
+    assert answer["cells_by_winding"] == [[0, 1], [1, 1]]
+    assert points_of(answer) == KEYHOLE
+
+
+def test_contacts_of_an_outline_that_bounds_nothing_are_named():
+    answer = asked([[0, 0], [4, 0], [4, 4], [2, 0], [0, 4]][::-1])
+    assert answer["contacts"] == [[2, 0]]
+    bow_tie = asked([[0, 0], [4, 4], [4, 0], [0, 4], [0, 2], [-1, 1], [0, 2]])
+    assert not bow_tie["verdict"]["immersible"]
+    assert bow_tie["verdict"]["touches"] == []
+
+
+def test_spikes_are_taken_out_and_told():
+    answer = asked([(0, 0), (4, 0), (4, 4), (6, 6), (4, 4), (0, 4)])
+    assert [(repair["kind"], repair["where"]) for repair in answer["repairs"]] == [("spike taken out", [6, 6])]
+    assert points_of(answer) == [[0, 0], [4, 0], [4, 4], [0, 4]]
+    assert answer["contacts"] == []
+
+
+def test_without_contacts_cells_are_counted_as_they_are(named):
+    _, answer = named
+    assert dict(answer["cells_by_winding"]) == Counter(cell["winding"] for cell in answer["cells"])
+
+
+# ---- where it is wrong -----------------------------------------------------------------------------------------------
 
 
 def test_a_wrong_turning_number_has_a_place(named):

@@ -37,6 +37,15 @@ def blue_pixels(page):
     return page.evaluate(script)
 
 
+def painted(page):
+    return page.evaluate("document.getElementById('drawing').toDataURL()")
+
+
+def height(document):
+    points = np.concatenate([stroke["points"] for stroke in document["strokes"]])
+    return np.ptp(points[:, 1])
+
+
 def red_pixels_near(page, place, reach=14):
     script = """([x, y, reach]) => {
         const canvas = document.getElementById("drawing");
@@ -95,7 +104,7 @@ def test_a_small_kink_is_removed_by_a_button(sketch):
     corners = [[-150, -100], [150, -100], [150, 100], [-20, 100], [-20, 130], [0, 130], [0, 70], [-150, 70]]
     draw(sketch, dense(np.array(corners, dtype=float)))
     verdict(sketch, WORD["none"])
-    sketch.click("text=Remove the kink")
+    sketch.click("text=Leave out a small loop")
     verdict(sketch, WORD["immersible"])
     assert figure(sketch, "crossings") == "0"
     sketch.keyboard.press("Control+z")
@@ -114,7 +123,59 @@ def test_tools_are_chosen_by_the_mouse(sketch, tool):
 def test_half_a_figure_eight_is_no_small_kink(sketch):
     draw(sketch, eight())
     verdict(sketch, WORD["none"])
-    assert not sketch.locator("text=Remove the kink").is_visible()
+    sketch.wait_for_selector("[data-action=showPieces]:enabled")
+    assert not sketch.locator("[data-action=repair]").is_visible()
+
+
+def test_offers_are_seen_before_they_are_taken_and_undone_like_anything_else(sketch):
+    """By pointer and by keyboard alike, right beside the cross."""
+    draw(sketch, eight())
+    verdict(sketch, WORD["none"])
+    button = sketch.locator("[data-action=showPieces]:enabled")
+    drawn, before = saved(sketch), painted(sketch)
+    (cross,) = places(sketch, [[0, 0]])
+    box = button.bounding_box()
+    near = [np.clip(cross[0], box["x"], box["x"] + box["width"]), np.clip(cross[1], box["y"], box["y"] + box["height"])]
+    assert np.hypot(*np.subtract(near, cross)) < 60
+    button.hover()
+    wait_until(lambda: painted(sketch) != before, "the pieces are shown")
+    assert "2 simple polygons" in sketch.inner_text("#sentence")
+    assert saved(sketch) == drawn
+    sketch.mouse.move(5, 5)
+    wait_until(lambda: painted(sketch) == before, "they are shown no more")
+    button.focus()
+    wait_until(lambda: painted(sketch) != before, "the keyboard shows them too")
+    sketch.keyboard.press("Enter")
+    verdict(sketch, "2 pieces of cloth: 2 disks")
+    assert len(saved(sketch)["strokes"]) == 2
+    sketch.click("#notice [data-action=undo]")
+    verdict(sketch, WORD["none"])
+    assert saved(sketch)["strokes"] == drawn["strokes"]
+    sketch.wait_for_selector("[data-action=showPieces]:enabled")
+    sketch.keyboard.press("Shift+I")
+    verdict(sketch, "2 pieces of cloth: 2 disks")
+
+
+def test_a_pen_stroke_becomes_a_ribbon_as_wide_as_the_slider_says(sketch):
+    t = np.linspace(0, 1, 60)
+    draw(sketch, np.c_[-220 + 440 * t, 60 * np.sin(6 * t)])
+    assert "too far apart" in verdict(sketch, WORD["unfinished"])
+    line, before = saved(sketch)["strokes"], painted(sketch)
+    sketch.hover("[data-action=ribbon]")
+    wait_until(lambda: painted(sketch) != before, "the ribbon is shown")
+    assert saved(sketch)["strokes"] == line
+    sketch.click("[data-action=ribbon]")
+    verdict(sketch, WORD["immersible"])
+    narrow = height(saved(sketch))
+    sketch.locator("#width").focus()
+    for _ in range(10):
+        sketch.keyboard.press("ArrowRight")
+    wait_until(lambda: height(saved(sketch)) > narrow + 20, "the ribbon is wider")
+    verdict(sketch, WORD["immersible"])
+    sketch.locator("#drawing").focus()
+    sketch.keyboard.press("Control+z")
+    verdict(sketch, WORD["unfinished"])
+    assert saved(sketch)["strokes"] == line
 
 
 def test_undo_redo_and_reload_lose_nothing(sketch):

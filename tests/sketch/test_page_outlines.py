@@ -120,8 +120,9 @@ def test_a_cusp_is_marked_by_clicks_and_refused_with_the_reason(sketch):
 
 def test_cusps_are_offered_marked_and_undone_and_go_with_the_link(sketch):
     limacon(sketch)
+    sketch.hover("text=A cusp here")
     sketch.wait_for_function("() => document.getElementById('sentence').textContent.includes('with a cusp as shown')")
-    sketch.click("text=Mark the cusp")
+    sketch.click("text=A cusp here")
     verdict(sketch, DISK)
     assert cusps(sketch) == [[1]]
     sketch.keyboard.press("Control+z")
@@ -166,3 +167,27 @@ def test_drawings_and_links_of_version_1_open(sketch):
     sketch.keyboard.press("n")
     sketch.evaluate("fragment => { location.hash = fragment }", f"#d={urlsafe_b64encode(letters).decode().rstrip('=')}")
     verdict(sketch, DISK)
+
+
+PINCHED = [[-150, -100], [0, 0], [150, -100], [150, 100], [0, 0], [-150, 100]]
+
+
+def test_an_outline_that_touches_itself_is_told_in_words_by_sign_and_by_a_mark(sketch):
+    sketch.keyboard.press("s")
+    sketch.keyboard.press("p")
+    way = places(sketch, PINCHED)
+    for place in [*way, way[0]]:
+        sketch.mouse.click(*place)
+    verdict(sketch, "A disk of cloth that touches itself")
+    assert sketch.get_attribute(".verdict", "data-state") == "touching"
+    sign = sketch.evaluate("getComputedStyle(document.getElementById('verdict'), '::before').content")
+    assert "◆" in sign
+    points = saved(sketch)["strokes"][0]["points"]
+    assert points[1] == points[4]
+    pinch = ", ".join(f"{x:.6g}".replace("-", "−") for x in points[1])
+    assert figure(sketch, "touches itself at") == f"({pinch})"
+    assert figure(sketch, "notes").startswith("points in contact at one place")
+    settled(sketch)
+    assert sketch.locator("#surface.empty").count() == 0
+    sketch.keyboard.press("Control+z")
+    assert sketch.get_attribute(".verdict", "data-state") == "empty"

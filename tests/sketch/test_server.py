@@ -23,7 +23,7 @@ from sketch.conftest import Server
 
 RAMP = [[0, 0], [9, 0], [9, 6], [3, 6], [3, -3], [4, -3], [4, 5], [8, 5], [8, 1], [0, 1]]
 # Three million crossings: many seconds of work, whatever the machine.
-SLOW = json.dumps({"version": 2, "points": np.random.default_rng(1).random((5000, 2)).tolist()}).encode()
+SLOW = json.dumps({"version": 3, "points": np.random.default_rng(1).random((5000, 2)).tolist()}).encode()
 
 
 def error(reply):
@@ -45,10 +45,10 @@ def test_a_ramp_is_a_disk(server):
 
 
 def test_every_answer_says_its_version(server):
-    for name in ("look", "lie", "surface"):
-        assert server.post(name, {"points": RAMP, "triangles": 200}).data["version"] == 2
+    for name in ("look", "offers", "ribbon", "lie", "surface"):
+        assert server.post(name, {"points": RAMP, "width": 1, "triangles": 200}).data["version"] == 3
     for name in ("gallery", "start"):
-        assert server.get(f"/api/v2/{name}").data["version"] == 2
+        assert server.get(f"/api/v3/{name}").data["version"] == 3
 
 
 def test_files_of_the_3d_page_are_served(server):
@@ -67,13 +67,13 @@ def test_head_has_no_body(server):
 def test_one_connection_serves_many_questions(server):
     connection = server.connection()
     for _ in range(5):
-        body = json.dumps({"version": 2, "points": RAMP})
-        connection.request("POST", "/api/v2/look", body, {"Content-Type": "application/json"})
+        body = json.dumps({"version": 3, "points": RAMP})
+        connection.request("POST", "/api/v3/look", body, {"Content-Type": "application/json"})
         assert json.loads(connection.getresponse().read())["turning_numbers"] == [1]
     connection.close()
 
 
-@pytest.mark.parametrize("path", ["/draw/viewer.js", "/nowhere", "/api/v2/start"])
+@pytest.mark.parametrize("path", ["/draw/viewer.js", "/nowhere", "/api/v3/start"])
 def test_every_answer_has_the_headers_that_keep_the_page_to_itself(server, path):
     headers = server.get(path).headers
     assert "default-src 'self'" in headers["Content-Security-Policy"]
@@ -115,7 +115,7 @@ def test_the_page_itself_is_not_refused(server):
 @pytest.mark.parametrize("site", ["cross-site", "same-site"])
 def test_what_a_browser_calls_cross_site_is_refused(server, site):
     assert server.post("look", {"points": RAMP}, Sec_Fetch_Site=site).status == 403
-    assert server.get("/api/v2/gallery", **{"Sec-Fetch-Site": site}).status == 403
+    assert server.get("/api/v3/gallery", **{"Sec-Fetch-Site": site}).status == 403
 
 
 @pytest.mark.parametrize(
@@ -123,7 +123,7 @@ def test_what_a_browser_calls_cross_site_is_refused(server, site):
 )
 def test_strange_names_are_refused(server, host):
     """A site whose name was made to point at this machine shows that name."""
-    for method, path in (("GET", "/draw/viewer.js"), ("GET", "/api/v2/start"), ("POST", "/api/v2/look")):
+    for method, path in (("GET", "/draw/viewer.js"), ("GET", "/api/v3/start"), ("POST", "/api/v3/look")):
         reply = server.request(method, path, b"{}", {"Host": host, "Content-Type": "application/json"})
         assert reply.status == 403
         assert error(reply)["kind"] == "refused"
@@ -132,7 +132,7 @@ def test_strange_names_are_refused(server, host):
 @pytest.mark.parametrize("host", ["localhost", "127.0.0.1", "[::1]", "LOCALHOST"])
 def test_names_of_this_machine_are_not_refused(server, host):
     port = urlsplit(server.url).port
-    assert server.get("/api/v2/start", Host=f"{host}:{port}").status == 200
+    assert server.get("/api/v3/start", Host=f"{host}:{port}").status == 200
 
 
 def test_forms_are_refused(server):
@@ -178,26 +178,26 @@ def test_no_path_leads_out_of_the_pages_folders(server, path):
         b"[]",
         b"null",
         b"{}",
-        b'{"version": 1, "points": []}',
-        b'{"version": 2}',
-        b'{"version": 2, "points": [], "strokes": []}',
-        b'{"version": 2, "points": [[0, NaN], [1, 0], [0, 1]]}',
-        b'{"version": 2, "points": [[0, -Infinity], [1, 0], [0, 1]]}',
-        b'{"version": 2, "points": [[0, 1e999], [1, 0], [0, 1]]}',
-        b'{"version": 2, "points": [[0, ' + b"9" * 400 + b"], [1, 0], [0, 1]]}",
-        b'{"version": 2, "points": [[0, ' + b"9" * 9000 + b"], [1, 0], [0, 1]]}",
-        b'{"version": 2, "points": [[0], [1, 0], [0, 1]]}',
-        b'{"version": 2, "points": [[0, "1"], [1, 0], [0, 1]]}',
-        b'{"version": 2, "points": [[0, true], [1, 0], [0, 1]]}',
-        b'{"version": 2, "points": {"0": [0, 0]}}',
-        b'{"version": 2, "points": "' + b"[" * 100 + b'"}',
+        b'{"version": 2, "points": []}',
+        b'{"version": 3}',
+        b'{"version": 3, "points": [], "strokes": []}',
+        b'{"version": 3, "points": [[0, NaN], [1, 0], [0, 1]]}',
+        b'{"version": 3, "points": [[0, -Infinity], [1, 0], [0, 1]]}',
+        b'{"version": 3, "points": [[0, 1e999], [1, 0], [0, 1]]}',
+        b'{"version": 3, "points": [[0, ' + b"9" * 400 + b"], [1, 0], [0, 1]]}",
+        b'{"version": 3, "points": [[0, ' + b"9" * 9000 + b"], [1, 0], [0, 1]]}",
+        b'{"version": 3, "points": [[0], [1, 0], [0, 1]]}',
+        b'{"version": 3, "points": [[0, "1"], [1, 0], [0, 1]]}',
+        b'{"version": 3, "points": [[0, true], [1, 0], [0, 1]]}',
+        b'{"version": 3, "points": {"0": [0, 0]}}',
+        b'{"version": 3, "points": "' + b"[" * 100 + b'"}',
         b"[" * 100_000,
-        b'{"version": 2, "strokes": [[[0, 0]], 5]}',
-        b'{"version": 2, "strokes": [{"points": [[0, 0]], "closed": 1}]}',
-        b'{"version": 2, "loops": [{"points": [[0, 0], [1, 0], [0, 1]], "cusps": {"3": 1}}]}',
-        b'{"version": 2, "loops": [{"points": [[0, 0], [1, 0], [0, 1]], "cusps": {"-1": 1}}]}',
-        b'{"version": 2, "loops": [{"points": [[0, 0], [1, 0], [0, 1]], "cusps": {"0": 0.5}}]}',
-        b'{"version": 2, "loops": [{"points": [[0, 0], [1, 0], [0, 1]], "cusps": [1, 0, 0]}]}',
+        b'{"version": 3, "strokes": [[[0, 0]], 5]}',
+        b'{"version": 3, "strokes": [{"points": [[0, 0]], "closed": 1}]}',
+        b'{"version": 3, "loops": [{"points": [[0, 0], [1, 0], [0, 1]], "cusps": {"3": 1}}]}',
+        b'{"version": 3, "loops": [{"points": [[0, 0], [1, 0], [0, 1]], "cusps": {"-1": 1}}]}',
+        b'{"version": 3, "loops": [{"points": [[0, 0], [1, 0], [0, 1]], "cusps": {"0": 0.5}}]}',
+        b'{"version": 3, "loops": [{"points": [[0, 0], [1, 0], [0, 1]], "cusps": [1, 0, 0]}]}',
     ],
 )
 def test_what_is_no_question_is_refused_in_a_sentence(server, body):
@@ -255,13 +255,13 @@ def test_unfinished_strokes_name_the_ends(server):
 
 
 def test_uploads_over_the_stated_size_are_refused_before_they_are_read(server):
-    stated = server.get("/api/v2/start").data["limits"]["bytes"]
+    stated = server.get("/api/v3/start").data["limits"]["bytes"]
     reply = server.post("open", b"x" * (stated + 1))
     assert reply.status == 413
     assert "16 MiB" in error(reply)["sentence"]
     with socket.create_connection(server.host.split(":")) as line:  # and one that only says so is not waited for
         line.settimeout(LIMIT)
-        start = f"POST /api/v2/open HTTP/1.1\r\nHost: {server.host}\r\nContent-Length: {10**15}\r\n\r\n"
+        start = f"POST /api/v3/open HTTP/1.1\r\nHost: {server.host}\r\nContent-Length: {10**15}\r\n\r\n"
         line.sendall(start.encode())
         assert line.recv(4096).startswith(b"HTTP/1.1 413")
 
@@ -270,7 +270,7 @@ def test_uploads_over_the_stated_size_are_refused_before_they_are_read(server):
 def test_a_question_says_how_long_it_is(server, length):
     with socket.create_connection(server.host.split(":")) as line:
         line.settimeout(LIMIT)
-        start = f"POST /api/v2/open HTTP/1.1\r\nHost: {server.host}\r\nContent-Length: {length}\r\n\r\n"
+        start = f"POST /api/v3/open HTTP/1.1\r\nHost: {server.host}\r\nContent-Length: {length}\r\n\r\n"
         line.sendall(start.encode())
         assert line.recv(4096).startswith(b"HTTP/1.1 411")
 
@@ -283,13 +283,13 @@ def test_a_file_that_cannot_be_read_is_an_answer(server):
 
 
 def test_too_many_points_are_refused(server):
-    most = server.get("/api/v2/start").data["limits"]["points"]
+    most = server.get("/api/v3/start").data["limits"]["points"]
     reply = server.post("look", {"points": [[0, 0]] * (most + 1)})
     assert reply.status == 400
     assert "points, more than" in error(reply)["sentence"]
 
 
-@pytest.mark.parametrize(("method", "path", "status"), [("POST", "/api/v2/dance", 404), ("PUT", "/", 501)])
+@pytest.mark.parametrize(("method", "path", "status"), [("POST", "/api/v3/dance", 404), ("PUT", "/", 501)])
 def test_other_addresses_and_methods_are_refused_in_a_sentence(server, method, path, status):
     reply = server.request(method, path, b"{}", {"Content-Type": "application/json"})
     assert reply.status == status
@@ -374,7 +374,7 @@ def test_a_page_that_goes_takes_its_question_with_it(observed):
     """More of them than may work at the same time: each must be ended for the next to be heard."""
     for _ in range(10):
         connection = observed.connection()
-        connection.request("POST", "/api/v2/look", SLOW, {"Content-Type": "application/json"})
+        connection.request("POST", "/api/v3/look", SLOW, {"Content-Type": "application/json"})
         observed.is_working_on(1)
         connection.close()
         observed.is_working_on(0)
@@ -438,7 +438,7 @@ def is_alive(process):
 def test_a_file_to_begin_with(start_server, tmp_path):
     (tmp_path / "loop.csv").write_text("0,0\n4,0\n0,3\n")
     with start_server(str(tmp_path / "loop.csv")) as server:
-        answer = server.get("/api/v2/start").data
+        answer = server.get("/api/v3/start").data
     assert answer["name"] == "loop"
     assert answer["document"]["strokes"] == [{"points": [[0, 0], [4, 0], [0, 3]], "closed": True}]
     assert server.process.returncode == 0

@@ -11,9 +11,9 @@ from plyfold.sketch.workers import Question, Workers
 from sketch.by_hand import LIMIT, wait_until
 
 RAMP = json.dumps(
-    {"version": 2, "points": [[0, 0], [9, 0], [9, 6], [3, 6], [3, -3], [4, -3], [4, 5], [8, 5], [8, 1], [0, 1]]}
+    {"version": 3, "points": [[0, 0], [9, 0], [9, 6], [3, 6], [3, -3], [4, -3], [4, 5], [8, 5], [8, 1], [0, 1]]}
 ).encode()
-SLOW = json.dumps({"version": 2, "points": np.random.default_rng(1).random((5000, 2)).tolist()}).encode()
+SLOW = json.dumps({"version": 3, "points": np.random.default_rng(1).random((5000, 2)).tolist()}).encode()
 
 
 @pytest.fixture(scope="module")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -11,36 +11,37 @@ from typing import Any, Literal, cast
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.general_position import GeneralPosition, in_general_position
+from plyfold.arrangement.drawn import DrawnMap, drawn_map
+from plyfold.arrangement.general_position import (
+    in_general_position,
+    number_of_ways,
+    separated,
+    touching_points,
+)
 from plyfold.arrangement.leftmost import leftmost_crossing
 from plyfold.arrangement.maps import (
     CellWalk,
-    Code,
     Map,
     cell_of_each_dart,
-    in_bounded_cells,
     numbered_crossings,
     oriented,
-    outer_dart,
     walked_round,
 )
-from plyfold.arrangement.marks import cusps_of_outline, cusps_on_borders, with_marks
-from plyfold.arrangement.nesting import nest
+from plyfold.arrangement.marks import cusps_on_borders, with_marks
 from plyfold.arrangement.planar_map import (
     borders_at_visits,
     checked_code,
-    windings_of_loops,
 )
-from plyfold.arrangement.polylines import inner_points, polygon_turning_numbers, total_winding
+from plyfold.arrangement.polylines import inner_points, total_winding
 from plyfold.arrangement.theorems import theorems_of
 from plyfold.arrays import Bools, Floats, Ints, freeze
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GaussCodeError, InputError, PlyfoldError
 from plyfold.graphs import components
-from plyfold.outline.curve import Curve, Outline, backward_numbers
+from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.given import Coded, CurveLike, OutlineLike, are_several, as_outline
 
-__all__ = ["Arrangement", "CurveLike", "arrange", "require_one_loop", "watched_arrangement"]
+__all__ = ["Arrangement", "CurveLike", "arrange", "require_one_loop", "watched_arrangement", "ways_apart"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +84,7 @@ class Arrangement:
         their left in which it runs. The first foot is at the leftmost vertex of a group of loops, the second one
         straight to the left of it. Borders and bridges together connect the boundary of every bounded cell.
     outline : Outline
-        The loops as used, oriented and in general position; None if only the code is known.
+        The loops as used: oriented, without spikes, and with points in contact moved; None if only the code is known.
     given : Outline
         The same points in the same order where they were given; None if only the code is known.
     numbers : (points,) int
@@ -184,6 +185,10 @@ class Arrangement:
                 hint="check partner and ccw: this code belongs to a curve on a surface with handles",
             )
         return arranged
+
+    @classmethod
+    def _of_drawing(cls, found: DrawnMap) -> Arrangement:
+        return cls._of_map(found.drawn, found.walked, found.turning, found.outline, **found.more)
 
     @classmethod
     def _of_map(
@@ -344,6 +349,19 @@ class Arrangement:
         return tuple(tuple(darts[low:high]) for low, high in pairwise(self.cell_start.tolist()))
 
     @cached_property
+    def contacts(self) -> Ints:
+        """The points of :attr:`given` that lie on other edges or on each other.
+
+        Examples
+        --------
+        >>> arrange([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)]).contacts.tolist()
+        [2, 5]
+        """
+        if self.given is None or self.given is self.outline:
+            return np.empty(0, dtype=np.int64)
+        return touching_points(self.given)
+
+    @cached_property
     def base_visit(self) -> int:
         """The visit that the first of several answers is counted from, so that it belongs to the drawing.
 
@@ -496,9 +514,9 @@ def arrange(curve: OutlineLike, general_position: Literal["perturb", "raise"] = 
         no drawing. A list of curves is an outline: the surface that they bound together is to lie on the left of each,
         so holes run clockwise.
     general_position : {"perturb", "raise"}
-        What to do where a vertex lies on another edge, edges overlap or three edges meet in a point: move vertices
-        as little as possible (``result.curve.repairs`` says which and by how much), or raise an error naming the
-        places. Several curves are never moved.
+        What to do where a vertex lies on another edge, edges overlap or three edges meet in a point: take spikes out
+        and move vertices by infinitely little, outward (``result.outline.repairs`` says which, and by how much), or
+        raise an error naming the places.
 
     Returns
     -------
@@ -514,7 +532,7 @@ def arrange(curve: OutlineLike, general_position: Literal["perturb", "raise"] = 
     CurveError
         If the points do not make a closed curve.
     GeneralPositionError
-        With ``general_position="raise"`` or for several curves, at the touching places.
+        With ``general_position="raise"``, at the touching places; else if doubles leave no room to move them apart.
 
     References
     ----------
@@ -540,7 +558,37 @@ def watched_arrangement(curve: OutlineLike, general_position: Literal["perturb",
         return Arrangement.from_gauss(given.partner, given.ccw, given.outer)
     if are_several(curve) and len(several := cast("Sequence[CurveLike]", curve)) == 1:
         return watched_arrangement(several[0], general_position, watch)
-    return _arranged(in_general_position(as_outline(curve), general_position, watch), watch)
+    placed = in_general_position(as_outline(curve), general_position, watch)
+    return Arrangement._of_drawing(drawn_map(placed, watch))
+
+
+def ways_apart(arranged: Arrangement, inward: bool = False) -> Iterator[Arrangement]:
+    """Yield arrangements of the same outline with the points in contact moved apart in all ways that matter.
+
+    That is one, mostly; several if cusps lie on each other. An outline without contacts is arranged in one way.
+
+    Parameters
+    ----------
+    arranged : Arrangement
+    inward : bool, optional
+        Move points inward, in place of outward. Then there is a surface just when the outline as given bounds one in
+        the strict sense: with all angles as one sees them.
+
+    Examples
+    --------
+    >>> pinched = arrange([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)])
+    >>> [way.winding.tolist() for inward in (False, True) for way in ways_apart(pinched, inward)]
+    [[0, 1], [0, -1, 1, 1]]
+    """
+    if arranged.given is None or len(arranged.contacts) == 0:
+        yield arranged
+        return
+    if not inward:
+        yield arranged
+    for way in range(0 if inward else 1, number_of_ways(arranged.given)):
+        placed = separated(arranged.given, -1 if inward else 1, way=way)
+        placed = replace(placed, numbers=arranged.numbers, turned_round=arranged.reversed)
+        yield Arrangement._of_drawing(drawn_map(placed, UNWATCHED))
 
 
 def require_one_loop(arranged: Arrangement, what: str = "this") -> None:
@@ -550,53 +598,3 @@ def require_one_loop(arranged: Arrangement, what: str = "this") -> None:
             f"{what} is there for one closed curve alone, and the outline has {arranged.n_loops} loops",
             hint="give one of its loops",
         )
-
-
-def _arranged(placed: GeneralPosition, watch: Watch) -> Arrangement:
-    if placed.outline.n_loops == 1:
-        return _of_curve(placed, watch)
-    arranged = _of_loops(placed, watch)
-    if placed.turned_round is not None or arranged.winding.max() > 0:
-        return arranged
-    backward = in_general_position(placed.outline.reversed(), "raise", watch)
-    numbers = placed.numbers[backward_numbers(placed.outline.first_point)]
-    return _of_loops(replace(backward, numbers=numbers, turned_round=True), watch)
-
-
-def _of_curve(placed: GeneralPosition, watch: Watch) -> Arrangement:
-    watch.step()
-    outline, given, numbers, visits = placed.outline, placed.given, placed.numbers, placed.visits
-    edge, point = visits.edge, visits.point
-    outer, is_directed = outer_dart(outline.points, edge), placed.turned_round is not None
-    used, turning, turned_round = oriented(visits.partner, visits.ccw, outer, is_directed)
-    if turned_round:
-        outline = given = outline.reversed()
-        numbers = numbers[backward_numbers(outline.first_point)]
-        edge, point = len(outline) - 1 - edge[::-1], point[::-1]
-    drawn = used._replace(code=used.code._replace(edge=edge))
-    crossings = point[np.arange(len(point)) < used.code.partner]
-    marked = with_marks(drawn, cusps_of_outline(outline, edge))
-    settled = {"exact_signs": visits.exact_signs, "reversed": turned_round or bool(placed.turned_round)}
-    drawing = {"given": given, "numbers": numbers, "crossings": crossings}
-    return Arrangement._of_map(marked, walked_round(marked), (turning,), outline, **drawing, **settled)
-
-
-def _of_loops(placed: GeneralPosition, watch: Watch) -> Arrangement:
-    """Return the arrangement of several loops as they are directed."""
-    outline, visits = placed.outline, placed.visits
-    found = nest(placed.polyline, visits, watch)
-    left = windings_of_loops(visits.partner, visits.ccw, found.first_visit, found.outside, found.bridges)
-    none = np.zeros(len(visits.partner), dtype=np.int64)
-    code = Code(visits.partner, visits.ccw, found.first_visit, left, visits.edge, none)
-    plain = Map(code, found.outside, found.bridges)
-    walked = walked_round(plain)
-    inner = in_bounded_cells(plain, walked)
-    feet = [mark for number in inner for mark in found.feet[number]]
-    is_left = found.bridges[inner] % 2 == 0
-    drawn = with_marks(plain, cusps_of_outline(outline, visits.edge), feet, is_left)
-    crossings = visits.point[np.arange(len(visits.point)) < visits.partner]
-    turning = polygon_turning_numbers(outline.points, outline.first_point)
-    settled = {"exact_signs": visits.exact_signs, "reversed": bool(placed.turned_round)}
-    walk = walked if drawn is plain else walked_round(drawn)
-    drawing = {"given": placed.given, "numbers": placed.numbers, "crossings": crossings}
-    return Arrangement._of_map(drawn, walk, turning, outline, **drawing, **settled)

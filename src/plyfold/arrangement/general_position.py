@@ -13,31 +13,32 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from plyfold.arrangement.crossings import Contacts, Visits
+from plyfold.arrangement.crowded_cusps import crowded_cusps, lie_inside
 from plyfold.arrangement.infinitesimal import (
-    Motion,
+    MovingPoints,
     begin_to_move,
     order_along_edges,
     same_outside,
     signed_crossings,
     signed_pairs,
 )
-from plyfold.arrangement.meetings import Polyline, as_polyline, meetings, visits_along
+from plyfold.arrangement.meetings import JoinedLoops, joined_loops, meetings, visits_along
 from plyfold.arrangement.nesting import nest, same_nest
 from plyfold.arrangement.noding import node_outline
 from plyfold.arrangement.outward import are_moved, outward_vectors, winds_backward
-from plyfold.arrangement.spikes import without_spikes
+from plyfold.arrangement.spikes import tips, without_spikes
 from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GeneralPositionError, InputError
 from plyfold.outline.curve import Outline, Repair, backward_numbers, outline_of_points
 
-__all__ = ["GeneralPosition", "in_general_position", "moved_inward", "touching_points"]
+__all__ = ["GeneralPosition", "in_general_position", "number_of_ways", "separated", "touching_points"]
 
 # Sizes of moves as fractions of the drawing's: smaller ones where strands crowd.
 _STEPS = [2.0**-exponent for exponent in range(20, 49, 4)]
 # A step is so many times the rounding of the coordinates at least, so that there are directions to choose from.
-_LEAST_STEP = 64
-_LARGEST_STEP = 2.0**-9
+_LEAST_STEP = 16
+_LARGEST_STEP = 2.0**-4
 _ATTEMPTS = 12
 
 
@@ -52,7 +53,7 @@ class GeneralPosition:
         The same points in the same order where they were given, without spikes.
     numbers : (points,) int
         The number that each point has in the outline that came in.
-    polyline : Polyline
+    joined : JoinedLoops
     visits : Visits
         Of the outline in general position.
     turned_round : bool or None
@@ -63,7 +64,7 @@ class GeneralPosition:
     outline: Outline
     given: Outline
     numbers: Ints
-    polyline: Polyline
+    joined: JoinedLoops
     visits: Visits
     turned_round: bool | None
 
@@ -97,12 +98,12 @@ def in_general_position(
     """
     if policy not in ("perturb", "raise"):
         raise InputError(f'general_position must be "perturb" or "raise", not {policy!r}')
-    polyline = _polyline(outline)
-    contacts = meetings(polyline, watch)
+    joined = _joined(outline)
+    contacts = meetings(joined, watch)
     if policy == "raise" or len(contacts.touches) == 0:
-        visits = visits_along(polyline, contacts)
+        visits = visits_along(joined, contacts)
         if len(contacts.touches) == 0 and len(visits.triple) == 0:
-            return GeneralPosition(outline, outline, np.arange(len(outline)), polyline, visits, None)
+            return GeneralPosition(outline, outline, np.arange(len(outline)), joined, visits, None)
         if policy == "raise":
             raise _not_general(outline, contacts, visits)
     left, kept = without_spikes(outline)
@@ -122,8 +123,8 @@ def _not_general(outline: Outline, contacts: Contacts, visits: Visits) -> Genera
     )
 
 
-def _polyline(outline: Outline) -> Polyline:
-    return as_polyline(outline.points, outline.first_point)
+def _joined(outline: Outline) -> JoinedLoops:
+    return joined_loops(outline.points, outline.first_point)
 
 
 def _places(outline: Outline, contacts: Contacts, visits: Visits) -> list[tuple[float, float]]:
@@ -138,7 +139,7 @@ def _directed(outline: Outline, watch: Watch) -> GeneralPosition:
     """Turn an outline round if its surface lies on the right, and move its points outward."""
     turned_round = winds_backward(outline, node_outline(outline))
     if not turned_round:
-        return _separated(outline, 1, watch)
+        return separated(outline, 1, watch)
     numbers = backward_numbers(outline.first_point)
     parts = (
         outline.points[numbers],
@@ -146,21 +147,13 @@ def _directed(outline: Outline, watch: Watch) -> GeneralPosition:
         np.concatenate(outline.cusps)[numbers],
         outline.rows[numbers],
     )
-    moved = _separated(outline_of_points(*parts, outline.repairs), 1, watch)
+    moved = separated(outline_of_points(*parts, outline.repairs), 1, watch)
     return replace(moved, numbers=numbers[moved.numbers], turned_round=True)
-
-
-def moved_inward(given: Outline, watch: Watch = UNWATCHED) -> GeneralPosition:
-    """Return an outline that has no spikes and its surface on the left with touching strands moved inward.
-
-    It bounds a surface just when the outline as given does in the strict sense: with all angles as one sees them.
-    """
-    return _separated(given, -1, watch)
 
 
 def touching_points(outline: Outline) -> Ints:
     """Return the points of an outline that lie on foreign edges or on each other."""
-    return np.unique(meetings(_polyline(outline)).touches[:, 0])
+    return np.unique(meetings(_joined(outline)).touches[:, 0])
 
 
 # ---- moves -----------------------------------------------------------------------------------------------------------
@@ -175,52 +168,78 @@ class _Touching(NamedTuple):
     watch: Watch
 
 
-def _separated(given: Outline, sense: int, watch: Watch) -> GeneralPosition:
-    """Move the points in contact until doubles show what infinitely small moves do.
+class _Moves(NamedTuple):
+    """Points that move right of their edges, or left; and others, with the vectors along which they go."""
 
+    points: Ints
+    others: Ints
+    vectors: Floats
+
+
+def separated(given: Outline, sense: int, watch: Watch = UNWATCHED, way: int = 0) -> GeneralPosition:
+    """Return an outline with its points in contact moved outward (``sense`` 1) or inward (−1), as little as need be.
+
+    Parameters
+    ----------
+    given : Outline
+        Without spikes, and with the surface on its left.
+    sense : int
+    watch : Watch, optional
+    way : int, optional
+        Which one to take of several ways, if there are some: from 0 up to :func:`number_of_ways`.
+
+    Notes
+    -----
     Where three edges meet inside all of them, whichever way they part will do; so their ends move, too.
     """
-    touching = _Touching(given, meetings(_polyline(given), watch), sense, watch)
-    stays, movers = _points_to_move(given, touching.contacts)
+    touching = _Touching(given, meetings(_joined(given), watch), sense, watch)
+    stays, moves = _points_to_move(given, touching.contacts, way)
     scatter = 0
     while scatter < _ATTEMPTS:
-        found = _moved(touching, movers, sense * outward_vectors(given, movers, scatter))
+        found = _moved(touching, moves, scatter)
         if isinstance(found, GeneralPosition):
             return found
-        more = np.setdiff1d(np.concatenate([found, given.next_point[found]]), np.concatenate([stays, movers]))
-        movers, scatter = np.union1d(movers, more), scatter + (len(more) == 0)
+        more = np.setdiff1d(np.concatenate([found, given.next_point[found]]), np.concatenate([stays, moves.points]))
+        moves, scatter = moves._replace(points=np.union1d(moves.points, more)), scatter + (len(more) == 0)
     raise GeneralPositionError(
         "strands touch or overlap, and are too crowded to be moved apart",
-        where=_places(given, touching.contacts, visits_along(_polyline(given), touching.contacts)),
+        where=_places(given, touching.contacts, visits_along(_joined(given), touching.contacts)),
         hint="move these vertices by hand",
     )
 
 
-def _points_to_move(given: Outline, contacts: Contacts) -> tuple[Ints, Ints]:
-    """Return the points in contact that stay, for they are cusps; and those that move.
+def number_of_ways(given: Outline) -> int:
+    """Return in how many ways touching points may move: 1, but where cusps lie on each other."""
+    return crowded_cusps(given, meetings(_joined(given))).n_ways if given.has_cusps else 1
 
-    These are all others in contact, and the ends of edges on which cusps lie: then the edge moves outward, too.
+
+def _points_to_move(given: Outline, contacts: Contacts, way: int) -> tuple[Ints, _Moves]:
+    """Return the points in contact that do not move outward, for they are cusps; and the moves.
+
+    All other points in contact move, and the ends of edges on which cusps lie: then these edges move outward, too.
     """
     vertex, edge = contacts.touches.T
     is_cusp = np.concatenate(given.cusps) > 0
     touching = np.unique(vertex)
     stays = touching[is_cusp[touching]]
-    ends = np.stack([edge, given.next_point[edge]])
-    inside = (given.points[vertex] != given.points[ends]).any(axis=2).all(axis=0)
-    moved_edges = ends[:, is_cusp[vertex] & inside].ravel()
-    return stays, np.setdiff1d(np.concatenate([touching, moved_edges]), stays)
+    edges = edge[is_cusp[vertex] & lie_inside(given, contacts)]
+    points = np.setdiff1d(np.concatenate([touching, edges, given.next_point[edges]]), stays)
+    crowded = crowded_cusps(given, contacts)
+    return stays, _Moves(points, crowded.points, crowded.way(way))
 
 
-def _moved(touching: _Touching, movers: Ints, vectors: Floats) -> GeneralPosition | Ints:
+def _moved(touching: _Touching, moves: _Moves, scatter: int) -> GeneralPosition | Ints:
     """Return the outline with some points moved as little as need be, or the edges that stay together if they move so.
 
     No edges, if doubles do not show at any size of the move what is true of infinitely small ones.
     """
-    given = touching.given
+    given, sense = touching.given, touching.sense
+    vectors = sense * outward_vectors(given, moves.points, scatter)
     for step in _steps(given.points):
         points = given.points.copy()
-        points[movers] += step * vectors
-        if not are_moved(given, movers, points[movers], touching.sense).all():
+        points[moves.points] += step * vectors
+        points[moves.others] += step * moves.vectors
+        if not are_moved(given, moves.points, points[moves.points], sense).all():
             continue
         found = _shown(touching, points)
         if isinstance(found, GeneralPosition) or len(found):
@@ -236,28 +255,30 @@ def _shown(touching: _Touching, points: Floats) -> GeneralPosition | Ints:
     given, contacts, _, watch = touching
     motion = begin_to_move(given.points, points, given.next_point)
     wanted, undecided = signed_crossings(motion, contacts)
-    polyline = as_polyline(points, given.first_point)
-    found = meetings(polyline, watch)
+    joined = joined_loops(points, given.first_point)
+    found = meetings(joined, watch)
     shown = signed_pairs(found.edges, found.from_right, len(points))
     if len(undecided) or len(found.touches) or not np.array_equal(wanted, shown):
         return np.unique(undecided)
-    visits = visits_along(polyline, found)
+    visits = visits_along(joined, found)
     in_order, together = order_along_edges(motion, visits)
     right = in_order.all() and len(visits.triple) == 0
-    if len(together) or not (right and _lie_alike(motion, polyline, visits)):
+    if len(together) or not (right and _lie_alike(motion, joined, visits)):
         return np.unique(together)
     repairs = *given.repairs, *_moves(given.points, points)
-    outline = outline_of_points(points, given.loop_of_point, np.concatenate(given.cusps), given.rows, repairs)
-    return GeneralPosition(outline, given, np.arange(len(given)), polyline, visits, False)
+    # A cusp at a tip has an angle of 360° that one sees; strands that move outward there leave next to none.
+    cusps = np.concatenate(given.cusps) + (tips(given) if given.has_cusps else 0)
+    outline = outline_of_points(points, given.loop_of_point, cusps, given.rows, repairs)
+    return GeneralPosition(outline, given, np.arange(len(given)), joined, visits, False)
 
 
-def _lie_alike(motion: Motion, polyline: Polyline, visits: Visits) -> bool:
+def _lie_alike(motion: MovingPoints, joined: JoinedLoops, visits: Visits) -> bool:
     """Tell whether moved loops show their outside where it is, and lie in each other, as when they begin to move."""
-    if not polyline.is_jump.any():
-        return same_outside(motion, polyline.points)
-    number = polyline.vertex - polyline.loop
-    begun = replace(polyline, points=motion.points[number])
-    return same_nest(nest(polyline, visits), nest(begun, visits, exact=motion.moved[number]))
+    if not joined.is_jump.any():
+        return same_outside(motion, joined.points)
+    number = joined.vertex - joined.loop
+    begun = replace(joined, points=motion.points[number])
+    return same_nest(nest(joined, visits), nest(begun, visits, exact=motion.moved[number]))
 
 
 def _steps(points: Floats) -> list[float]:

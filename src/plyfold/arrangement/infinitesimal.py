@@ -17,11 +17,11 @@ from plyfold.arrangement.crossings import Contacts, Visits
 from plyfold.arrays import Bools, Floats, Ints, Signs, Wholes
 from plyfold.predicates import orient, parameter_along_edge, whole_numbers
 
-__all__ = ["Motion", "begin_to_move", "order_along_edges", "same_outside", "signed_crossings", "signed_pairs"]
+__all__ = ["MovingPoints", "begin_to_move", "order_along_edges", "same_outside", "signed_crossings", "signed_pairs"]
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class MovingPoints:
     """Points of closed polylines as they are given, and when they have begun to move.
 
     Parameters
@@ -38,7 +38,7 @@ class Motion:
     next_point: Ints
 
 
-def begin_to_move(points: Floats, goal: Floats, next_point: Ints) -> Motion:
+def begin_to_move(points: Floats, goal: Floats, next_point: Ints) -> MovingPoints:
     """Return points that have begun to move straight to other ones.
 
     Examples
@@ -53,7 +53,7 @@ def begin_to_move(points: Floats, goal: Floats, next_point: Ints) -> Motion:
     largest = max(int(np.abs(numbers).max()) for numbers in (places, direction))
     # Differences of two numbers have a bit more.
     bits = largest.bit_length() + 1
-    return Motion(points, (places << (4 * bits + 9)) + direction, next_point)
+    return MovingPoints(points, (places << (4 * bits + 9)) + direction, next_point)
 
 
 def signed_pairs(pairs: Ints, from_right: Bools, n: int) -> Ints:
@@ -61,7 +61,7 @@ def signed_pairs(pairs: Ints, from_right: Bools, n: int) -> Ints:
     return np.sort((pairs[:, 0] * n + pairs[:, 1]) * 2 + from_right)
 
 
-def signed_crossings(motion: Motion, contacts: Contacts) -> tuple[Ints, Ints]:
+def signed_crossings(motion: MovingPoints, contacts: Contacts) -> tuple[Ints, Ints]:
     """Return the pairs of edges that cross when points have begun to move, given what they do before.
 
     Returns
@@ -91,7 +91,7 @@ def _touching_pairs(touches: Ints, next_point: Ints) -> Ints:
     return np.unique(np.sort(rows, axis=1), axis=0)
 
 
-def _sides(motion: Motion, edge: Ints, other: Ints) -> Signs:
+def _sides(motion: MovingPoints, edge: Ints, other: Ints) -> Signs:
     """Return on which side of each edge the other one starts and ends, shape (m, 2)."""
     start, end = edge[:, None], motion.next_point[edge][:, None]
     there = np.stack([other, motion.next_point[other]], axis=1)
@@ -102,7 +102,7 @@ def _sides(motion: Motion, edge: Ints, other: Ints) -> Signs:
     return side
 
 
-def order_along_edges(motion: Motion, visits: Visits) -> tuple[Bools, Ints]:
+def order_along_edges(motion: MovingPoints, visits: Visits) -> tuple[Bools, Ints]:
     """Tell whether consecutive visits on one edge are in order when points have begun to move.
 
     Returns
@@ -125,7 +125,7 @@ def order_along_edges(motion: Motion, visits: Visits) -> tuple[Bools, Ints]:
     return in_order, triples[order == 0]
 
 
-def same_outside(motion: Motion, points: Floats) -> bool:
+def same_outside(motion: MovingPoints, points: Floats) -> bool:
     """Tell whether a loop has its leftmost vertex, and turns there, as it does when its points have begun to move.
 
     That says on which side of it the outside is, given its crossings.
@@ -139,7 +139,7 @@ def same_outside(motion: Motion, points: Floats) -> bool:
     return corner == int(np.lexsort(points.T[::-1])[0]) and bool(turn == orient(*points[around]))
 
 
-def _order(motion: Motion, triples: Ints) -> Signs:
+def _order(motion: MovingPoints, triples: Ints) -> Signs:
     """Return −1 where an edge, the first of each row, crosses the second before the third, 1 where after, 0 where both.
 
     Edge p → q crosses r → s at the share (r − p) × (s − r) / (q − p) × (s − r).

@@ -10,11 +10,11 @@ from plyfold.arrangement.crossings import Contacts, Visits, find_contacts, order
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 
-__all__ = ["Polyline", "as_polyline", "meetings", "visits_along"]
+__all__ = ["JoinedLoops", "joined_loops", "meetings", "visits_along"]
 
 
 @dataclass(frozen=True, eq=False)
-class Polyline:
+class JoinedLoops:
     """All loops as one polyline: each ends with a copy of its first point, and a *jump* leads from there to the next.
 
     Of one loop the polyline is the loop itself.
@@ -37,42 +37,42 @@ class Polyline:
     is_jump: Bools
 
 
-def as_polyline(points: Floats, first_point: Ints) -> Polyline:
+def joined_loops(points: Floats, first_point: Ints) -> JoinedLoops:
     """Return loops as one polyline; loop l has the points ``first_point[l]:first_point[l + 1]``."""
     if len(first_point) == 2:
         n = len(points)
-        return Polyline(points, np.zeros(n, dtype=np.int64), np.arange(n), np.zeros(n, dtype=bool))
+        return JoinedLoops(points, np.zeros(n, dtype=np.int64), np.arange(n), np.zeros(n, dtype=bool))
     lengths = np.diff(first_point) + 1
     last = np.cumsum(lengths) - 1
     vertex = np.arange(int(lengths.sum()))
     vertex[last] -= lengths - 1
     loop = np.repeat(np.arange(len(lengths)), lengths)
-    return Polyline(points[vertex - loop], loop, vertex, is_jump=np.isin(np.arange(len(vertex)), last))
+    return JoinedLoops(points[vertex - loop], loop, vertex, is_jump=np.isin(np.arange(len(vertex)), last))
 
 
-def meetings(polyline: Polyline, watch: Watch = UNWATCHED) -> Contacts:
+def meetings(joined: JoinedLoops, watch: Watch = UNWATCHED) -> Contacts:
     """Return the pairs of edges of an outline that cross, and the vertices that lie on foreign edges."""
-    found = find_contacts(polyline.points, watch, np.flatnonzero(polyline.is_jump))
-    if not polyline.is_jump.any():
+    found = find_contacts(joined.points, watch, np.flatnonzero(joined.is_jump))
+    if not joined.is_jump.any():
         return found
-    edges = found.edges - polyline.loop[found.edges]
-    return replace(found, edges=edges, touches=_own_touches_left_out(polyline, found.touches))
+    edges = found.edges - joined.loop[found.edges]
+    return replace(found, edges=edges, touches=_own_touches_left_out(joined, found.touches))
 
 
-def _own_touches_left_out(polyline: Polyline, touches: Ints) -> Ints:
+def _own_touches_left_out(joined: JoinedLoops, touches: Ints) -> Ints:
     """Leave out the touches of jumps, and those of edges that share the point with which a loop begins and ends."""
-    vertex, edge = polyline.vertex[touches[:, 0]], touches[:, 1]
-    following = polyline.vertex[(edge + 1) % len(polyline.vertex)]
-    kept = ~polyline.is_jump[edge] & (vertex != edge) & (vertex != following)
+    vertex, edge = joined.vertex[touches[:, 0]], touches[:, 1]
+    following = joined.vertex[(edge + 1) % len(joined.vertex)]
+    kept = ~joined.is_jump[edge] & (vertex != edge) & (vertex != following)
     rows = np.stack([vertex[kept], edge[kept]], axis=1)
-    return np.unique(rows - polyline.loop[rows], axis=0)
+    return np.unique(rows - joined.loop[rows], axis=0)
 
 
-def visits_along(polyline: Polyline, contacts: Contacts) -> Visits:
+def visits_along(joined: JoinedLoops, contacts: Contacts) -> Visits:
     """Return the visits of an outline to its crossings, in order along one loop after the other."""
-    if not polyline.is_jump.any():
-        return order_visits(polyline.points, contacts)
-    number = np.flatnonzero(~polyline.is_jump)
-    visits = order_visits(polyline.points, replace(contacts, edges=number[contacts.edges]))
-    loop = polyline.loop
+    if not joined.is_jump.any():
+        return order_visits(joined.points, contacts)
+    number = np.flatnonzero(~joined.is_jump)
+    visits = order_visits(joined.points, replace(contacts, edges=number[contacts.edges]))
+    loop = joined.loop
     return replace(visits, edge=visits.edge - loop[visits.edge], triple=visits.triple - loop[visits.triple])

@@ -15,7 +15,7 @@ import numpy as np
 
 from plyfold.arrangement.crossings import Visits, edge_ends
 from plyfold.arrangement.marks import Mark
-from plyfold.arrangement.meetings import Polyline
+from plyfold.arrangement.meetings import JoinedLoops
 from plyfold.arrays import Bools, Floats, Ints, Wholes
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.graphs import components
@@ -54,16 +54,16 @@ class Nest:
     feet: list[tuple[Mark, Mark]]
 
 
-def nest(polyline: Polyline, visits: Visits, watch: Watch = UNWATCHED, exact: Wholes | None = None) -> Nest:
+def nest(joined: JoinedLoops, visits: Visits, watch: Watch = UNWATCHED, exact: Wholes | None = None) -> Nest:
     """Find which of several closed polylines in general position lies inside which, given their visits.
 
     Parameters
     ----------
-    polyline : Polyline
+    joined : JoinedLoops
     visits : Visits
     watch : Watch, optional
     exact : (n, 2) object, optional
-        Places of its points in whole numbers of some unit, to which ``polyline.points`` are near: nearer than doubles
+        Places of its points in whole numbers of some unit, to which ``joined.points`` are near: nearer than doubles
         could tell. By default, those are exact.
 
     Raises
@@ -75,12 +75,12 @@ def nest(polyline: Polyline, visits: Visits, watch: Watch = UNWATCHED, exact: Wh
     -----
     O(n) for each group.
     """
-    start = np.flatnonzero(~polyline.is_jump)
+    start = np.flatnonzero(~joined.is_jump)
     visits = replace(visits, edge=start[visits.edge])
-    loop, n_loops = polyline.loop[visits.edge], int(polyline.loop[-1]) + 1
+    loop, n_loops = joined.loop[visits.edge], int(joined.loop[-1]) + 1
     first_visit = np.searchsorted(loop, np.arange(n_loops + 1))
     group = components(n_loops, loop, loop[visits.partner])
-    plan = _Plan(polyline, visits, first_visit, group[polyline.loop], exact)
+    plan = _Plan(joined, visits, first_visit, group[joined.loop], exact)
     outside, bridges, feet = [], [], []
     for number, corner in enumerate(_corners(plan)):
         watch.step()
@@ -119,7 +119,7 @@ class _Plan:
     the points are near, see :func:`nest`.
     """
 
-    polyline: Polyline
+    joined: JoinedLoops
     visits: Visits
     first_visit: Ints
     group: Ints
@@ -127,23 +127,23 @@ class _Plan:
 
     def place(self, point: int) -> Place:
         """Return where a point is."""
-        x, y = (self.polyline.points if self.exact is None else self.exact)[point].tolist()
+        x, y = (self.joined.points if self.exact is None else self.exact)[point].tolist()
         return Fraction(x), Fraction(y)
 
     def is_above(self, points: Ints, other: int) -> Bools:
         """Tell which points lie higher than another one."""
-        y = (self.polyline.points if self.exact is None else self.exact)[:, 1]
+        y = (self.joined.points if self.exact is None else self.exact)[:, 1]
         return np.asarray(y[points] > y[other], dtype=bool)
 
     @cached_property
     def ends(self) -> Floats:
         """Start and end of each edge."""
-        return edge_ends(self.polyline.points)
+        return edge_ends(self.joined.points)
 
     @cached_property
     def leftmost(self) -> float:
         """The least x of all points."""
-        return float(self.polyline.points[:, 0].min())
+        return float(self.joined.points[:, 0].min())
 
     @cached_property
     def first_border(self) -> Ints:
@@ -169,16 +169,16 @@ class _Plan:
 
     def border(self, edge: int, visits_passed: int) -> int:
         """Return the border at a place on an edge, given how many visits come before it, on earlier loops too."""
-        loop = int(self.polyline.loop[edge])
+        loop = int(self.joined.loop[edge])
         start, count = int(self.first_visit[loop]), int(self.first_visit[loop + 1] - self.first_visit[loop])
         return int(self.first_border[loop]) + (visits_passed - start - 1) % max(count, 1)
 
 
 def _corners(plan: _Plan) -> list[int]:
     """Return the leftmost vertex of each group, the lowest of several, from left to right."""
-    x, y = plan.polyline.points.T if plan.exact is None else map(_ranks, plan.exact.T)
+    x, y = plan.joined.points.T if plan.exact is None else map(_ranks, plan.exact.T)
     order = np.lexsort([y, x])
-    order = order[~plan.polyline.is_jump[order]]
+    order = order[~plan.joined.is_jump[order]]
     corners: list[int] = order[np.sort(np.unique(plan.group[order], return_index=True)[1])].tolist()
     return corners
 
@@ -189,9 +189,9 @@ def _ranks(numbers: Wholes) -> Ints:
 
 def _outer_dart(plan: _Plan, corner: int) -> int:
     """Return the dart that has the outside of its group on its left at a leftmost vertex."""
-    is_first = corner == 0 or plan.polyline.is_jump[corner - 1]
+    is_first = corner == 0 or plan.joined.is_jump[corner - 1]
     # The first vertex of a loop comes again at its end.
-    last = int(np.searchsorted(plan.polyline.loop, plan.polyline.loop[corner], side="right")) - 1
+    last = int(np.searchsorted(plan.joined.loop, plan.joined.loop[corner], side="right")) - 1
     before = (last if is_first else corner) - 1
     border = plan.border(corner, int(np.searchsorted(plan.visits.edge, corner)))
     return 2 * border + _turns_left(plan, before, corner, corner + 1)
@@ -199,15 +199,15 @@ def _outer_dart(plan: _Plan, corner: int) -> int:
 
 def _turns_left(plan: _Plan, before: int, here: int, after: int) -> bool:
     if plan.exact is None:
-        return bool(orient(*plan.polyline.points[[before, here, after]]) > 0)
+        return bool(orient(*plan.joined.points[[before, here, after]]) > 0)
     p, q, r = (plan.place(point) for point in (before, here, after))
     return exact_cross(p, q, q, r) > 0
 
 
 def _foot_at_vertex(plan: _Plan, corner: int) -> Mark:
     """Return the foot of the bridge that leaves a leftmost vertex; it comes after a cusp there."""
-    x, y = plan.polyline.points[corner].tolist()
-    loop = int(plan.polyline.loop[corner])
+    x, y = plan.joined.points[corner].tolist()
+    loop = int(plan.joined.loop[corner])
     return Mark(corner - loop, Fraction(0), 1, int(np.searchsorted(plan.visits.edge, corner)), loop, (x, y))
 
 
@@ -216,12 +216,12 @@ def _foot_on_edge(plan: _Plan, edge: int, corner: int, number: int) -> Mark:
 
     Later ones, which come from further right, are higher if the vertices have one height: they pass above.
     """
-    loop, upward = int(plan.polyline.loop[edge]), _is_upward(plan, edge)
+    loop, upward = int(plan.joined.loop[edge]), _is_upward(plan, edge)
     (_, height), (_, start), (_, end) = (plan.place(point) for point in (corner, edge, edge + 1))
     share = (height - start) / (end - start)
     tie = 2 + number if upward else -2 - number
     (start_x, _), (end_x, _) = plan.ends[edge].tolist()
-    point = (start_x + float(share) * (end_x - start_x), float(plan.polyline.points[corner, 1]))
+    point = (start_x + float(share) * (end_x - start_x), float(plan.joined.points[corner, 1]))
     return Mark(edge - loop, share, tie, _visits_passed(plan, edge, share, upward), loop, point)
 
 
@@ -235,9 +235,9 @@ def _met_on_the_left(plan: _Plan, corner: int) -> int | None:
     The ray runs a little higher than the vertex, by less than any other difference in height. So it meets no vertices
     and no crossings.
     """
-    x, height = plan.polyline.points[corner].tolist()
+    x, height = plan.joined.points[corner].tolist()
     near = plan.near(np.array([(plan.leftmost, height), (x, height)]))
-    near = near[(plan.group[near] != plan.group[corner]) & ~plan.polyline.is_jump[near]]
+    near = near[(plan.group[near] != plan.group[corner]) & ~plan.joined.is_jump[near]]
     met = near[plan.is_above(near, corner) != plan.is_above(near + 1, corner)]
     if plan.exact is None:
         nearest, is_sure = _nearest(plan.ends[met], x, height, met)

@@ -18,14 +18,13 @@ from plyfold.outline.curve import Outline, outline_of_points
 from plyfold.outline.points import Repair
 from plyfold.predicates import orient
 
-__all__ = ["spikes", "without_spikes"]
+__all__ = ["tips", "without_spikes"]
 
 
-def spikes(outline: Outline) -> Ints:
-    """Return the points, no cusps, at which a loop turns back the way that it came. Exact."""
-    points, before, after = outline.points, outline.previous_point, outline.next_point
-    back = _turns_back(points[before], points, points[after])
-    return np.flatnonzero(back & (np.concatenate(outline.cusps) == 0))
+def tips(outline: Outline) -> Bools:
+    """Tell at which points a loop turns back the way that it came. Exact."""
+    points = outline.points
+    return _turns_back(points[outline.previous_point], points, points[outline.next_point])
 
 
 def without_spikes(outline: Outline) -> tuple[Outline, Ints]:
@@ -54,7 +53,8 @@ def without_spikes(outline: Outline) -> tuple[Outline, Ints]:
     >>> kept.tolist(), [str(repair) for repair in left.repairs]
     ([0, 1, 2, 5], ['spike taken out at (2, 5), size 3'])
     """
-    if len(first := spikes(outline)) == 0:
+    first = np.flatnonzero(tips(outline) & (np.concatenate(outline.cusps) == 0))
+    if len(first) == 0:
         return outline, np.arange(len(outline))
     chain = _Chain.of(outline)
     repairs = _taken_out(chain, first.tolist())

@@ -203,13 +203,15 @@ def common_places(walk: Walk) -> ExactPlaces:
     edges[place[points]] = walk.edges[points]
     at, edge = np.unique(np.stack([place[walk.loop], walk.edge], axis=1)[between], axis=0).T
     first = np.searchsorted(at, at)
-    crossing = np.flatnonzero(are_crossing(walk.outline.edges, edge[first], edge))
+    later = np.flatnonzero(first < np.arange(len(at)))
+    crossing = later[are_crossing(walk.outline.edges, edge[first[later]], edge[later])]
     # Of those that cross the first edge the first one.
     crossing = crossing[np.unique(at[crossing], return_index=True)[1]]
-    used = first == np.arange(len(at))
+    rank = np.zeros_like(at)
+    rank[later] = 1
+    used = rank == 0
     used[crossing] = True
     used &= ~given[at]
-    rank = (first < np.arange(len(at))).astype(np.int64)
     edges[at[used], rank[used]] = edge[used]
     places = on_edges(near, edges, walk.outline.edges, given)
     _require_on(places, *(numbers[~used | np.isinf(places.off[at])] for numbers in (at, edge)))

@@ -22,6 +22,8 @@ the object that --json prints, with --each one on a line for each shape:
   repairs                   list of {kind, where: [x, y], size}: what was changed in the input
   immersible, immersions    whether the outline bounds a surface, and in how many ways; null: unknown, the time limit
   surface                   what it bounds, in words (if immersible)
+  touches                   list of [x, y]: where the surface touches itself; empty if the outline bounds one that does
+                            not (if immersible)
   pieces                    of the surface: list of {loops, euler_characteristic, genus} (if immersible)
   euler_characteristic      of all of it (if immersible)
   sheets                    of each immersion (if immersible)

@@ -14,14 +14,15 @@ from plyfold.obstruction import Obstruction, Unknown
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
     from plyfold.io.cusp_notation import CuspMark
+    from plyfold.io.reading import Contents
     from plyfold.outline.curve import Outline
 
-__all__ = ["add_drawing_options", "read_outline"]
+__all__ = ["add_drawing_options", "read_file", "read_outline"]
 
 
 def add_drawing_options(command: argparse.ArgumentParser) -> None:
     """Give a subcommand the file and the options that say what in it is meant."""
-    command.set_defaults(read_shape=None, shape={})
+    command.set_defaults(read_shape=None, shape={}, ribbon=None)
     command.add_argument("file", metavar="FILE", help='a drawing, "-" for standard input, or gallery:NAME')
     command.add_argument("--id", help="the element of an SVG, or the feature of a GeoJSON; by default all of it")
     command.add_argument("--index", type=int, metavar="N", help="which shape of the file, from 0 on; by default all")
@@ -46,6 +47,28 @@ def add_drawing_options(command: argparse.ArgumentParser) -> None:
     )
     command.add_argument("--uv", action="store_true", help="of an OBJ or PLY, the texture coordinates as the flat mesh")
     command.add_argument("--tolerance", type=float, help="how far a Bézier or arc may be from its polyline")
+    _add_width_options(command)
+
+
+def _add_width_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--width",
+        type=_width,
+        metavar="W",
+        help='make ribbons of this width out of lines: open paths, LineStrings, lists of points, tracks; "auto" takes '
+        "the widths of strokes in an SVG; of a GPX in metres",
+    )
+    command.add_argument("--join", choices=["round", "mitre", "bevel"], help="what bends of ribbons look like outside")
+    command.add_argument("--cap", choices=["flat", "round", "square"], help="what ends of ribbons look like")
+
+
+def _width(text: str) -> float | str:
+    if text == "auto":
+        return text
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text} is no width: a number, or auto") from None
 
 
 def _cusp(text: str) -> CuspMark:
@@ -65,16 +88,27 @@ def read_outline(options: argparse.Namespace, watch: Stopwatch) -> Outline:
 
 
 def _read(options: argparse.Namespace) -> Outline:
+    outline: Outline
     if options.read_shape is not None:
-        outline: Outline = options.read_shape()
+        outline, options.ribbon = options.read_shape()
         return outline
     if options.file.startswith("gallery:"):
         from plyfold.gallery import named_curve
 
+        if options.width is not None:
+            raise InputError("a curve of the gallery is no line to be given a width", hint="leave out --width")
         return named_curve(options.file.removeprefix("gallery:")).outline
-    from plyfold.io.reading import read
+    outline, options.ribbon = read_file(options).outline_and_ribbon(options.index)
+    return outline
 
-    return read(options.file, id=options.id, index=options.index, tolerance=options.tolerance, uv=options.uv)
+
+def read_file(options: argparse.Namespace) -> Contents:
+    """Return what the file holds, before it is made one outline."""
+    from plyfold.io.reading import read_contents
+    from plyfold.io.widths import wide_lines
+
+    wide = wide_lines(options.width, options.join, options.cap)
+    return read_contents(options.file, id=options.id, tolerance=options.tolerance, uv=options.uv, wide=wide)
 
 
 def _with_cusps(outline: Outline, marks: list[CuspMark]) -> Outline:
@@ -115,7 +149,7 @@ def _with_proposed_cusps(outline: Outline, options: argparse.Namespace, watch: S
         raise _not_decided(found)
     if isinstance(found, Obstruction):
         raise NotEmbeddableError(found, hint="name the cusps with --cusp")
-    places = [outline.loops[loop][point].tolist() for loop, point in found.cusps]
+    places = [found.outline.loops[loop][point].tolist() for loop, point in found.cusps]
     proposed = [Repair("cusp proposed", (x, y), 0.0) for x, y in places]
     return outline_with(found.outline, repairs=(*found.outline.repairs, *proposed))
 

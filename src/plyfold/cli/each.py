@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plyfold.cli.drawing import read_file
 from plyfold.cli.inputs import BAD_INPUT, DISK, NO_DISK, UNKNOWN
 from plyfold.errors import InputError
 from plyfold_command import INTERRUPTED
@@ -49,20 +50,18 @@ def each_shape(options: argparse.Namespace, answer: Callable[[argparse.Namespace
 
 def _open(found: list[Contents], options: argparse.Namespace) -> int:
     """Read the file, as a command of its own, so that errors are told as always."""
-    from plyfold.io.reading import read_contents
-
     if options.index is not None:
         raise InputError("--index chooses one shape, and --each takes all", hint="give one of them")
     if options.file.startswith("gallery:"):
         raise InputError("a curve of the gallery is one shape", hint="leave out --each")
-    found.append(read_contents(options.file, id=options.id, tolerance=options.tolerance, uv=options.uv))
+    found.append(read_file(options))
     return DISK
 
 
 def _of_one_shape(options: argparse.Namespace, contents: Contents, number: int) -> argparse.Namespace:
     """Return the options for one of the shapes; unless JSON is asked for, say which one it is."""
     name = contents.name(number)
-    changed = {"read_shape": partial(contents.outline, number), "shape": {"index": number, "id": name}}
+    changed = {"read_shape": partial(contents.outline_and_ribbon, number), "shape": {"index": number, "id": name}}
     if getattr(options, "output", None):
         changed["output"] = [_numbered(path, number) for path in options.output]
     if not getattr(options, "json", False):

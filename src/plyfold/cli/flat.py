@@ -12,9 +12,11 @@ from plyfold.cli.inputs import (
     add_command,
     add_outputs,
     add_repair,
+    arrange_outline,
     prepare,
     read_arrangement,
     read_as_given,
+    read_drawing,
     refuse_outputs,
     say_notes,
     write_texts,
@@ -122,17 +124,17 @@ def _direction(turned: bool) -> str:
 
 
 def _triangulate(options: argparse.Namespace) -> int:
-    from plyfold.flat.triangulate import triangulate
+    from plyfold.flat.triangulate import chosen_immersion, triangulate
     from plyfold.io.pieces import TRIANGLE_WRITERS
-    from plyfold.mesh.refine import given_outline
 
     watch = Stopwatch()
-    arranged = prepare(options, tuple(TRIANGLE_WRITERS), watch)
+    refuse_outputs(options, tuple(TRIANGLE_WRITERS))
+    outline = read_drawing(options, watch)
+    arranged = arrange_outline(outline, options, watch)
+    say_notes(arranged.outline)
     watch("triangulating")
-    faces = triangulate(arranged)
+    faces, points = triangulate(outline, chosen_immersion(arranged, None)), outline.points
     watch.stop()
-    drawn = given_outline(arranged)
-    points = (drawn.reversed() if arranged.reversed else drawn).points
     print(f"{len(faces):,} triangles")
     write_texts(options, {ending: partial(write, points, faces) for ending, write in TRIANGLE_WRITERS.items()})
     return DISK

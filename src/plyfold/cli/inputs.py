@@ -33,9 +33,11 @@ __all__ = [
     "add_outputs",
     "add_repair",
     "add_time_limit",
+    "arrange_outline",
     "prepare",
     "read_arrangement",
     "read_as_given",
+    "read_drawing",
     "refuse_outputs",
     "repaired",
     "say_notes",
@@ -125,12 +127,12 @@ def repaired(outline: Outline, options: argparse.Namespace, watch: Stopwatch, cl
     raise TimeLimitError(str(found), hint="allow more time")
 
 
-def _read(options: argparse.Namespace, watch: Stopwatch, clock: Clock) -> Outline:
+def read_drawing(options: argparse.Namespace, watch: Stopwatch, clock: Clock | None = None) -> Outline:
     """Return the outline that is named, repaired if that is asked for; then say so."""
     outline = read_outline(options, watch)
     if not getattr(options, "repair", False):
         return outline
-    found = repaired(outline, options, watch, clock)
+    found = repaired(outline, options, watch, clock or Clock(None))
     watch.stop()
     print(f"repaired: {found}", file=sys.stderr)
     return found.outline
@@ -144,12 +146,17 @@ def add_outputs(command: argparse.ArgumentParser, endings: str) -> None:
 
 def read_arrangement(options: argparse.Namespace, watch: Stopwatch, clock: Clock | None = None) -> Arrangement:
     """Return the arrangement of the drawing that is named."""
+    return arrange_outline(read_drawing(options, watch, clock), options, watch, clock)
+
+
+def arrange_outline(
+    outline: Outline, options: argparse.Namespace, watch: Stopwatch, clock: Clock | None = None
+) -> Arrangement:
+    """Return the arrangement of an outline that was read."""
     from plyfold.arrangement.arrangement import watched_arrangement
 
-    clock = clock or Clock(None)
-    outline = _read(options, watch, clock)
     load_libraries(FOR_CROSSINGS, watch)
-    return watched_arrangement(outline, options.general_position, Watch(clock, watch))
+    return watched_arrangement(outline, options.general_position, Watch(clock or Clock(None), watch))
 
 
 def prepare(
@@ -166,7 +173,7 @@ def read_as_given(options: argparse.Namespace, watch: Stopwatch) -> Outline:
     """Return the outline with nothing moved, and say what was changed; refuse one that touches itself if asked to."""
     from plyfold.arrangement.arrangement import arrange
 
-    drawn = _read(options, watch, Clock(None))
+    drawn = read_drawing(options, watch)
     say_notes(drawn)
     load_libraries((*FOR_CROSSINGS, *FOR_MESHES), watch)
     if options.general_position == "raise":

@@ -12,6 +12,8 @@ from plyfold.clock import Clock
 from plyfold.wording import counted
 
 if TYPE_CHECKING:
+    from plyfold.arrangement.arrangement import Arrangement
+    from plyfold.layering.layering import Layering
     from plyfold.surface.heights import PinKey
 
 __all__ = ["add_lift_command"]
@@ -61,7 +63,7 @@ def _lift(options: argparse.Namespace) -> int:
     endings = (".glb", ".obj", ".ply", ".stl", ".3mf", *pages)
     arranged = prepare(options, endings, watch, clock)
     surface = lift(
-        arranged,
+        _by_heights(arranged, options),
         gap=options.gap,
         triangles=options.triangles,
         time_limit=clock.left,
@@ -80,6 +82,24 @@ def _lift(options: argparse.Namespace) -> int:
     for path in options.output:
         print(f"  wrote {path}")
     return DISK
+
+
+def _by_heights(arranged: Arrangement, options: argparse.Namespace) -> Arrangement | Layering:
+    """Return the layering that the heights of lines ask for, or the arrangement, if there are none.
+
+    Raises NotEmbeddableError if no cloth follows the heights.
+    """
+    if options.ribbon is None or arranged.cusp_index.any():
+        return arranged
+    from plyfold.errors import NotEmbeddableError
+    from plyfold.layering.levels.heights import layering_by_heights
+    from plyfold.obstruction import Obstruction
+
+    found = layering_by_heights(options.ribbon)
+    if isinstance(found, Obstruction):
+        raise NotEmbeddableError(found, hint="leave the heights out of the file, and any order will do")
+    print("Over and under are those of the heights in the file")
+    return found
 
 
 def _export(surface: Any, options: argparse.Namespace, watch: Stopwatch) -> None:

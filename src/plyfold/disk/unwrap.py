@@ -35,12 +35,14 @@ from plyfold.immersion.immersion import Immersion, require_disk
 from plyfold.io.mesh.model import DETAIL, Material, Model, size_of
 from plyfold.io.mesh.saving import save_model
 from plyfold.mesh.cells import DEFAULT_TRIANGLES, refuse_sizes, triangulate_cells
+from plyfold.mesh.refine import given_outline, is_moved
 from plyfold.mesh.sheets import glue_copies
+from plyfold.mesh.strips import loop_left
 from plyfold.outline.given import CurveLike
 from plyfold.outline.points import as_points
 from plyfold.wording import counted
 
-__all__ = ["DISK_ENDINGS", "UnwoundDisk", "map_disk", "model_of_disk", "unwrap"]
+__all__ = ["DISK_ENDINGS", "UnwoundDisk", "map_disk", "model_of_disk", "require_one_piece", "unwrap"]
 
 # The files that hold texture coordinates.
 DISK_ENDINGS = (".obj", ".ply", ".glb")
@@ -106,7 +108,11 @@ class UnwoundDisk:
 
     @cached_property
     def border_start(self) -> Ints:
-        """Where on the boundary each border begins: border i runs from ``boundary[border_start[i]]``."""
+        """Where on the boundary each border begins: border i runs from ``boundary[border_start[i]]``.
+
+        Raises InputError if points of the outline were moved apart: then borders are those of the moved outline.
+        """
+        self._require_borders()
         if self.immersion.arrangement.n_crossings == 0:
             return np.zeros(1, dtype=np.int64)
         # At a crossing the winding number on the left changes, so there and only there does the sheet change.
@@ -146,7 +152,12 @@ class UnwoundDisk:
     @cached_property
     def arcs(self) -> tuple[Arc, ...]:
         """The arcs of the disk layout (§2.2 of [MGR11]_), each inside its sheet; they meet at ends only."""
+        self._require_borders()
         return arcs_of(self)
+
+    def _require_borders(self) -> None:
+        if is_moved(self.immersion.arrangement):
+            raise InputError("the borders of an outline that touches itself are not all there on its given points")
 
     @cached_property
     def _boundary_faces(self) -> Ints:
@@ -257,9 +268,11 @@ class UnwoundDisk:
         CertificateError
             Naming the condition and the place.
         """
-        drawn = self.immersion.arrangement.curve
-        assert drawn is not None
-        check_immersed_disk(drawn.points, self.plane, self.faces, self.boundary, drawn.cusps[0])
+        drawn = given_outline(self.immersion.arrangement)
+        points, cusps = drawn.points, drawn.cusps[0]
+        if is_moved(self.immersion.arrangement):
+            points, cusps = loop_left(self.immersion.arrangement, self.plane, self.faces, self.boundary)
+        check_immersed_disk(points, self.plane, self.faces, self.boundary, cusps)
         circle = self.disk[self.boundary]
         check_immersed_disk(circle, self.disk, self.faces, self.boundary)
         if not runs_once_round(circle):
@@ -319,6 +332,8 @@ def unwrap(
     ------
     NotImmersibleError
         If the curve bounds no immersed disk.
+    InputError
+        If the outline touches itself so that what is left of the disk is in pieces.
     PrecisionError
         If double precision cannot hold the disk; it names the place.
 
@@ -384,7 +399,8 @@ def map_disk(
     NotImmersibleError
         If the curve bounds no immersed disk.
     InputError
-        If a size is not positive or makes too many triangles, or the immersion is one of another curve.
+        If a size is not positive or makes too many triangles, or the immersion is one of another curve; or if the disk
+        is in pieces, as the outline touches itself.
 
     References
     ----------
@@ -401,6 +417,16 @@ def map_disk(
     return unwound.plane, unwound.faces, unwound.uv
 
 
+def require_one_piece(places: Floats, first_boundary: Ints) -> None:
+    """Refuse a disk that is in pieces on the given points, as it touches itself, by an InputError."""
+    if (pieces := len(first_boundary) - 1) > 1:
+        raise InputError(
+            f"the outline touches itself, and what is left of the disk is in {pieces} pieces",
+            where=places[first_boundary[:-1]],
+            hint="give the outline of one of them",
+        )
+
+
 def _unwound_immersion(immersion: Immersion, triangles: int, max_area: float | None) -> UnwoundDisk:
     require_disk(immersion)
     if immersion.arrangement.curve is None:
@@ -408,6 +434,7 @@ def _unwound_immersion(immersion: Immersion, triangles: int, max_area: float | N
     refuse_sizes(immersion.arrangement.curve.points, triangles, max_area)
     cells = triangulate_cells(immersion.arrangement, max_area, triangles)
     glued = glue_copies(immersion, cells)
+    require_one_piece(cells.points[glued.planar_vertex], glued.first_boundary)
     plane = cells.points[glued.planar_vertex]
     disk = round_map(plane, glued.faces, glued.boundary)
     return UnwoundDisk(immersion, disk, plane, None, glued.faces, glued.sheet, glued.boundary)

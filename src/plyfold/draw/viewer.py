@@ -133,7 +133,7 @@ def _frames(surface: Surface) -> list[Floats]:
 
     None if it is no disk, or if doubles cannot hold that: then the page shows no way.
     """
-    if not surface.layering.immersion.is_disk:
+    if not surface.is_disk:
         return []
     try:
         motion = Motion(surface.unwrap())

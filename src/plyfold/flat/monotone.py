@@ -24,8 +24,8 @@ __all__ = [
     "Stacks",
     "Triangles",
     "add_vertex",
+    "close",
     "count_up",
-    "cut_off",
     "empty_triangles",
     "new_polygon",
 ]
@@ -54,10 +54,13 @@ class Triangles(NamedTuple):
 
 
 class MonotonePolygons(NamedTuple):
-    """The places of vertices, also before they were moved apart, polygons of them, and their triangles."""
+    """The places of vertices, polygons of them, and their triangles.
+
+    ``flat`` is 1 if polygons may have no width. Then there may be triangles without area.
+    """
 
     places: Coordinates
-    given: Coordinates
+    flat: Ints
     stacks: Stacks
     output: Triangles
 
@@ -98,16 +101,24 @@ def add_vertex(polygons: MonotonePolygons, polygon: int, vertex: int, side: int)
     """Add a vertex to a polygon, on its upper (1) or lower (−1) side, and cut off all triangles that can be."""
     stacks = polygons.stacks
     last = stacks.last[polygon]
-    left = cut_off(polygons, polygon, vertex)
     if stacks.side[polygon] == -side:
+        close(polygons, polygon, vertex)
         stacks.before[last] = -1
         left = last
+    else:
+        left = _cut_off(polygons, polygon, vertex, False)
     stacks.side[polygon] = side
     _push(polygons, polygon, vertex, left)
 
 
 @called_from_loops
-def cut_off(polygons: MonotonePolygons, polygon: int, vertex: int) -> int:
+def close(polygons: MonotonePolygons, polygon: int, vertex: int) -> None:
+    """Cut all that is left of a polygon into triangles with a vertex that faces its chain."""
+    _cut_off(polygons, polygon, vertex, True)
+
+
+@called_from_loops
+def _cut_off(polygons: MonotonePolygons, polygon: int, vertex: int, faces_chain: bool) -> int:
     """Cut triangles with a new vertex off the end of a polygon's chain; return the entry up to which it is left."""
     stacks, faces = polygons.stacks, polygons.output.faces
     above = stacks.side[polygon] > 0
@@ -115,7 +126,8 @@ def cut_off(polygons: MonotonePolygons, polygon: int, vertex: int) -> int:
     while stacks.before[entry] >= 0:
         near, far = stacks.vertex[entry], stacks.vertex[stacks.before[entry]]
         second, third = (vertex, near) if above else (near, vertex)
-        if not _turns_left(polygons, far, second, third):
+        side = turn(polygons.places, far, second, third)
+        if side < 0 or (side == 0 and not _is_cut_flat(polygons, (far, near, vertex), faces_chain)):
             break
         triangle = count_up(polygons.output.counts, TRIANGLES)
         faces[triangle][0], faces[triangle][1], faces[triangle][2] = far, second, third
@@ -124,7 +136,16 @@ def cut_off(polygons: MonotonePolygons, polygon: int, vertex: int) -> int:
 
 
 @called_from_loops
-def _turns_left(polygons: MonotonePolygons, a: int, b: int, c: int) -> bool:
-    """Tell whether the way from a over b to c turns left while the vertices are moved apart by infinitely little."""
-    side = turn(polygons.given, a, b, c)
-    return bool(side > 0 or (side == 0 and turn(polygons.places, a, b, c) > 0))
+def _is_cut_flat(polygons: MonotonePolygons, corners: tuple[int, int, int], faces_chain: bool) -> bool:
+    """Tell whether a triangle without area is cut off: if it must be, or to leave no two places in a row the same."""
+    if polygons.flat[0] == 0:
+        return False
+    far, near, vertex = corners
+    return faces_chain or _is_same(polygons, far, near) or _is_same(polygons, near, vertex)
+
+
+@called_from_loops
+def _is_same(polygons: MonotonePolygons, one: int, other: int) -> bool:
+    """Tell whether two vertices are at the same place."""
+    x, y, _ = polygons.places
+    return bool(x[one] == x[other] and y[one] == y[other])

@@ -23,12 +23,12 @@ from typing import NamedTuple
 import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
-from plyfold.errors import InputError, PlyfoldError, PrecisionError
+from plyfold.errors import InputError, PlyfoldError
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.graphs import components
 from plyfold.halfedges import before, ends_of, following, twins_of
 from plyfold.immersion.immersion import Immersion
-from plyfold.mesh.refine import drawn_outline, given_outline
+from plyfold.mesh.refine import given_outline, is_moved
 from plyfold.outline.curve import Outline
 from plyfold.predicates import Coordinates, as_coordinates, orient, turn
 
@@ -87,9 +87,8 @@ def settled_triangles(immersion: Immersion) -> Settled:
     Signs and places are exact. As :func:`sweep_triangles`; where strands touch also O(n log n), some steps for each
     triangle without area, and at worst some for each pair of these on a line.
     """
-    faces, arrangement = sweep_triangles(immersion), immersion.arrangement
-    given = given_outline(arrangement)
-    if np.array_equal(given.points, drawn_outline(arrangement).points):
+    faces, given = sweep_triangles(immersion), given_outline(immersion.arrangement)
+    if not is_moved(immersion.arrangement):
         return _as_it_is(faces, len(given))
     _refuse_double_sides(given, _as_it_is(faces, len(given)))
     return settle(given, faces)
@@ -145,13 +144,7 @@ def settle(given: Outline, faces: Ints) -> Settled:
     ----------
     given : Outline
     faces : (n − 2χ, 3) int
-        Triangles on its points, counter-clockwise while these were moved apart. No two inner sides join the same
-        points.
-
-    Raises
-    ------
-    PrecisionError
-        If a triangle has turned over: the points were moved by too much.
+        Triangles on its points, counter-clockwise or flat. No two inner sides join the same points.
 
     Notes
     -----
@@ -167,12 +160,6 @@ def settle(given: Outline, faces: Ints) -> Settled:
     [[0, 4, 5], [2, 3, 1]]
     """
     sign = orient(*given.points[faces].swapaxes(0, 1))
-    if (sign < 0).any():
-        raise PrecisionError(
-            "touching strands were moved apart by more than there is room for",
-            where=given.points[faces[sign < 0][0]],
-            hint="move these points by hand",
-        )
     if (sign > 0).all():
         return _as_it_is(faces, len(given))
     return _numbered(given, _without_flat_triangles(given.points, faces, np.flatnonzero(sign == 0)))

@@ -12,6 +12,9 @@ what is above it of one goes on with what is below it of the one next to it, rou
 
 The part of the surface that was swept is cut into monotone polygons, whose triangles are found on the way
 (:mod:`plyfold.flat.monotone`).
+
+If touching strands were moved apart, the line sweeps over the moved ones; but triangles are cut off as is right on the
+points as given, for what is a corner of little more than no angle here may be one of a little less there.
 """
 
 from __future__ import annotations
@@ -20,26 +23,34 @@ from typing import NamedTuple
 
 import numpy as np
 
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Ints
 from plyfold.compiled import called_from_loops, run_loop
-from plyfold.errors import PlyfoldError
+from plyfold.errors import PlyfoldError, PrecisionError
 from plyfold.flat.monotone import (
     TRIANGLES,
     MonotonePolygons,
     Stacks,
     Triangles,
     add_vertex,
+    close,
     count_up,
-    cut_off,
     empty_triangles,
     new_polygon,
 )
-from plyfold.flat.sweep_line import SkipList, SweepPlan, empty_skip_list, link_above, sweep_order, sweep_plan, unlink
+from plyfold.flat.sweep_line import (
+    TILTS,
+    SkipList,
+    SweepPlan,
+    empty_skip_list,
+    link_above,
+    sweep_order,
+    sweep_plan,
+    unlink,
+)
 from plyfold.immersion.immersion import Immersion
-from plyfold.mesh.refine import borders_at_points, drawn_outline, given_outline
+from plyfold.mesh.refine import borders_at_points, drawn_outline, given_outline, is_moved
 from plyfold.mesh.sheets import seams_of, twisted_bridges
-from plyfold.outline.curve import Outline
-from plyfold.predicates import Coordinates, as_coordinates, turn
+from plyfold.predicates import Coordinates, as_coordinates, orient, turn
 
 __all__ = ["sweep_triangles"]
 
@@ -52,8 +63,8 @@ class _Drawing(NamedTuple):
     ``arriving`` and ``leaving`` are the borders that end and begin at each vertex, or the one that it is on;
     ``before`` and ``after`` those at each visit. ``cusp`` is the index of each vertex, ``bridge_of_foot`` the bridge
     whose second foot is at each visit, ``bridge_at`` the one whose first foot is at each vertex, or −1, and ``above``
-    tells which bridges begin above the edge that their second foot is on. The sheet beyond a dart, seen from a sheet on
-    its left, is ``beyond[row[dart] + sheet]``, or −1.
+    tells which bridges begin above the edge that their second foot is on. ``flat`` is 1 if triangles may be flat. The
+    sheet beyond a dart, seen from a sheet on its left, is ``beyond[row[dart] + sheet]``, or −1.
     """
 
     order: Ints
@@ -70,6 +81,7 @@ class _Drawing(NamedTuple):
     bridge_of_foot: Ints
     bridge_at: Ints
     above: Ints
+    flat: Ints
     bridge_border: Ints
     own_sheet: Ints
     row: Ints
@@ -124,8 +136,8 @@ def sweep_triangles(immersion: Immersion) -> Ints:
     Returns
     -------
     (n − 2χ, 3) int
-        Counter-clockwise, exactly, where the outline's points were given; those that have no area there, where they
-        are. χ is the Euler characteristic.
+        Counter-clockwise, exactly, where the outline's points were given; only if strands touch there, some may have no
+        area. χ is the Euler characteristic.
 
     Notes
     -----
@@ -137,23 +149,38 @@ def sweep_triangles(immersion: Immersion) -> Ints:
     >>> sweep_triangles(find_immersion([(0, 0), (4, 0), (1, 1), (0, 4)])).tolist()
     [[0, 2, 3], [0, 1, 2]]
     """
-    plan = sweep_plan(immersion.arrangement, twisted_bridges(immersion))
+    given = given_outline(immersion.arrangement).points
+    triangles = len(given) - 2 * immersion.euler_characteristic
+    if not is_moved(immersion.arrangement):
+        faces = _swept_triangles(immersion, TILTS[0])
+        if len(faces) == triangles:
+            return faces
+        raise PlyfoldError("internal check failed: the triangles make the surface", where=given[:1])
+    for tilt in TILTS:
+        faces = _swept_triangles(immersion, tilt)
+        if len(faces) == triangles and (orient(*given[faces].swapaxes(0, 1)) >= 0).all():
+            return faces
+    raise PrecisionError(
+        "touching strands were moved apart by more than there is room for",
+        where=given[(given != drawn_outline(immersion.arrangement).points).any(axis=1)][:1],
+        hint="move these points by hand",
+    )
+
+
+def _swept_triangles(immersion: Immersion, tilt: float) -> Ints:
+    """Return the triangles that are found by a line of some tilt: all, unless moved strands confuse it."""
+    plan = sweep_plan(immersion.arrangement, twisted_bridges(immersion), tilt)
     drawing = _drawing(immersion, plan)
     n = len(drawing.cusp)
     ahead = drawing.rank[:n] < drawing.rank[drawing.following[:n]]
     starts = int((ahead > ahead[drawing.preceding]).sum())
     turns = int((drawing.cusp + 1)[drawing.cusp > 0].sum())
-    given = (
-        *_coordinates(plan.points, given_outline(immersion.arrangement)),
-        drawing,
-        *_room(n, starts, turns, len(plan.bridges)),
-    )
-    triangles = n - 2 * immersion.euler_characteristic
+    places, given_places = as_coordinates(plan.points), as_coordinates(given_outline(immersion.arrangement).points)
+    given = (places, given_places, drawing, *_room(n, starts, turns, len(plan.bridges)))
     # Room for one more: if there were more, that would be seen.
-    output = run_loop(_swept, len(drawing.order), given, empty_triangles(triangles + 1))
-    if output.counts[TRIANGLES] != triangles:
-        raise PlyfoldError("internal check failed: the triangles make the surface", where=plan.points[:1])
-    return output.faces[:triangles]
+    room = empty_triangles(n - 2 * immersion.euler_characteristic + 1)
+    output = run_loop(_swept, len(drawing.order), given, room)
+    return output.faces[: output.counts[TRIANGLES]]
 
 
 def _drawing(immersion: Immersion, plan: SweepPlan) -> _Drawing:
@@ -182,20 +209,12 @@ def _drawing(immersion: Immersion, plan: SweepPlan) -> _Drawing:
         bridge_of_foot=bridge_of_foot,
         bridge_at=bridge_at,
         above=plan.above,
+        flat=np.array([int(is_moved(arrangement))]),
         bridge_border=arrangement.n_borders + plan.bridges,
         own_sheet=immersion.own_sheet,
         row=seams.row,
         beyond=seams.table,
     )
-
-
-def _coordinates(points: Floats, given: Outline) -> tuple[Coordinates, Coordinates]:
-    """Return the coordinates of points, and of the outline's points among them where they were given: alike."""
-    if np.array_equal(points[: len(given)], given.points):
-        places = as_coordinates(points)
-        return places, places
-    both, n = as_coordinates(np.concatenate([points, given.points])), len(points)
-    return Coordinates(both.x[:n], both.y[:n], both.scratch), Coordinates(both.x[n:], both.y[n:], both.scratch)
 
 
 def _room(n: int, starts: int, turns: int, bridges: int) -> tuple[SkipList, _Strands, _Intervals, Stacks]:
@@ -218,7 +237,7 @@ def _swept(
 ) -> int:
     """Sweep; return how many triangles there are."""
     places, given_places, drawing, nodes, strands, intervals, stacks = given
-    polygons = MonotonePolygons(places, given_places, stacks, output)
+    polygons = MonotonePolygons(given_places, drawing.flat, stacks, output)
     sweep = _Sweep(places, drawing, nodes, strands, intervals, polygons)
     rank, n = drawing.rank, len(drawing.cusp)
     for event in drawing.order:
@@ -394,9 +413,9 @@ def _end(sweep: _Sweep, vertex: int, convex: bool) -> None:
     arriving, leaving = sweep.drawing.preceding[vertex], vertex
     lower, upper = intervals.of_edge[leaving], intervals.of_edge[arriving]
     if convex:
-        cut_off(sweep.polygons, intervals.bottom[lower], vertex)
+        close(sweep.polygons, intervals.bottom[lower], vertex)
         if intervals.top[lower] != intervals.bottom[lower]:
-            cut_off(sweep.polygons, intervals.top[lower], vertex)
+            close(sweep.polygons, intervals.top[lower], vertex)
     else:
         _meet(sweep, lower, vertex, 1)
         _meet(sweep, upper, vertex, -1)
@@ -519,7 +538,7 @@ def _meet(sweep: _Sweep, interval: int, vertex: int, side: int) -> None:
     bottom, top = intervals.bottom[interval], intervals.top[interval]
     near, far = (top, bottom) if side > 0 else (bottom, top)
     if near != far:
-        cut_off(sweep.polygons, near, vertex)
+        close(sweep.polygons, near, vertex)
         intervals.bottom[interval] = intervals.top[interval] = far
     add_vertex(sweep.polygons, far, vertex, side)
 

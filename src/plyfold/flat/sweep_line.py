@@ -15,13 +15,14 @@ from plyfold.mesh.refine import drawn_outline
 from plyfold.outline.curve import Outline
 from plyfold.predicates import cross_sign, exact_parameter, parameter_along_edge
 
-__all__ = ["SkipList", "SweepPlan", "empty_skip_list", "link_above", "sweep_order", "sweep_plan", "unlink"]
+__all__ = ["TILTS", "SkipList", "SweepPlan", "empty_skip_list", "link_above", "sweep_order", "sweep_plan", "unlink"]
 
 
 _Place: TypeAlias = tuple[Fraction, Fraction]
 
-# The line is tilted, so that in drawings along the axes it does not come to many places at once.
-_TILT = 0.3
+# The line is tilted, so that in drawings along the axes it does not come to many places at once. It takes another tilt
+# where touching strands that were moved apart lie along it.
+TILTS = 0.3, -0.4, 0.7, -1.1, 1.9
 # The rounding error of x + tilt · y, as a part of the sizes of the two, is less than this; the same for interpolation.
 _ERROR = 1e-15
 
@@ -33,6 +34,7 @@ class SweepPlan(NamedTuple):
     bridges, then their second feet. ``first_foot`` are vertices, ``second_foot`` visits; ``above`` tells which bridges
     begin above the edge with their second foot, as seen along the line. ``visit`` are the visits that the line comes
     to: the first ones to crossings, and second feet. There ``edge`` and ``other`` cross, of which one may be a bridge.
+    The line is where x + ``tilt`` · y is some number.
     """
 
     points: Floats
@@ -45,9 +47,10 @@ class SweepPlan(NamedTuple):
     visit: Ints
     edge: Ints
     other: Ints
+    tilt: float
 
 
-def sweep_plan(arrangement: Arrangement, bridges: Ints) -> SweepPlan:
+def sweep_plan(arrangement: Arrangement, bridges: Ints, tilt: float = TILTS[0]) -> SweepPlan:
     """Return what a line sweeps over: a drawing, and some of its bridges."""
     outline = drawn_outline(arrangement)
     n, count = len(outline), len(bridges)
@@ -66,22 +69,23 @@ def sweep_plan(arrangement: Arrangement, bridges: Ints) -> SweepPlan:
         bridges=bridges,
         first_foot=start,
         second_foot=second,
-        above=_leave_above(outline, arrangement.visit_edge[second]),
+        above=_leave_above(outline, arrangement.visit_edge[second], tilt),
         visit=np.concatenate([visit, second]),
         edge=np.concatenate([edge, arrangement.visit_edge[second]]),
         other=np.concatenate([other, n + np.arange(count)]),
+        tilt=tilt,
     )
 
 
-def _leave_above(outline: Outline, edge: Ints) -> Ints:
+def _leave_above(outline: Outline, edge: Ints, tilt: float) -> Ints:
     """Tell whether what leaves edges to the right is above them on the line: they fall as the line comes along them."""
     start, end = outline.points[edge], outline.points[outline.next_point[edge]]
-    along = cross_sign(start, end, np.zeros(2), np.array([-_TILT, 1.0]))
+    along = cross_sign(start, end, np.zeros(2), np.array([-tilt, 1.0]))
     return (np.sign(end[:, 1] - start[:, 1]) * along < 0).astype(np.int64)
 
 
 def sweep_order(plan: SweepPlan) -> Ints:
-    """Return the vertices and crossings of a drawing by x + 0.3 y, then by y, exactly.
+    """Return the vertices and crossings of a drawing by x + tilt · y, then by y, exactly.
 
     Parameters
     ----------
@@ -99,7 +103,7 @@ def sweep_order(plan: SweepPlan) -> Ints:
     """
     n = plan.n_vertices
     with np.errstate(over="ignore", invalid="ignore"):
-        reach, error = _reach(plan.points)
+        reach, error = _reach(plan.points, plan.tilt)
         if len(plan.visit):
             more = _reach_of_crossings(plan, reach, error)
             reach, error = np.concatenate([reach[:n], more[0]]), np.concatenate([error[:n], more[1]])
@@ -109,10 +113,10 @@ def sweep_order(plan: SweepPlan) -> Ints:
     return np.concatenate([np.arange(n), n + plan.visit])[events]
 
 
-def _reach(points: Floats) -> tuple[Floats, Floats]:
+def _reach(points: Floats, tilt: float) -> tuple[Floats, Floats]:
     """Return how far the line has come at each point, and a bound on the error."""
     x, y = points.T
-    tilted = _TILT * y
+    tilted = tilt * y
     return x + tilted, _ERROR * (np.abs(x) + np.abs(tilted))
 
 
@@ -143,7 +147,7 @@ def _sort_unsure(plan: SweepPlan, events: Ints, reach: Floats, error: Floats) ->
 
 def _exact_reach(plan: SweepPlan, event: int) -> tuple[Fraction, Fraction, int]:
     x, y = _exact_place(plan, event)
-    return x + Fraction(_TILT) * y, y, _behind(plan, event)
+    return x + Fraction(plan.tilt) * y, y, _behind(plan, event)
 
 
 def _behind(plan: SweepPlan, event: int) -> int:
@@ -153,7 +157,7 @@ def _behind(plan: SweepPlan, event: int) -> int:
         return 0
     start = plan.edge[event - plan.n_vertices]
     (x, y), (end_x, end_y) = (map(Fraction, plan.points[point].tolist()) for point in (start, plan.following[start]))
-    reaches = end_x - x + Fraction(_TILT) * (end_y - y) > 0
+    reaches = end_x - x + Fraction(plan.tilt) * (end_y - y) > 0
     return 1 if reaches == (end_y > y) else -1
 
 

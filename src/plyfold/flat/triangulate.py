@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import overload
+from typing import NamedTuple, overload
 
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, arrange
+from plyfold.arrangement.spikes import without_spikes
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import InputError, NotImmersibleError
 from plyfold.flat.delaunay import delaunay_triangles, flip_edges
-from plyfold.flat.settle import Settled, settled_by_points, settled_triangles
+from plyfold.flat.settle import settled_by_points, settled_triangles
 from plyfold.immersion.immersion import Immersion, require_immersion
 from plyfold.immersion.solve import find_immersion
 from plyfold.mesh.cells import refuse_max_area
@@ -57,8 +58,8 @@ def triangulate(
         corner of every piece, and χ is that of all pieces together. Where a point touches the inside of an edge, it is
         a corner on both sides.
     points, faces : (m, 2) float and (m', 3) int
-        With ``refine``. The first points are the outline's; those that touch the inside of an edge where the surface is
-        cut follow, once more for each piece with a corner there, so that pieces have no vertex in common.
+        With ``refine``. The first points are the outline's, all of them; those that touch the inside of an edge where
+        the surface is cut follow, once more for each corner there, so that pieces have no vertex in common.
 
     Raises
     ------
@@ -82,9 +83,9 @@ def triangulate(
     and [WZ14]_. Many are long and thin; those that ``refine`` makes are as round as
     the points of the outline let them; :func:`~plyfold.map_disk` divides the outline too.
 
-    Points that repeat the one before them are left out (see :class:`~plyfold.Curve`): they do not count, and no face
-    has them. Where strands touch, the triangles are those of strands that are infinitely little apart, without the ones
-    that have no area.
+    Points that repeat the one before them are left out (see :class:`~plyfold.Curve`), and so are tips of spikes: they
+    do not count, and no face has them. Where strands touch, the triangles are those of strands that are infinitely
+    little apart, without the ones that have no area.
 
     References
     ----------
@@ -110,11 +111,29 @@ def triangulate(
     [[0, 6, 7], [2, 3, 4]]
     """
     chosen = chosen_immersion(curve, immersion)
+    came_in = _points_that_came_in(curve, chosen.arrangement)
     if refine is not None:
-        return _refined(chosen, refine)
+        return _refined(chosen, came_in, refine)
     settled = settled_triangles(chosen)
-    faces = _input_order(chosen.arrangement)[settled.point[settled.faces]]
+    faces = came_in.number[settled.point[settled.faces]]
     return faces if isinstance(curve, Arrangement | Outline) else as_outline(curve).rows[faces]
+
+
+class _CameIn(NamedTuple):
+    """The points of an outline as it came in, and the number that each point of its arrangement has among them."""
+
+    points: Floats
+    number: Ints
+
+
+def _points_that_came_in(curve: OutlineLike, drawn: Arrangement) -> _CameIn:
+    """Return the points of an outline; those of an arrangement without the spikes that were taken out."""
+    if not isinstance(curve, Arrangement):
+        return _CameIn(as_outline(curve).points, drawn.numbers)
+    order = np.argsort(drawn.numbers)
+    number = np.empty_like(order)
+    number[order] = np.arange(len(order))
+    return _CameIn(given_outline(drawn).points[order], number)
 
 
 def chosen_immersion(curve: OutlineLike, immersion: Immersion | None) -> Immersion:
@@ -141,10 +160,12 @@ def _same(drawn: Arrangement, other: Arrangement) -> bool:
 
 def _draws(drawn: Arrangement, outline: Outline) -> bool:
     """Tell whether an arrangement is that of an outline."""
-    if drawn.outline is None or len(drawn.outline) != len(outline):
+    if drawn.outline is None:
         return False
-    number = _input_order(drawn)
-    return _alike(given_outline(drawn), outline, number)
+    left, kept = (outline, np.arange(len(outline))) if len(drawn.numbers) == len(outline) else without_spikes(outline)
+    if not np.array_equal(np.sort(drawn.numbers), kept):
+        return False
+    return _alike(given_outline(drawn), left, np.searchsorted(kept, drawn.numbers))
 
 
 def _alike(used: Outline, outline: Outline, number: Ints) -> bool:
@@ -156,35 +177,18 @@ def _alike(used: Outline, outline: Outline, number: Ints) -> bool:
     )
 
 
-def _input_order(drawn: Arrangement) -> Ints:
-    """Return the number that each point of the arrangement's outline has in the input."""
-    drawn_outline(drawn)
-    return drawn.numbers
-
-
-def _refined(immersion: Immersion, max_area: float) -> tuple[Floats, Ints]:
+def _refined(immersion: Immersion, came_in: _CameIn, max_area: float) -> tuple[Floats, Ints]:
     """Triangulate with added points."""
-    drawn = immersion.arrangement
+    given = given_outline(immersion.arrangement).points
     if isinstance(max_area, bool) or not isinstance(max_area, int | float | np.number):
         raise InputError(f"the largest area of a triangle must be a number, not {max_area!r}")
-    refuse_max_area(drawn_outline(drawn).points, max_area)
-    settled = settled_by_points(immersion)
-    points, number = _points_of_corners(given_outline(drawn), settled, _input_order(drawn))
+    refuse_max_area(given, max_area)
+    point, inside = (settled := settled_by_points(immersion)).point, settled.inside
+    points = np.concatenate([came_in.points, given[point[inside]]])
+    number = np.where(inside, len(came_in.points) - 1 + np.cumsum(inside), came_in.number[point])
     # Flips alone would take quadratic time where triangles are long.
-    round_triangles = delaunay_triangles(points[number], settled.faces)
+    round_triangles = delaunay_triangles(given[point], settled.faces)
     return _split_large(points, number[round_triangles], max_area)
-
-
-def _points_of_corners(given: Outline, settled: Settled, input_order: Ints) -> tuple[Floats, Ints]:
-    """Return the points of an outline in the order of the input, then those inside its edges at which it is cut.
-
-    Also the number of each corner among them.
-    """
-    points = np.empty_like(given.points)
-    points[input_order] = given.points
-    inside = settled.inside
-    number = np.where(inside, len(given) - 1 + np.cumsum(inside), input_order[settled.point])
-    return np.concatenate([points, given.points[settled.point[inside]]]), number
 
 
 def _split_large(points: Floats, faces: Ints, max_area: float) -> tuple[Floats, Ints]:

@@ -119,7 +119,8 @@ class Immersion:
 
     def __repr__(self) -> str:
         sheets, cells = counted(self.n_sheets, "sheet"), counted(self.arrangement.n_cells - 1, "cell")
-        return f"<Immersion: {sheets} over {cells}>"
+        places = f", touches itself in {counted(len(self.touches), 'place')}" if self.touches else ""
+        return f"<Immersion: {sheets} over {cells}{places}>"
 
     def _repr_svg_(self) -> str | None:
         # The disk layout; what is no disk has none, and is shown as it lies over the drawing.
@@ -181,6 +182,24 @@ class Immersion:
     def piece_of_sheet(self) -> Ints:
         """The number of the connected piece that each sheet belongs to."""
         return components(self.n_sheets, *self.gluing[:, 1:].T)
+
+    @cached_property
+    def touches(self) -> tuple[tuple[float, float], ...]:
+        """Where the surface touches itself, for it has no width there; none mostly.
+
+        Then the outline as given bounds no such surface in the strict sense, but is a limit of outlines that do.
+
+        Examples
+        --------
+        >>> from plyfold import find_immersion
+        >>> find_immersion([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)]).touches
+        ((1.0, 1.0),)
+        """
+        if self.arrangement.given is self.arrangement.outline:
+            return ()
+        from plyfold.flat.settle import cuts_of
+
+        return tuple(dict.fromkeys((x, y) for x, y in cuts_of(self).tolist()))
 
     def disk_layout(self) -> tuple[Group, ...]:
         """Return the disk layout: the borders of the disk, grouped by the sheet they lie on (§2.2 of [MGR11]_).

@@ -17,16 +17,16 @@ from plyfold.arrangement.lobes import lobe_turning_numbers
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.graphs import spanning_tree
 
-__all__ = ["MOST_CROSSINGS", "Lobe", "is_inside", "lobes_to_leave_out", "place_of_turning", "places_of"]
+__all__ = ["place_of_turning"]
 
 # Curves with more crossings are not asked what would be left of them.
-MOST_CROSSINGS = 4000
+_MOST_CROSSINGS = 4000
 # How many of the shortest lobes are looked at, one or two at a time.
 _MOST_LOBES = 64
 _MOST_IN_PAIRS = 24
 
 
-class Lobe(NamedTuple):
+class _Lobe(NamedTuple):
     """The part of the curve from one visit to a crossing on to the other, and how often it turns."""
 
     length: float
@@ -45,17 +45,17 @@ class _Lobes(NamedTuple):
     rest: Ints
 
 
-def lobes_to_leave_out(drawn: Arrangement) -> Iterator[list[Lobe]]:
+def _lobes_to_leave_out(drawn: Arrangement) -> Iterator[list[_Lobe]]:
     """Yield lobes, or two of them, without which the curve may bound a disk, as far as its numbers tell.
 
     Of the 64 shortest lobes, and then of pairs of the 24 shortest, those that leave a curve which turns once and winds
     one way only. None for more than 4,000 crossings.
     """
-    if not 0 < drawn.n_crossings <= MOST_CROSSINGS:
+    if not 0 < drawn.n_crossings <= _MOST_CROSSINGS:
         return
     columns = (column[:_MOST_LOBES].tolist() for column in _shorter_lobes(drawn)[:4])
-    lobes = [Lobe(*row) for row in zip(*columns, strict=True)]
-    inside = np.array([is_inside(drawn, lobe) for lobe in lobes])
+    lobes = [_Lobe(*row) for row in zip(*columns, strict=True)]
+    inside = np.array([_is_inside(drawn, lobe) for lobe in lobes])
     winding = _windings(drawn, inside)
     for chosen in _choices(lobes, inside):
         left = drawn.turning_number - sum(lobes[i].turning for i in chosen)
@@ -80,8 +80,8 @@ def place_of_turning(drawn: Arrangement) -> tuple[tuple[float, float], ...]:
     """
     if drawn.n_loops > 1 or drawn.outline is None or not drawn.n_crossings:
         return ()
-    chosen = next(lobes_to_leave_out(drawn), None)
-    return places_of(drawn, [lobe.first for lobe in chosen] if chosen else [_nearer_to_once(drawn)])
+    chosen = next(_lobes_to_leave_out(drawn), None)
+    return _places_of(drawn, [lobe.first for lobe in chosen] if chosen else [_nearer_to_once(drawn)])
 
 
 def _nearer_to_once(drawn: Arrangement) -> int:
@@ -95,12 +95,12 @@ def _nearer_to_once(drawn: Arrangement) -> int:
     raise AssertionError("a closed curve has a simple lobe at one of its crossings")
 
 
-def places_of(drawn: Arrangement, visits: list[int]) -> tuple[tuple[float, float], ...]:
+def _places_of(drawn: Arrangement, visits: list[int]) -> tuple[tuple[float, float], ...]:
     """Return where the crossings are at some visits."""
     return tuple((x, y) for x, y in drawn.crossings[drawn.crossing_of_visit[visits]].tolist())
 
 
-def is_inside(drawn: Arrangement, lobe: Lobe) -> Bools:
+def _is_inside(drawn: Arrangement, lobe: _Lobe) -> Bools:
     """Tell of each border whether the lobe has it."""
     along = (np.arange(drawn.n_borders) - lobe.first) % drawn.n_borders
     return np.asarray(along < (lobe.last - lobe.first) % drawn.n_borders)
@@ -136,7 +136,7 @@ def _places_along(drawn: Arrangement) -> tuple[Floats, float]:
     return (ends - edges)[start] + since_start, float(ends[-1])
 
 
-def _choices(lobes: list[Lobe], inside: Bools) -> Iterator[list[int]]:
+def _choices(lobes: list[_Lobe], inside: Bools) -> Iterator[list[int]]:
     """Yield the numbers of what may be left out: each lobe, then pairs without a common border, the shortest first."""
     yield from ([i] for i in range(len(lobes)))
     pairs = [list(pair) for pair in combinations(range(len(lobes))[:_MOST_IN_PAIRS], 2)]

@@ -11,7 +11,7 @@ from typing import Any, overload
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement, arrange, watched_arrangement
+from plyfold.arrangement.arrangement import Arrangement, arrange, watched_arrangement, ways_apart
 from plyfold.clock import UNWATCHED, Clock, Watch
 from plyfold.errors import InputError, TimeLimitError
 from plyfold.immersion.contradiction import no_gluing
@@ -25,9 +25,11 @@ from plyfold.outline.given import OutlineLike
 __all__ = [
     "best_immersion",
     "bounds_disk",
+    "bounds_strictly",
     "count_immersions",
     "find_immersion",
     "immersions",
+    "in_best_way",
     "nth_immersion",
     "sample_immersion",
     "watched_immersions",
@@ -59,12 +61,14 @@ def find_immersion(
     Returns
     -------
     Immersion or Obstruction or Unknown
-        The result is true if there is an immersion. An immersion has been checked against the definition. An
-        obstruction names the theorem that fails: a cusp has too few sheets beside it (reason ``"cusp"``), the outline
-        turns too often (``"turning number"``), a cell has a negative winding number (``"negative winding"``), the
-        exhausted word of a disk has no grouping (``"no grouping"``), the conditions at some crossings, cusps and feet
-        of bridges contradict each other (``"no gluing"``: ``value`` are visits there), or there are surfaces, but none
-        in one piece (``"pieces"``). Unknown at the time limit only.
+        The result is true if there is an immersion. An immersion has been checked against the definition. If the
+        outline touches itself, it is that of the outline with points in contact moved outward, which exists if the
+        outline is a limit of outlines of such surfaces; ``immersion.touches`` says where the surface has no width then.
+        An obstruction names the theorem that fails: a cusp has too few sheets beside it (reason ``"cusp"``), the
+        outline turns too often (``"turning number"``), a cell has a negative winding number (``"negative winding"``),
+        the exhausted word of a disk has no grouping (``"no grouping"``), the conditions at some crossings, cusps and
+        feet of bridges contradict each other (``"no gluing"``: ``value`` are visits there), or there are surfaces, but
+        none in one piece (``"pieces"``). Unknown at the time limit only.
 
     Raises
     ------
@@ -98,7 +102,7 @@ def find_immersion(
     clock = Clock(time_limit)
     watch = Watch(clock)
     try:
-        arranged = watched_arrangement(curve, "perturb", watch)
+        arranged = in_best_way(watched_arrangement(curve, "perturb", watch), watch)
         return next(watched_immersions(arranged, watch, connected), None) or _why_not(arranged, connected, watch)
     except (TimeLimitError, TimeoutError):
         return _unknown("whether there is an immersion", clock)
@@ -140,7 +144,7 @@ def immersions(curve: OutlineLike, connected: bool = False) -> Iterator[Immersio
     >>> [len(immersion.disk_layout()) for immersion in immersions(milnor)]
     [9, 9]
     """
-    yield from watched_immersions(arrange(curve), UNWATCHED, connected)
+    yield from watched_immersions(in_best_way(arrange(curve)), UNWATCHED, connected)
 
 
 def watched_immersions(arranged: Arrangement, watch: Watch, connected: bool = False) -> Iterator[Immersion]:
@@ -190,7 +194,7 @@ def count_immersions(curve: OutlineLike, connected: bool = False, time_limit: fl
     clock = Clock(time_limit)
     watch = Watch(clock)
     try:
-        return _count(watched_arrangement(curve, "perturb", watch), connected, watch)
+        return _count(in_best_way(watched_arrangement(curve, "perturb", watch), watch), connected, watch)
     except TimeLimitError:
         return _unknown("how many immersions there are", clock)
 
@@ -206,12 +210,15 @@ def _count(arranged: Arrangement, connected: bool, watch: Watch) -> int:
     return 0 if surfaces is None else count_surfaces(surfaces, connected, watch.begin("counting the immersions"))
 
 
-def bounds_disk(curve: OutlineLike) -> bool:
+def bounds_disk(curve: OutlineLike, touching: bool = True) -> bool:
     """Tell whether an outline is that of a disk of cloth laid flat on a table.
 
     Parameters
     ----------
     curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of curves
+    touching : bool, optional
+        Whether a disk may touch itself, in a point or along a strand that is walked twice: then the outline is a limit
+        of outlines of disks, though it may not be one itself.
 
     Returns
     -------
@@ -223,9 +230,34 @@ def bounds_disk(curve: OutlineLike) -> bool:
     --------
     >>> bounds_disk([(0, 0), (2, 2), (2, 0), (0, 2)])
     False
+    >>> two_triangles = [(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)]
+    >>> bounds_disk(two_triangles), bounds_disk(two_triangles, touching=False)
+    (True, False)
     """
-    arranged = arrange(curve)
+    return any(map(_bounds_disk, ways_apart(arrange(curve), inward=not touching)))
+
+
+def _bounds_disk(arranged: Arrangement) -> bool:
     return not is_visibly_no_disk(arranged) and find_disks(arranged) is not None
+
+
+def bounds_strictly(arranged: Arrangement) -> bool:
+    """Tell whether the outline as given bounds a surface in the strict sense, which does not touch itself."""
+    return any(_bounds_surface(way, UNWATCHED) for way in ways_apart(arranged, inward=True))
+
+
+def in_best_way(arranged: Arrangement, watch: Watch = UNWATCHED) -> Arrangement:
+    """Return an outline with cusps that lie on each other moved apart so that it bounds a surface, if there is a way.
+
+    All other outlines stay as they are.
+    """
+    if arranged.outline is None or not arranged.outline.has_cusps or len(arranged.contacts) == 0:
+        return arranged
+    return next((way for way in ways_apart(arranged) if _bounds_surface(way, watch)), arranged)
+
+
+def _bounds_surface(arranged: Arrangement, watch: Watch) -> bool:
+    return next(watched_immersions(arranged, watch), None) is not None
 
 
 def sample_immersion(curve: OutlineLike, rng: np.random.Generator | int) -> Immersion | Obstruction:
@@ -254,7 +286,7 @@ def sample_immersion(curve: OutlineLike, rng: np.random.Generator | int) -> Imme
     >>> sample_immersion([(0, 0), (1, 0), (0, 1)], np.random.default_rng(1)).n_sheets
     1
     """
-    dice, arranged = _dice(rng), arrange(curve)
+    dice, arranged = _dice(rng), in_best_way(arrange(curve))
     return _sampled(arranged, dice) or _why_not(arranged, False, UNWATCHED)
 
 
@@ -302,7 +334,7 @@ def nth_immersion(curve: OutlineLike, index: int) -> Immersion:
     >>> nth_immersion(milnor, 1).own_sheet.tolist() == list(immersions(milnor))[1].own_sheet.tolist()
     True
     """
-    arranged = arrange(curve)
+    arranged = in_best_way(arrange(curve))
     count = _count(arranged, False, UNWATCHED)
     if not 0 <= index < count:
         raise InputError(f"there is no immersion {index}", hint=f"the curve has {count}, numbered from 0")
@@ -337,7 +369,7 @@ def best_immersion(curve: OutlineLike, key: Callable[[Immersion], Any]) -> Immer
     >>> best_immersion(milnor, key=lambda immersion: len(immersion.disk_layout())).n_sheets
     11
     """
-    arranged = arrange(curve)
+    arranged = in_best_way(arrange(curve))
     return min(immersions(arranged), key=key, default=None) or find_immersion(arranged)
 
 

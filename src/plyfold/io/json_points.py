@@ -93,7 +93,8 @@ def _lines(lines: object, what: str) -> list[list[Any]]:
 def _points(points: object, cusps: object = None) -> Shape:
     if not isinstance(points, list) or not all(isinstance(point, list) for point in points):
         raise _code_error(points) or _error("the points are not a list of [x, y]")
-    return _loops([points], cusps)
+    shape = _loops([points], cusps)
+    return shape._replace(loops=tuple(line._replace(is_line=True) for line in shape.loops))
 
 
 def _loops(lines: Sequence[Any], cusps: object) -> Shape:
@@ -126,7 +127,8 @@ def _stroke(stroke: dict[str, Any]) -> Line:
     if points.size and points.ndim != 2:
         raise _error("a stroke of the document has points that are not [x, y]")
     (cusps,) = cusps_of_loops(stroke.get("cusps"), [len(points)])
-    return Line(points, bool(stroke.get("closed")), cusps=cusps)
+    closed = bool(stroke.get("closed"))
+    return Line(points, closed, cusps=cusps, is_line=not closed)
 
 
 def _code_error(numbers: object) -> FileFormatError | None:

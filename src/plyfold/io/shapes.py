@@ -14,12 +14,21 @@ from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.direction import bounds_nothing, sense
 from plyfold.outline.given import outline_of_curves, outline_with
 from plyfold.outline.points import Repair, as_planar_points
+from plyfold.outline.ribbons.sides import CapStyle, JoinStyle
 from plyfold.outline.strokes import join_strokes
 from plyfold.outline.vertices import naming_the_curve
 
-__all__ = ["Line", "Shape", "outline_of_shapes", "shape_of_strokes"]
+__all__ = ["Line", "Shape", "StrokeStyle", "outline_of_shapes", "shape_of_strokes"]
 
 _FEWEST_ROWS_OF_A_LOOP = 4
+
+
+class StrokeStyle(NamedTuple):
+    """What a file says of the strokes along a line: their width, and how their corners and ends look."""
+
+    width: float
+    join: JoinStyle
+    cap: CapStyle
 
 
 class Line(NamedTuple):
@@ -34,12 +43,22 @@ class Line(NamedTuple):
         1 if it is to run counter-clockwise, −1 if clockwise, 0 as it stands; of a loop that is alone that does not
         matter.
     cusps : mapping from point to index
+    is_line : bool
+        Whether it may be given a width: it is no ring of a polygon and no loop by name. Then it is closed if its last
+        point repeats the first.
+    heights : array-like, shape (n,), optional
+        Those of its points, where they are no third column.
+    pen : StrokeStyle, optional
+        The strokes along it.
     """
 
     points: npt.ArrayLike
     closed: bool = True
     direction: int = 0
     cusps: Mapping[int, int] = {}
+    is_line: bool = False
+    heights: npt.ArrayLike | None = None
+    pen: StrokeStyle | None = None
 
 
 class Shape(NamedTuple):
@@ -62,7 +81,7 @@ def shape_of_strokes(strokes: Iterable[Sequence[Any] | npt.NDArray[Any]], name: 
     lines = [*strokes]
     drawn = [line for line in lines if len(line)]
     closed = bool(drawn) and all(map(_ends_where_it_starts, drawn))
-    return Shape(tuple(Line(line, closed) for line in (drawn if closed else lines)), name)
+    return Shape(tuple(Line(line, closed, is_line=True) for line in (drawn if closed else lines)), name)
 
 
 def _ends_where_it_starts(line: Sequence[Any] | npt.NDArray[Any]) -> bool:

@@ -18,12 +18,13 @@ from plyfold.errors import FileFormatError, InputError
 from plyfold.io.beziers import Bezier, DrawnPath, EllipticArc, sample_points
 from plyfold.io.cusp_notation import CuspMark, parse_cusps, written_cusp
 from plyfold.io.own_version import SVG_MARK, refuse_later_version
-from plyfold.io.shapes import Line, Shape, outline_of_shapes
+from plyfold.io.shapes import Line, Shape, StrokeStyle, outline_of_shapes
 from plyfold.outline.curve import Outline
 from plyfold.outline.direction import even_odd_directions, sense
 from plyfold.outline.points import LARGEST_COORDINATE, Repair, as_points, diagonal
+from plyfold.outline.ribbons.sides import CapStyle, JoinStyle
 
-__all__ = ["DrawnShape", "outline_of_drawn_shapes", "shapes_in_svg"]
+__all__ = ["DrawnShape", "flattened_shapes", "outline_of_drawn_shapes", "shapes_in_svg"]
 
 _TOLERANCE_SHARE = 1 / 2000
 _FINEST_SHARE = 1e-9
@@ -32,13 +33,15 @@ _MOST_ELEMENTS = 1_000_000
 _SVG = "{http://www.w3.org/2000/svg}"
 _LINK = "{http://www.w3.org/1999/xlink}href"
 _TEMPLATES = ("symbol", "marker", "mask")
-_GEOGRAPHIC = ("gpx", "kml", "gml")
+_GEOGRAPHIC = ("kml", "gml")
+_JOINS: dict[object, JoinStyle] = {"round": "round", "bevel": "bevel"}
+_CAPS: dict[object, CapStyle] = {"round": "round", "square": "square"}
 _SHAPE_HINT = "draw one closed path, polygon, polyline, rect, circle or ellipse"
 
 
 @dataclass(frozen=True, eq=False)
 class DrawnShape:
-    """A shape of an SVG: its pieces, by which rule it is filled, and its cusps, at the nodes of the pieces.
+    """A shape of an SVG: its pieces, how it is filled and stroked, and its cusps, at the nodes of the pieces.
 
     The first shape of a document has the record of what was left out of it.
     """
@@ -47,6 +50,8 @@ class DrawnShape:
     name: str
     even_odd: bool
     cusps: tuple[CuspMark, ...]
+    filled: bool = True
+    pen: StrokeStyle | None = None
     repairs: tuple[Repair, ...] = ()
 
 
@@ -119,26 +124,37 @@ def outline_of_drawn_shapes(shapes: Sequence[DrawnShape], tolerance: float | Non
     >>> outline_of_drawn_shapes(shapes_in_svg(b'<svg><polygon points="0,0 4,0 0,3"/></svg>')).points.tolist()
     [[0.0, 0.0], [4.0, 0.0], [0.0, -3.0]]
     """
+    return outline_of_shapes(flattened_shapes(shapes, tolerance))
+
+
+def flattened_shapes(shapes: Sequence[DrawnShape], tolerance: float | None = None) -> list[Shape]:
+    """Return shapes of an SVG with polylines for curves, and directions as :func:`outline_of_drawn_shapes` says."""
     with np.errstate(all="ignore"):
         size = _checked_size(sample_points([piece for shape in shapes for piece in shape.pieces]))
     tolerance = _checked_tolerance(tolerance, size)
     flat = [_flattened(shape, tolerance) for shape in shapes]
     alone = sum(len(shape.pieces) for shape in shapes) == 1
     if alone or not any(shape.even_odd for shape in shapes):
-        return outline_of_shapes(flat)
+        return flat
     way = _way_round([part for shape, part in zip(shapes, flat, strict=True) if not shape.even_odd])
-    return outline_of_shapes(
-        [_painted(part, way) if shape.even_odd else part for shape, part in zip(shapes, flat, strict=True)]
-    )
+    return [_painted(part, way) if shape.even_odd else part for shape, part in zip(shapes, flat, strict=True)]
 
 
 def _flattened(shape: DrawnShape, tolerance: float) -> Shape:
     cusps = _cusps_at_vertices(shape, tolerance)
     lines = (
-        Line(piece.flattened(tolerance), piece.closed, cusps=marks)
+        _line(shape, piece, piece.flattened(tolerance))._replace(cusps=marks)
         for piece, marks in zip(shape.pieces, cusps, strict=True)
     )
     return Shape(tuple(lines), shape.name, shape.repairs)
+
+
+def _line(shape: DrawnShape, piece: DrawnPath, points: Floats) -> Line:
+    """Return a piece as a line: one that could have a width if it is open, or stroked and not filled."""
+    is_line = not piece.closed or (shape.pen is not None and not shape.filled)
+    if is_line and piece.closed and not np.array_equal(points[0], points[-1]):
+        points = np.vstack([points, points[:1]])
+    return Line(points, piece.closed, is_line=is_line, pen=shape.pen)
 
 
 def _way_round(shapes: list[Shape]) -> int:
@@ -251,7 +267,21 @@ def _drawn_shape(element: Any) -> DrawnShape:
         start = matrix @ _place(run[0].start) + shift
         pieces.append(DrawnPath(start, segments, closed or np.array_equal(start, segments[-1].end)))
     cusps = parse_cusps(element.values.get("attributes", {}).get("data-cusps", ""))
-    return DrawnShape(tuple(pieces), element.id or "", element.values.get("fill-rule") == "evenodd", tuple(cusps))
+    even_odd, filled = element.values.get("fill-rule") == "evenodd", _is_painted(element.fill)
+    return DrawnShape(tuple(pieces), element.id or "", even_odd, tuple(cusps), filled, _pen(element))
+
+
+def _pen(element: Any) -> StrokeStyle | None:
+    """Return the stroke of a shape as it looks in the end, if it has one."""
+    width = float(element.implicit_stroke_width or 0)
+    if not _is_painted(element.stroke) or not width > 0:
+        return None
+    join, cap = (element.values.get(f"stroke-line{what}") for what in ("join", "cap"))
+    return StrokeStyle(width, _JOINS.get(join, "mitre"), _CAPS.get(cap, "flat"))
+
+
+def _is_painted(paint: Any) -> bool:
+    return paint is not None and paint.value is not None
 
 
 def _runs(segments: Iterable[Any]) -> Iterator[tuple[list[Any], bool]]:

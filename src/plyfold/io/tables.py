@@ -84,7 +84,8 @@ def shapes_in_table(text: str) -> list[Shape]:
         blocks = _blocks_by_loop([row for block in blocks for row in block])
     elif len(blocks) > 1:
         return [_shape_of_blocks(blocks)]
-    return [Shape(tuple(map(_loop, blocks)))]
+    is_line = columns.loop is None
+    return [Shape(tuple(_loop(block)._replace(is_line=is_line) for block in blocks))]
 
 
 def _shape_of_blocks(blocks: list[list[_Row]]) -> Shape:
@@ -149,7 +150,8 @@ def shapes_in_npy(data: bytes) -> list[Shape]:
         raise FileFormatError(
             f"it is no plain NPY array ({reason})", hint="save an (n, 2) array with numpy.save"
         ) from error
-    return [Shape(tuple(map(Line, points if points.ndim == 3 and len(points) else [points])))]
+    lines = points if points.ndim == 3 and len(points) else [points]
+    return [Shape(tuple(Line(line, is_line=True) for line in lines))]
 
 
 def _blocks(text: str) -> tuple[_Columns, list[list[_Row]]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -94,7 +95,10 @@ def _shapes_of_parts(geometry: BaseGeometry) -> list[Shape]:
             return [Shape(tuple(_rings([list(map(get_coordinates, polygon)) for polygon in rings])))]
         case "Point" | "MultiPoint":
             return [Shape((), "", _points_left_out(get_coordinates(geometry)))]
-    return [shape_of_strokes(map(get_coordinates, parts))]
+    shape = shape_of_strokes(map(get_coordinates, parts))
+    drawn = [part for part in parts if not (shape.loops[0].closed and part.is_empty)]
+    heights = (get_coordinates(part, include_z=True)[:, 2] if part.has_z else None for part in drawn)
+    return [shape._replace(loops=tuple(line._replace(heights=z) for line, z in zip(shape.loops, heights, strict=True)))]
 
 
 def shapes_in_geojson(value: dict[str, Any]) -> list[Shape]:
@@ -204,10 +208,18 @@ def _points_left_out(positions: npt.ArrayLike) -> tuple[Repair, ...]:
 
 
 def _positions(line: object) -> list[Any]:
-    """Return [x, y] for each position, or [x, y, 0] if some have an altitude, so that the curve says it is left out."""
+    """Return [x, y] for each position, or [x, y, z] if some have an altitude; it is NaN where there is none."""
     positions = [_list(position) for position in _list(line)]
-    altitude = [0.0] if any(len(position) > 2 for position in positions) else []
-    return [position[:2] + altitude for position in positions]
+    if not any(len(position) > 2 for position in positions):
+        return [position[:2] for position in positions]
+    return [[*position[:2], _altitude(position)] for position in positions]
+
+
+def _altitude(position: list[Any]) -> float:
+    try:
+        return float(position[2]) if type(position[2]) in (int, float) else math.nan
+    except (IndexError, OverflowError):
+        return math.nan
 
 
 def _list(value: object) -> list[Any]:

@@ -26,7 +26,14 @@ from plyfold.arrays import Ints
 from plyfold.clock import Clock, Watch
 from plyfold.errors import TimeLimitError
 from plyfold.immersion.obstructions import may_bound_disk, visible_obstruction
-from plyfold.immersion.solve import bounds_disk, count_immersions, find_immersion, immersions, watched_immersions
+from plyfold.immersion.solve import (
+    bounds_disk,
+    count_immersions,
+    find_immersion,
+    immersions,
+    in_best_way,
+    watched_immersions,
+)
 from plyfold.layering.layering import Layering, layering_of_levels
 from plyfold.layering.levels.casing import casing_of_visits
 from plyfold.layering.levels.counting import count_level_solutions
@@ -115,8 +122,9 @@ def find_embedding(
     [1, 1, 1, 1, 2]
     """
     clock = Clock(time_limit)
+    watch = Watch(clock)
     try:
-        arranged = watched_arrangement(curve, "perturb", Watch(clock))
+        arranged = in_best_way(watched_arrangement(curve, "perturb", watch), watch)
         if not may_bound_disk(arranged):
             visible = visible_obstruction(arranged, connected)
             return _from_levels(arranged, clock, connected) if visible is None else visible
@@ -195,7 +203,7 @@ def embeddings(curve: OutlineLike, over: npt.ArrayLike | None = None, connected:
     >>> [layering.changes for layering in embeddings(milnor)]
     [6, 6, 6, 6]
     """
-    arranged = arrange(curve)
+    arranged = in_best_way(arrange(curve))
     casing = None if over is None else casing_of_visits(arranged, over)
     if visible_obstruction(arranged, connected) is not None or (may_bound_disk(arranged) and not bounds_disk(arranged)):
         return
@@ -247,8 +255,10 @@ def count_embeddings(curve: OutlineLike, time_limit: float | None = None, connec
     (4, True)
     """
     clock = Clock(time_limit)
+    watch = Watch(clock)
     try:
-        return _count(watched_arrangement(curve, "perturb", Watch(clock)), clock, connected)
+        arranged = in_best_way(watched_arrangement(curve, "perturb", watch), watch)
+        return _count(arranged, clock, connected)
     except TimeLimitError:
         return undecided("time limit", _HOW_MANY, clock)
 

@@ -25,6 +25,7 @@ from plyfold.mesh.refine import (
     chain_of,
     constrained,
     given_outline,
+    is_moved,
     left_of_chain,
     noded_curve,
     planar_mesh,
@@ -34,7 +35,7 @@ from plyfold.mesh.refine import (
     too_close,
     usual_area,
 )
-from plyfold.mesh.strips import Strips, is_moved, noded_strips, strips_of
+from plyfold.mesh.strips import Strips, noded_strips, strips_of
 from plyfold.options import refuse_unless_number
 from plyfold.ragged import next_in_rows
 
@@ -131,17 +132,12 @@ class CellTriangulation:
         """The half-edge along each piece on its left, or else on its right; -1 where nothing is covered."""
         return np.where(self.left >= 0, self.left, self.right)
 
-    def pieces_from(self, points: Ints) -> Ints:
-        """Return the pieces that start at given points of the outline."""
-        if self.strips is None:
-            return np.flatnonzero(np.isin(self.chain, points))
-        strands = self.strips.strands
-        first = np.isin(self.chain_border, strands.first[points]) & (self.chain == strands.start[self.chain_border])
-        return np.flatnonzero(first)
-
     def places_of(self, points: Ints) -> Ints:
         """Return the numbers here of points of the outline."""
-        return points if self.strips is None else np.unique(self.chain[self.pieces_from(points)])
+        if self.strips is None:
+            return points
+        strands = self.strips.strands
+        return np.unique(strands.start[strands.first[points]])
 
 
 def triangulate_cells(

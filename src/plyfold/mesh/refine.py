@@ -45,6 +45,7 @@ __all__ = [
     "constrained",
     "drawn_outline",
     "given_outline",
+    "is_moved",
     "left_of_chain",
     "noded_curve",
     "planar_mesh",
@@ -389,6 +390,12 @@ def given_outline(arrangement: Arrangement) -> Outline:
     """Return the outline of a drawing with its points where they were given; refuse a Gauss code."""
     drawn = drawn_outline(arrangement)
     return drawn if arrangement.given is None else arrangement.given
+
+
+def is_moved(arrangement: Arrangement) -> bool:
+    """Tell whether points of a drawing were moved apart."""
+    outline, given = drawn_outline(arrangement), given_outline(arrangement)
+    return outline is not given and not np.array_equal(outline.points, given.points)
 
 
 def noded_curve(arrangement: Arrangement) -> NodedCurve:

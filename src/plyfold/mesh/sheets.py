@@ -44,8 +44,6 @@ class SheetMesh:
         touches itself, its loops are those of the surface that is left, each from the first piece of the outline on it.
     first_boundary : (loops + 1,) int
         Where in this row each loop begins, and last its length.
-    boundary_piece : (b,) int
-        The piece of the outline that starts at each of these vertices.
     first_copy, first_sheet : (t,) int
         For each planar triangle its first copy and the sheet of that.
     """
@@ -55,7 +53,6 @@ class SheetMesh:
     sheet: Ints
     boundary: Ints
     first_boundary: Ints
-    boundary_piece: Ints
     first_copy: Ints
     first_sheet: Ints
 
@@ -151,13 +148,12 @@ def glue_copies(immersion: Immersion, mesh: CellTriangulation) -> SheetMesh:
     below = 3 * triangle[shared // 3] + shared % 3
     beside = _beside(seams, mesh, below, sheet[shared // 3], copy_of_sheet)
     label = _joined(point, shared, beside, len(mesh.points))
-    order, first_boundary = _loops(label, along) if mesh.strips else (np.arange(len(along)), mesh.first_piece)
-    piece, along = piece[order], along[order]
+    along, first_boundary = _loops(label, along) if mesh.strips else (along, mesh.first_piece)
     vertex = _boundary_first(label, along)
     planar_vertex = np.empty(vertex.max() + 1, dtype=np.int64)
     planar_vertex[vertex] = point
-    boundary = vertex[along], first_boundary, piece
-    return SheetMesh(planar_vertex, vertex.reshape(-1, 3), sheet, *boundary, first_copy, first_sheet)
+    boundary = vertex[along]
+    return SheetMesh(planar_vertex, vertex.reshape(-1, 3), sheet, boundary, first_boundary, first_copy, first_sheet)
 
 
 def seams_and_own_sheets(immersion: Immersion, strips: Strips | None) -> tuple[Seams, Ints]:
@@ -258,7 +254,7 @@ def _joined(point: Ints, shared: Ints, beside: Ints, points: int) -> Ints:
 
 
 def _loops(label: Ints, along: Ints) -> tuple[Ints, Ints]:
-    """Return the order of boundary half-edges in loops, each from its first one, and where these begin."""
+    """Return half-edges of the boundary, loop after loop, each from its first one; and where these begin."""
     start, end = label[along], label[following(along)]
     from_vertex = np.empty(label.max() + 1, dtype=np.int64)
     from_vertex[start] = np.arange(len(along))
@@ -271,7 +267,7 @@ def _loops(label: Ints, along: Ints) -> tuple[Ints, Ints]:
             at = after[at]  # noqa: PLW2901 - round the loop
         if len(order) > first[-1]:
             first.append(len(order))
-    return np.array(order), np.array(first)
+    return along[order], np.array(first)
 
 
 def _boundary_first(label: Ints, along: Ints) -> Ints:

@@ -18,12 +18,12 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.noding import Strands, exact_ranks, strands_of
-from plyfold.arrays import Bools, Floats, Ints, freeze
+from plyfold.arrays import Bools, Complexes, Floats, Ints, freeze
 from plyfold.errors import PrecisionError
 from plyfold.mesh.refine import NodedCurve, borders_passed, unit_square
 from plyfold.outline.curve import Outline
 
-__all__ = ["Strips", "is_moved", "noded_strips", "strips_of"]
+__all__ = ["Strips", "loop_left", "noded_strips", "strips_of", "turns_unseen"]
 
 # Where on a part strands are compared, as shares of its length: at the first one where all are apart.
 _SHARES = (0.4375, 0.59375, 0.296875, 0.71875, 0.515625)
@@ -84,12 +84,6 @@ class Strips:
         return np.searchsorted(along, part, side="left"), np.searchsorted(along, part, side="right") - 1
 
 
-def is_moved(arrangement: Arrangement) -> bool:
-    """Tell whether points of a drawing have been moved apart."""
-    outline, given = arrangement.outline, arrangement.given
-    return outline is not given and outline is not None and not np.array_equal(outline.points, _drawn(given).points)
-
-
 def strips_of(arrangement: Arrangement) -> Strips:
     """Return the borders of a drawing on its given points.
 
@@ -117,6 +111,35 @@ def strips_of(arrangement: Arrangement) -> Strips:
     place[order] = np.arange(len(order))
     cell = _cells_of_faces(arrangement, strands, border, order)
     return Strips(strands, border, order, place, cell, strands.first[given.first_point])
+
+
+def loop_left(arrangement: Arrangement, places: Floats, faces: Ints, loop: Ints) -> tuple[Floats, Ints]:
+    """Return the given points along a loop of a mesh's boundary, and the index of the cusp at each.
+
+    The mesh lies over the given points; where the outline touches itself in a cusp, it may have less turns left.
+    """
+    given = _drawn(arrangement.given)
+    corners = loop[np.isin(_numbers(places[loop]), _numbers(given.points))]
+    is_cusp = np.isin(_numbers(places[corners]), _numbers(given.points[np.concatenate(given.cusps) > 0]))
+    return places[corners], np.where(is_cusp, turns_unseen(places, faces)[corners], 0)
+
+
+def turns_unseen(places: Floats, faces: Ints) -> Ints:
+    """Return how many full turns the angle at each vertex of a mesh has more than one sees.
+
+    Copies of a triangle of the drawing follow each other, and there are so many more of the same at the vertex.
+    """
+    corners = _numbers(places)[faces]
+    copied = np.append(0, np.cumsum((corners[1:] != corners[:-1]).any(axis=1)))
+    key, times = np.unique(faces.ravel() * (copied[-1] + 1) + np.repeat(copied, 3), return_counts=True)
+    turns = np.zeros(len(places), dtype=np.int64)
+    np.maximum.at(turns, key // (copied[-1] + 1), times - 1)
+    return turns
+
+
+def _numbers(points: Floats) -> Complexes:
+    """Return points as complex numbers, which are compared faster than rows."""
+    return np.ascontiguousarray(points).view(np.complex128).ravel()
 
 
 def noded_strips(strips: Strips) -> NodedCurve:

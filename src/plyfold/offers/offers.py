@@ -28,7 +28,9 @@ class Offers:
     cusps: SuggestedCusps | None
 
 
-def offers(arranged: Arrangement, time_limit: float | None = None) -> Offers:
+def offers(
+    arranged: Arrangement, time_limit: float | None = None, allow: float = 0.01, allow_layers: float = 0.2
+) -> Offers:
     """Return all that can be done about an outline that bounds no surface, as far as it is found in time.
 
     Parameters
@@ -37,6 +39,8 @@ def offers(arranged: Arrangement, time_limit: float | None = None) -> Offers:
         With a drawing.
     time_limit : float, optional
         Seconds for all of it.
+    allow, allow_layers : float, optional
+        How much small changes may change, as :func:`repair` says.
 
     Examples
     --------
@@ -48,7 +52,7 @@ def offers(arranged: Arrangement, time_limit: float | None = None) -> Offers:
     True
     """
     clock = Clock(time_limit)
-    repaired = repair(arranged, time_limit=clock.left)
+    repaired = repair(arranged, allow, allow_layers, clock.left)
     cusps = suggest_cusps(arranged, time_limit=clock.left)
     return Offers(
         repaired if isinstance(repaired, Repaired) else None, cusps if isinstance(cusps, SuggestedCusps) else None

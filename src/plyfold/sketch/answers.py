@@ -13,9 +13,10 @@ from plyfold.errors import CurveError, InputError, MemoryLimitError, PlyfoldErro
 from plyfold.sketch.export import export
 from plyfold.sketch.lie import lie, lifted
 from plyfold.sketch.look import look_at
+from plyfold.sketch.offering import offered
 from plyfold.sketch.opening import gallery, opened
-from plyfold.sketch.schema import VERSION, Export, Lie, Lift, Look, Q, Suggest, parse, read_question
-from plyfold.sketch.suggesting import suggested
+from plyfold.sketch.ribbons import ribbons
+from plyfold.sketch.schema import VERSION, Export, Lie, Lift, Look, Offer, Q, Widen, parse, read_question
 
 __all__ = ["Reply", "answer", "error_reply", "json_reply"]
 
@@ -67,7 +68,7 @@ def answer(name: str, body: bytes, headers: Mapping[str, str]) -> Reply:
 
     Examples
     --------
-    >>> answer("look", b'{"version": 2, "points": [[0, 0], [1, 1], [2, 2]]}', {}).body.decode()
+    >>> answer("look", b'{"version": 3, "points": [[0, 0], [1, 1], [2, 2]]}', {}).body.decode()
     '{"version":2,"error":{"kind":"drawing","sentence":"all points lie on one line","where":[[0.0,0.0],[2.0,2.0]],\
 "hint":"a curve that runs back and forth on one line bounds nothing"}}'
     """
@@ -124,7 +125,8 @@ def _open(body: bytes, headers: Mapping[str, str]) -> Reply:
 
 _ANSWERS: dict[str, _Answering] = {
     "look": _asked(Look, look_at),
-    "cusps": _asked(Suggest, suggested),
+    "offers": _asked(Offer, offered),
+    "ribbon": _asked(Widen, ribbons),
     "lie": _asked(Lie, lie),
     "surface": _asked(Lift, lifted),
     "export": _export,

@@ -18,7 +18,7 @@ from plyfold.immersion.compare import changed_borders
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.report import surface_in_words, words
+from plyfold.report import surface_in_words, touches_of, words
 from plyfold.sketch.drawings import Layered, immersed, immersion_count, layered
 from plyfold.sketch.patience import patient
 from plyfold.sketch.schema import VERSION, Lie, Lift
@@ -62,7 +62,7 @@ def lie(question: Lie) -> dict[str, Any]:
     except NotImmersibleError as error:
         why = _obstruction(error.obstruction)
         return {"version": VERSION, "obstruction": why, "immersions": "0", "seconds": perf_counter() - began}
-    count = immersion_count(question.strokes)
+    count, touches = immersion_count(question.strokes), touches_of(disk)
     answer = {
         "version": VERSION,
         "immersion": str(_number(question.immersion, count)),
@@ -70,10 +70,11 @@ def lie(question: Lie) -> dict[str, Any]:
         "changed_borders": _changed(question, disk, count),
         "sheets": _own_borders(disk),
         "sheet_cell": disk.sheet_cell.tolist(),
+        "touches": touches,
         "layout": _layout(disk) if disk.is_disk else None,
     }
     found = layered(question.strokes, question.immersion, question.layering)
-    answer |= _layering(found) | {"verdict": _verdict(disk, count, found.found)}
+    answer |= _layering(found) | {"verdict": _verdict(disk, count, found.found, bool(touches))}
     return answer | {"seconds": perf_counter() - began}
 
 
@@ -103,11 +104,13 @@ def _layering(layered: Layered) -> dict[str, Any]:
     }
 
 
-def _verdict(immersion: Immersion, count: int | None, found: Layering | Obstruction | Unknown) -> dict[str, str]:
+def _verdict(
+    immersion: Immersion, count: int | None, found: Layering | Obstruction | Unknown, touches: bool
+) -> dict[str, str]:
     """Return the verdict on the outline in words, now that it is known whether this immersion can be lifted."""
     obstruction = found.sentence if isinstance(found, Obstruction) else ""
     surface = surface_in_words(immersion.pieces)
-    return asdict(words(count, obstruction, decided=not isinstance(found, Unknown), surface=surface))
+    return asdict(words(count, obstruction, decided=not isinstance(found, Unknown), surface=surface, touches=touches))
 
 
 def _number(immersion: int, count: int | None) -> int:

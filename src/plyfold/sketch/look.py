@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import asdict
 from hashlib import blake2s
 from time import perf_counter
@@ -11,23 +12,23 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.gauss import GaussCode
+from plyfold.arrangement.noding import node_outline
 from plyfold.draw.placement import border_line, cusps_drawn, label_circle, outer_ring_first
 from plyfold.immersion.blank_word import blank_word
 from plyfold.immersion.immersion import Immersion
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.offers.kinks import Kink, find_kink
-from plyfold.outline.curve import Curve
+from plyfold.outline.curve import Outline
 from plyfold.outline.direction import even_odd_directions, sense
-from plyfold.report import A_DISK, Words, surface_in_words, words
+from plyfold.report import A_DISK, Words, surface_in_words, touches_of, words
 from plyfold.sketch.drawings import arranged, first_immersion, immersion_count
+from plyfold.sketch.offering import loop_data
 from plyfold.sketch.schema import VERSION, Look
 
 __all__ = ["look_at"]
 
 _LONGEST_WORD = 60
 _LABEL_TOLERANCE = 0.02
-_MOST_TURNS_OFFERED = 3
-_NOTHING_WRONG: dict[str, Any] = {"reason": None, "where": [], "kink": None, "cusps_may_help": False}
+_NOTHING_WRONG: dict[str, Any] = {"reason": None, "where": [], "touches": []}
 
 
 def look_at(question: Look) -> dict[str, Any]:
@@ -40,12 +41,12 @@ def look_at(question: Look) -> dict[str, Any]:
     Returns
     -------
     dict
-        As ``PROTOCOL.md`` says, ready for JSON. A few milliseconds for sketches.
+    As ``PROTOCOL.md`` says, ready for JSON. A few milliseconds for sketches.
 
     Raises
     ------
     PlyfoldError
-        If the strokes make no outline that can be used.
+    If the strokes make no outline that can be used.
 
     Examples
     --------
@@ -56,19 +57,22 @@ def look_at(question: Look) -> dict[str, Any]:
     """
     began = perf_counter()
     drawn = arranged(question.strokes)
-    outline = drawn.outline
+    outline, given = drawn.outline, drawn.given
     assert outline is not None
+    assert given is not None
     return {
         "version": VERSION,
-        "loops": [_loop(curve) for curve in outline.curves],
+        "loops": list(map(loop_data, given.loops, given.cusps)),
         "cusps": _cusps(drawn),
         "repairs": [{"kind": r.kind, "where": list(r.where), "size": r.size} for r in outline.repairs],
+        "contacts": _contacts(drawn, given),
         "reversed": drawn.reversed,
         "turning_numbers": list(drawn.turning_numbers),
         "crossings": drawn.crossings.tolist(),
         "borders": [_border(drawn, border) for border in range(drawn.n_borders)],
         "visits": np.stack([drawn.border_before, drawn.border_after], axis=1).tolist(),
         "cells": [_cell(drawn, cell) for cell in range(1, drawn.n_cells)],
+        "cells_by_winding": _cells_by_winding(drawn, given),
         "verdict": _verdict(question, drawn),
         "code": _code(drawn),
         **_texts(drawn),
@@ -76,17 +80,20 @@ def look_at(question: Look) -> dict[str, Any]:
     }
 
 
-def _loop(curve: Curve) -> dict[str, Any]:
-    index = curve.cusps[0]
-    return {
-        "points": curve.points.tolist(),
-        "cusps": {str(point): int(index[point]) for point in np.flatnonzero(index)},
-    }
-
-
 def _cusps(drawn: Arrangement) -> list[dict[str, Any]]:
     places, indices = cusps_drawn(drawn)
     return [{"where": place, "index": index} for place, index in zip(places.tolist(), indices, strict=True)]
+
+
+def _contacts(drawn: Arrangement, given: Outline) -> list[list[float]]:
+    """Return the places of points that lie on other edges or on each other, each once, from left to right."""
+    return [[x, y] for x, y in np.unique(given.points[drawn.contacts], axis=0).tolist()]
+
+
+def _cells_by_winding(drawn: Arrangement, given: Outline) -> list[list[int]]:
+    """Return how many cells of the drawing have each winding number; those that only moves make do not count."""
+    winding = drawn.winding if given is drawn.outline else node_outline(given).winding
+    return [[number, count] for number, count in sorted(Counter(winding[1:].tolist()).items())]
 
 
 def _border(drawn: Arrangement, border: int) -> list[list[float]]:
@@ -137,24 +144,22 @@ def _undecided(unknown: Unknown) -> dict[str, Any]:
 
 
 def _immersed(question: Look, found: Immersion) -> dict[str, Any]:
-    count = immersion_count(question.strokes)
+    count, touches = immersion_count(question.strokes), touches_of(found)
     return {
         "immersible": True,
         "immersions": None if count is None else str(count),
-        **asdict(words(count, surface=surface_in_words(found.pieces))),
+        "touches": touches,
+        **asdict(words(count, surface=surface_in_words(found.pieces), touches=bool(touches))),
     }
 
 
 def _obstructed(drawn: Arrangement, obstruction: Obstruction) -> dict[str, Any]:
-    kink = find_kink(drawn) if _is_plain(drawn) else None
     return {
         "immersible": False,
         "immersions": "0",
         "reason": obstruction.reason,
         **asdict(words(0, obstruction.sentence, surface=A_DISK if _is_plain(drawn) else "a surface")),
         "where": [list(place) for place in obstruction.where],
-        "kink": kink and _kink(kink),
-        "cusps_may_help": _cusps_may_help(drawn),
     }
 
 
@@ -167,12 +172,6 @@ def _figures(drawn: Arrangement) -> list[list[str]]:
     return [] if _is_plain(drawn) else [["Euler characteristic", str(drawn.euler_characteristic)]]
 
 
-def _cusps_may_help(drawn: Arrangement) -> bool:
-    """Tell whether the outline of one piece without handles would turn less, by no more than cusps are looked for."""
-    too_many = drawn.euler_characteristic - (2 - drawn.n_loops)
-    return 0 < too_many <= _MOST_TURNS_OFFERED and bool((drawn.winding >= 0).all())
-
-
 def _loops_to_turn(drawn: Arrangement) -> list[int]:
     """Return the loops that cross no other and run the other way than if every second one were a hole."""
     if drawn.outline is None or drawn.n_loops == 1:
@@ -180,14 +179,6 @@ def _loops_to_turn(drawn: Arrangement) -> list[int]:
     loops = drawn.outline.loops
     wanted = even_odd_directions(loops)
     return [loop for loop, direction in enumerate(wanted) if direction == -sense(loops[loop]) != 0]
-
-
-def _kink(kink: Kink) -> dict[str, Any]:
-    return {
-        "where": [list(place) for place in kink.places],
-        "lobes": [lobe.tolist() for lobe in kink.lobes],
-        "points": kink.rest.tolist(),
-    }
 
 
 def _word(drawn: Arrangement) -> str | None:

@@ -21,6 +21,7 @@ from plyfold.io.reading import Contents, read_contents
 from plyfold.outline.curve import Outline, Repair
 from plyfold.sketch.pictures import png_document, svg_document
 from plyfold.sketch.schema import (
+    DOCUMENT_VERSION,
     MOST_BYTES,
     MOST_POINTS,
     VERSION,
@@ -186,7 +187,7 @@ def _drawn(name: str, content: bytes) -> list[_Shape]:
         if strokes is None:
             raise
         data = [{"points": points, "closed": False} for points in strokes]
-        return [_Shape("", read_document({"plyfold": VERSION, "strokes": data}))]
+        return [_Shape("", read_document({"plyfold": DOCUMENT_VERSION, "strokes": data}))]
     return [whole, *_each(contents)]
 
 

@@ -12,6 +12,7 @@ from typing import Any, NoReturn, TypeAlias, TypeVar, cast
 from plyfold.errors import InputError
 
 __all__ = [
+    "DOCUMENT_VERSION",
     "MOST_BYTES",
     "MOST_POINTS",
     "VERSION",
@@ -21,16 +22,20 @@ __all__ = [
     "Lie",
     "Lift",
     "Look",
+    "Offer",
     "Polyline",
     "Stroke",
-    "Suggest",
+    "Widen",
     "document_data",
     "parse",
     "read_document",
     "read_question",
 ]
 
-VERSION = 2
+VERSION = 3
+"""Of questions and answers."""
+DOCUMENT_VERSION = 2
+"""Of what is kept, shared and put into files: documents of versions before it open, too."""
 MOST_BYTES = 16 * 2**20
 MOST_POINTS = 50_000
 _MOST_TRIANGLES = 200_000
@@ -83,10 +88,18 @@ class Look:
 
 
 @dataclass(frozen=True)
-class Suggest:
-    """The question where cusps would help."""
+class Offer:
+    """The question what to do about an outline that bounds nothing."""
 
     strokes: tuple[Stroke, ...]
+
+
+@dataclass(frozen=True)
+class Widen:
+    """The wish that open strokes become ribbons of a width."""
+
+    strokes: tuple[Stroke, ...]
+    width: float
 
 
 @dataclass(frozen=True)
@@ -120,7 +133,7 @@ class Export:
     surface: Lift
 
 
-Q = TypeVar("Q", Look, Suggest, Lie, Lift, Export)
+Q = TypeVar("Q", Look, Offer, Widen, Lie, Lift, Export)
 
 
 # ---- reading ---------------------------------------------------------------------------------------------------------
@@ -160,7 +173,7 @@ def read_question(kind: type[Q], data: Any) -> Q:
 
     Parameters
     ----------
-    kind : {Look, Suggest, Lie, Lift, Export}
+    kind : {Look, Offer, Widen, Lie, Lift, Export}
     data : object
         What its JSON says.
 
@@ -171,7 +184,7 @@ def read_question(kind: type[Q], data: Any) -> Q:
 
     Examples
     --------
-    >>> read_question(Look, {"version": 2, "points": [[0, 0], [1, 0], [0, 1]]}).strokes[0].closed
+    >>> read_question(Look, {"version": 3, "points": [[0, 0], [1, 0], [0, 1]]}).strokes[0].closed
     True
     """
     question = _object(data, "the question")
@@ -195,8 +208,10 @@ def read_document(data: Any) -> Document:
     """
     document = _object(data, "the document")
     version = document.get("plyfold")
-    if isinstance(version, bool) or version not in range(1, VERSION + 1):
-        _refuse(f"the document has the version {version!r}, and this is {VERSION}", "open it with a newer plyfold")
+    if isinstance(version, bool) or version not in range(1, DOCUMENT_VERSION + 1):
+        _refuse(
+            f"the document has the version {version!r}, and this is {DOCUMENT_VERSION}", "open it with a newer plyfold"
+        )
     strokes = _strokes(document.get("strokes"), "document.strokes")
     return Document(strokes, _image(document.get("image")), _view(document.get("view", {})))
 
@@ -211,7 +226,7 @@ def document_data(document: Document) -> dict[str, Any]:
     """
     image = document.image
     return {
-        "plyfold": VERSION,
+        "plyfold": DOCUMENT_VERSION,
         "strokes": [_stroke_data(stroke) for stroke in document.strokes],
         "image": image and {"href": image.href, "place": image.place and list(image.place), "opacity": image.opacity},
         "view": dict(document.view),
@@ -227,8 +242,15 @@ def _look(question: dict[str, Any]) -> Look:
     return Look(_drawing(question))
 
 
-def _suggest(question: dict[str, Any]) -> Suggest:
-    return Suggest(_drawing(question))
+def _offer(question: dict[str, Any]) -> Offer:
+    return Offer(_drawing(question))
+
+
+def _ribbon(question: dict[str, Any]) -> Widen:
+    width = _number(question.get("width"), "width")
+    if width <= 0:
+        _refuse("width is not a positive number")
+    return Widen(_drawing(question), width)
 
 
 def _lie(question: dict[str, Any]) -> Lie:
@@ -253,9 +275,10 @@ def _export(question: dict[str, Any]) -> Export:
     return Export(document, kind, _lift_of(question, document.strokes))
 
 
-_READERS: dict[type, Callable[[dict[str, Any]], Look | Suggest | Lie | Lift | Export]] = {
+_READERS: dict[type, Callable[[dict[str, Any]], Look | Offer | Widen | Lie | Lift | Export]] = {
     Look: _look,
-    Suggest: _suggest,
+    Offer: _offer,
+    Widen: _ribbon,
     Lie: _lie,
     Lift: _lift,
     Export: _export,

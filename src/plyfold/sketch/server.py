@@ -24,10 +24,19 @@ from plyfold.sketch.workers import Question, Workers
 
 __all__ = ["SketchServer", "objection"]
 
-_API = "/api/v2/"
-_SECONDS = {"gallery": 20.0, "look": 20.0, "cusps": 20.0, "lie": 20.0, "surface": 60.0, "export": 120.0, "open": 30.0}
-_ASKED = ("look", "cusps", "lie", "surface", "export", "open")
-_SUPERSEDING = ("look", "cusps", "lie", "surface")
+_API = "/api/v3/"
+_SECONDS = {
+    "gallery": 20.0,
+    "look": 20.0,
+    "offers": 20.0,
+    "ribbon": 20.0,
+    "lie": 20.0,
+    "surface": 60.0,
+    "export": 120.0,
+    "open": 30.0,
+}
+_ASKED = ("look", "offers", "ribbon", "lie", "surface", "export", "open")
+_SUPERSEDING = ("look", "offers", "ribbon", "lie", "surface")
 _SECONDS_OF_SILENCE = 120
 _LONGEST_NAME = 64
 _PASSED_ON = ("X-File-Name",)

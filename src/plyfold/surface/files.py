@@ -98,7 +98,7 @@ def model_of_solid(solid: Solid, colours: Colouring = "layers", unwrapped: bool 
 
 def _unwrapped(surface: Surface, wanted: bool | None) -> tuple[Floats | None, dict[str, Floats]]:
     """Return texture coordinates, and the surface flat on the table, on its way to a disk, and as that disk."""
-    if wanted is False or (wanted is None and not surface.layering.immersion.is_disk):
+    if wanted is False or (wanted is None and not surface.is_disk):
         return None, {}
     try:
         unwound = surface.unwrap()

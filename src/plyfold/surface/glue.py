@@ -9,9 +9,9 @@ from functools import cached_property
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.errors import PrecisionError
+from plyfold.errors import GeneralPositionError
 from plyfold.graphs import components, ways_from
 from plyfold.halfedges import ends_of, following
 from plyfold.immersion.immersion import Immersion
@@ -19,6 +19,7 @@ from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering
 from plyfold.mesh.cells import CellTriangulation
 from plyfold.mesh.sheets import SheetMesh, glue_copies
+from plyfold.mesh.strips import turns_unseen
 from plyfold.ragged import count_each, pairs_in_each
 
 __all__ = [
@@ -125,13 +126,16 @@ def stack_sheets(
         watch.step()
         passing = passing_edges(layering, mesh, glued)
         stacked = stacked_but_passing(stacked, level, glued.planar_vertex, passing)
+    cusps = cusps_of(immersion.arrangement)
+    if len(cusps):
+        cusps = np.flatnonzero(turns_unseen(mesh.points[glued.planar_vertex], glued.faces))
     return LiftedMesh(
         planar_vertex=glued.planar_vertex,
         faces=glued.faces,
         sheet=glued.sheet,
         boundary=glued.boundary,
         first_boundary=glued.first_boundary,
-        cusps=np.flatnonzero(np.isin(glued.boundary_piece, mesh.pieces_from(cusps_of(immersion.arrangement)))),
+        cusps=cusps,
         level=level,
         stacked=stacked,
         passing=passing,
@@ -165,38 +169,46 @@ def _stacks(immersion: Immersion, sheet_level: Ints, mesh: CellTriangulation, gl
     stacked_vertex = vertex[glued.lifted(repeated, sheet)]
     level = np.full(len(planar_vertex), -1)
     level[stacked_vertex] = sheet_level[sheet] - 1
-    # But where the outline touches itself.
-    torn = np.unique(planar_vertex[level < 0])
+    # But not where the outline touches itself.
+    is_torn = np.zeros(len(mesh.points), dtype=bool)
+    is_torn[planar_vertex[level < 0]] = True
     order = np.lexsort((level, planar_vertex))
     if len(stacked_vertex) > len(level):
         level[order] = count_each(np.bincount(planar_vertex))
     above = np.flatnonzero(np.diff(planar_vertex[order]) == 0)
     stacked = np.stack([order[above], order[above + 1]], axis=1)
-    return _stacks_where_torn(sheet_level, mesh, glued, torn, level, stacked) if len(torn) else (level, stacked)
+    if is_torn.any():
+        pairs = _pairs_where_torn(sheet_level, mesh, glued, is_torn)
+        level[is_torn[planar_vertex]] = 0
+        _raise_where_torn(level, pairs, mesh.points[planar_vertex])
+        stacked = np.concatenate([stacked[~is_torn[planar_vertex[stacked[:, 0]]]], pairs])
+    return level, stacked
 
 
-def _stacks_where_torn(  # noqa: PLR0913, PLR0917
-    sheet_level: Ints, mesh: CellTriangulation, glued: SheetMesh, torn: Ints, level: Ints, stacked: Ints
-) -> tuple[Ints, Ints]:
-    """Return levels and pairs, those over some points from all triangles around."""
-    is_torn = np.zeros(len(mesh.points), dtype=bool)
-    is_torn[torn] = True
+def _pairs_where_torn(sheet_level: Ints, mesh: CellTriangulation, glued: SheetMesh, is_torn: Bools) -> Ints:
+    """Return the pairs of vertices next to each other in some cell at points where no cell has all vertices."""
     corner = np.flatnonzero(is_torn[mesh.triangles.ravel()])
-    following = np.append(glued.first_copy[1:], len(glued.faces))
-    count = (following - glued.first_copy)[corner // 3]
-    repeated = np.repeat(corner, count)
-    sheet = glued.first_sheet[repeated // 3] + count_each(count)
+    copies = np.diff(np.append(glued.first_copy, len(glued.faces)))[corner // 3]
+    repeated = np.repeat(corner, copies)
+    sheet = glued.first_sheet[repeated // 3] + count_each(copies)
     order = np.lexsort((sheet_level[sheet], repeated))
     vertex = glued.faces.ravel()[glued.lifted(repeated, sheet)][order]
     above = np.flatnonzero((np.diff(repeated[order]) == 0) & (np.diff(vertex) != 0))
-    pairs = np.unique(np.stack([vertex[above], vertex[above + 1]], axis=1), axis=0)
-    level[is_torn[glued.planar_vertex]] = 0
+    return np.unique(np.stack([vertex[above], vertex[above + 1]], axis=1), axis=0)
+
+
+def _raise_where_torn(level: Ints, pairs: Ints, places: Floats) -> None:
+    """Raise levels as little as can be, so that the upper vertex of each pair has a higher one than the lower."""
     for _ in range(len(pairs) + 1):
         lower, upper = pairs[level[pairs[:, 0]] >= level[pairs[:, 1]]].T
         if not len(lower):
-            return level, np.concatenate([stacked[~is_torn[glued.planar_vertex[stacked[:, 0]]]], pairs])
+            return
         np.maximum.at(level, upper, level[lower] + 1)
-    raise PrecisionError("cyc", where=mesh.points[glued.planar_vertex[lower[:1]]])
+    raise GeneralPositionError(
+        "where the outline touches itself, sheets lie over each other in a circle, which cannot be in a single point",
+        where=places[lower[:1]],
+        hint="move the strands there apart, or lift another layering",
+    )
 
 
 # ---- where sheets pass through each other ----------------------------------------------------------------------------

@@ -10,8 +10,8 @@ from plyfold.arrangement.polylines import polygon_turning_numbers
 from plyfold.arrays import Floats, Ints
 from plyfold.graphs import components
 from plyfold.halfedges import ends_of
-from plyfold.mesh.strips import is_moved
-from plyfold.surface.glue import cusps_of
+from plyfold.mesh.refine import is_moved
+from plyfold.mesh.strips import loop_left
 
 if TYPE_CHECKING:
     from plyfold.surface.lift import Surface
@@ -32,12 +32,10 @@ def loops_of(surface: Surface) -> tuple[list[Floats], list[Ints]]:
     outline = surface.outline
     if not may_touch(surface):
         return list(outline.loops), list(outline.cusps)
-    place, given = _numbers(surface.vertices[:, :2]), _numbers(outline.points)
-    index = np.zeros(len(place), dtype=np.int64)
-    for point in cusps_of(surface.layering.immersion.arrangement).tolist():
-        index[surface.cusps[place[surface.cusps] == given[point]]] = np.concatenate(outline.cusps)[point]
-    corners = [loop[np.isin(place[loop], given)] for loop in np.split(surface.boundary, surface.first_boundary[1:-1])]
-    return [surface.vertices[loop, :2] for loop in corners], [index[loop] for loop in corners]
+    arrangement, mesh = surface.layering.immersion.arrangement, (surface.vertices[:, :2], surface.faces)
+    loops = np.split(surface.boundary, surface.first_boundary[1:-1])
+    points, cusps = zip(*(loop_left(arrangement, *mesh, loop) for loop in loops), strict=True)
+    return list(points), list(cusps)
 
 
 def kinds_of(surface: Surface) -> list[tuple[int, int]]:
@@ -56,8 +54,3 @@ def kinds_of(surface: Surface) -> list[tuple[int, int]]:
         (int(np.count_nonzero(piece_of_loop == number)), int(euler[piece_of_loop == number].sum()))
         for number in np.unique(piece_of_loop)
     ]
-
-
-def _numbers(points: Floats) -> Floats:
-    """Return points as complex numbers, which are compared faster than rows."""
-    return np.asarray(np.ascontiguousarray(points).view(np.complex128).ravel())

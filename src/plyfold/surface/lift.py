@@ -17,7 +17,7 @@ from plyfold.arrangement.arrangement import Arrangement, require_one_loop, watch
 from plyfold.arrays import Floats, Ints, freeze
 from plyfold.certify import check_surface
 from plyfold.clock import UNWATCHED, Clock, Progress, Watch
-from plyfold.disk.unwrap import UnwoundDisk, unwound_mesh
+from plyfold.disk.unwrap import UnwoundDisk, require_one_piece, unwound_mesh
 from plyfold.errors import (
     InputError,
     NotEmbeddableError,
@@ -42,7 +42,7 @@ from plyfold.mesh.cells import (
     refuse_sizes,
     triangulate_cells,
 )
-from plyfold.mesh.refine import given_outline
+from plyfold.mesh.refine import drawn_outline, given_outline, is_moved
 from plyfold.obstruction import IMMERSION_REASONS, Obstruction, Unknown
 from plyfold.options import refuse_unless_flag, refuse_unless_number
 from plyfold.outline.curve import Curve, Outline
@@ -131,6 +131,11 @@ class Surface:
         return given_outline(self.layering.immersion.arrangement)
 
     @property
+    def is_disk(self) -> bool:
+        """Whether the surface is a disk, and in one piece on the given points."""
+        return self.layering.immersion.is_disk and len(self.first_boundary) == 2
+
+    @property
     def n_sheets(self) -> int:
         """Number of sheets that triangles are in: all of the immersion, but over cells between points that touch."""
         return len(np.unique(self.sheet))
@@ -177,7 +182,7 @@ class Surface:
         Raises
         ------
         InputError
-            If the surface is no disk.
+            If the surface is no disk, or in pieces on the given points, as the outline touches itself.
         PrecisionError
             If double precision cannot hold the disk; it names the place.
         """
@@ -186,6 +191,7 @@ class Surface:
     @cached_property
     def _unwound(self) -> UnwoundDisk:
         immersion = require_disk(self.layering.immersion)
+        require_one_piece(self.vertices[:, :2], self.first_boundary)
         return unwound_mesh(immersion, self.vertices, self.faces, self.sheet, self.boundary)
 
     def thicken(self, thickness: float) -> Solid:
@@ -375,6 +381,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     steps = _steps(cells, drawn) if isinstance(layering, Layering) else Steps.none(cells)
     cells = steps.cells
     if isinstance(layering, IntersectingLayering):
+        _refuse_touching(drawn)
         cells = split_chords(cells, layering.intersections[:, 0])
         refuse_broken(drawn, cells)
     mesh = stack_sheets(layering, cells, watch)
@@ -394,6 +401,17 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         passing=mesh.passing,
         intersections=curves,
     )
+
+
+def _refuse_touching(drawn: Arrangement) -> None:
+    """Refuse sheets that pass through each other along borders that may not be there on the given points."""
+    if is_moved(drawn):
+        given = given_outline(drawn).points
+        raise InputError(
+            "a surface that passes through itself can be lifted only if its outline does not touch itself",
+            where=given[(given != drawn_outline(drawn).points).any(axis=1)],
+            hint="move the strands apart there",
+        )
 
 
 def _steps(cells: CellTriangulation, drawn: Arrangement) -> Steps:

@@ -14,14 +14,16 @@ function recorder() {
 }
 
 const THEME = {
-  ink: "ink", paper: "paper", dot: "dot", accent: "accent", wrong: "wrong", cusp: "cusp", lit: "lit",
+  ink: "ink", paper: "paper", dot: "dot", accent: "accent", wrong: "wrong", cusp: "cusp", touch: "touch", lit: "lit", good: "good",
   winding: ["one", "two"], negative: ["minus one"], "on-winding": ["dark", "pale"], "on-negative": ["dark"], sheets: ["first", "second"],
 };
 const CAMERA = { scale: 2, x: 100, y: 100 };
 const BLANK = {
   size: { width: 200, height: 200 }, camera: CAMERA, theme: THEME, document: { strokes: [], image: null }, joins: [], openEnds: [],
-  answer: null, offered: [], lie: null, tool: "draw", path: [], next: null, selected: null, cursor: null, hover: null, snap: false, image: null,
+  answer: null, offered: [], trial: null, touches: [], lie: null, tool: "draw", path: [], next: null, selected: null, cursor: null, hover: null, snap: false, image: null,
 };
+
+const ANSWER = { crossings: [], cells: [], contacts: [], repairs: [], verdict: { where: [] } };
 
 test("the grid has lines of round numbers, far enough apart", () => {
   for (const scale of [1e-6, 0.03, 1, 2, 77, 1e6]) {
@@ -42,7 +44,7 @@ test("every stroke, cell, number and cross is painted in its place", () => {
   const strokes = [{ points: [[0, 0], [40, 0], [40, 40]], closed: true }];
   const cell = { cell: 1, winding: -1, outline: strokes[0].points, holes: [], label: [30, 10], radius: 10 };
   const verdict = { where: [[20, 20]], kink: null };
-  paint(context, { ...BLANK, document: { strokes, image: null }, answer: { crossings: [], cells: [cell], verdict } });
+  paint(context, { ...BLANK, document: { strokes, image: null }, answer: { ...ANSWER, cells: [cell], verdict } });
   assert.ok(calls.some(([name, ...values]) => name === "moveTo" && `${values}` === `${toScreen(CAMERA, [0, 0])}`));
   assert.deepEqual(calls.find(([name]) => name === "fillText"), ["fillText", "−1", 160, 80]);
   const [x, y] = toScreen(CAMERA, [20, 20]);
@@ -53,6 +55,20 @@ test("the last shade stands for all beyond it, and sheets' colours come round ag
   assert.deepEqual([-3, -1, 0, 1, 2, 9].map((winding) => windingColour(THEME, winding)), ["minus one", "minus one", null, "one", "two", "two"]);
   assert.deepEqual([-3, 0, 1, 9].map((winding) => onWinding(THEME, winding)), ["dark", "ink", "dark", "pale"]);
   assert.deepEqual([0, 1, 2].map((sheet) => sheetColour(THEME, sheet)), ["first", "second", "first"]);
+});
+
+test("contacts are diamonds, large and filled where the surface touches itself, and spikes have a dashed ring", () => {
+  const [context, calls] = recorder();
+  const answer = { ...ANSWER, contacts: [[0, 0], [9, 9]], repairs: [{ kind: "spike taken out", where: [5, 5] }] };
+  paint(context, { ...BLANK, answer, touches: [[9, 9]] });
+  const corners = (place, radius) => {
+    const [x, y] = toScreen(CAMERA, place);
+    return [[x + radius, y], [x, y + radius], [x - radius, y], [x, y - radius]].map(String);
+  };
+  const lines = calls.filter(([name]) => name === "lineTo").map(([, ...values]) => String(values));
+  assert.deepEqual(lines, [...corners([0, 0], 4.5), ...corners([9, 9], 4.5), ...corners([9, 9], 8)]);
+  assert.deepEqual(calls.find(([name]) => name === "arc").slice(1, 3), toScreen(CAMERA, [5, 5]));
+  assert.ok(calls.some(([name, dash]) => name === "setLineDash" && dash.length));
 });
 
 test("vertices that are near each other are smaller", () => {
@@ -81,7 +97,7 @@ test("what other loops take away from a cell is not painted", () => {
   const [context, calls] = recorder();
   const square = (size) => [[-size, -size], [size, -size], [size, size], [-size, size]];
   const cell = { cell: 1, winding: 1, outline: square(40), holes: [square(10).reverse()], label: [25, 0], radius: 15 };
-  paint(context, { ...BLANK, answer: { crossings: [], cells: [cell], verdict: { where: [], kink: null } } });
+  paint(context, { ...BLANK, answer: { ...ANSWER, cells: [cell] } });
   assert.deepEqual(calls.find(([name]) => name === "fill"), ["fill", "evenodd"]);
   assert.equal(calls.filter(([name]) => name === "closePath").length, 2);
 });

@@ -2,10 +2,12 @@
 // Buttons, shortcuts, menus and help are all made from this table.
 
 import * as commands from "./commands.js";
-import { EMPTY, deletePoint, lastStrokeOnly, reversed, toggleClosed, turned, withImage, withStrokes, withTurned } from "./document.js";
+import { EMPTY, deletePoint, lastStrokeOnly, reversed, toggleClosed, withImage, withStrokes, withTurned } from "./document.js";
 import { canRedo, canUndo } from "./history.js";
 import { closedAll, smoothedDrawing } from "./tidying.js";
-import { answerShown, errorShown, lieShown, offerShown, smallKink, turnable } from "./store.js";
+import { answerShown, errorShown, lieShown, lineOf, offerOf, turnable } from "./store.js";
+import { makeRibbon } from "./ribbons.js";
+import { asDrawn } from "./trials.js";
 import { zoomed } from "./camera.js";
 
 const drawn = (state) => state.history.present.strokes.length > 0;
@@ -13,9 +15,6 @@ const allClosed = (state) => drawn(state) && !state.path.length && state.history
 const several = (count) => count !== null && count !== undefined && count !== "0" && count !== "1";
 const present = (page) => page.store.state.history.present;
 const selectedStroke = ({ selected, history }) => (selected && history.present.strokes.length > 1 ? selected.stroke : null);
-/** Loops of an answer in the direction in which they were drawn; answers run with the surface on the left. */
-const asDrawn = ({ reversed: wasTurned }, loops) =>
-  loops.map((given) => ({ ...given, closed: true })).map((stroke) => (wasTurned ? turned(stroke) : stroke));
 const toggle = (field) => (page) => page.store.set({ [field]: !page.store.state[field] });
 
 const tool = (name, label, key, hint) => ({
@@ -42,6 +41,14 @@ const exporting = (format, label, enabled = drawn) => ({
   name: `export-${format}`, label, keys: [], group: "exports", hint: label,
   perform: (page) => commands.exportAs(page, format),
   enabled,
+});
+
+/** What can be done where there is no surface; seen before it is done while it is pointed at. */
+const offering = (name, kind, label, key, hint) => ({
+  name, label, keys: [key], group: "offers", hint, preview: kind,
+  labelNow: (state) => offerOf(state, kind)?.label ?? label,
+  perform: (page) => commands.takeOffer(page, kind),
+  enabled: (state) => offerOf(state, kind) !== null,
 });
 
 /** Whether there may be a surface: what is known of the loop does not rule it out. */
@@ -90,11 +97,11 @@ export const ACTIONS = [
   walking("nextImmersion", "Next immersion", "ArrowRight", "immersion", 1),
   walking("layeringDown", "Previous layering", "ArrowDown", "layering", -1),
   walking("layeringUp", "Next layering", "ArrowUp", "layering", 1),
-  { name: "removeKink", label: "Remove the kink", keys: ["Shift+K"], group: "answers", hint: "Draw the loop without the small kink",
-    perform: (page) => commands.edit(page, withStrokes(present(page), asDrawn(page.store.state.answer, [page.store.state.answer.verdict.kink]))),
-    enabled: (state) => smallKink(state) !== null },
-  { name: "markCusps", label: "Mark cusps", labelNow: (state) => commands.offerLabel(offerShown(state)), keys: ["Shift+U"], group: "answers",
-    hint: "Mark the cusps that would help, as they are shown", perform: commands.markOffered, enabled: (state) => offerShown(state) !== null },
+  offering("repair", "repair", "Leave out small loops", "Shift+K", "Leave out small loops, or undo crossings, that keep it from being an outline"),
+  offering("markCusps", "cusps", "Cusps here", "Shift+U", "Mark the cusps that would help, as they are shown"),
+  offering("showPieces", "pieces", "Show the pieces", "Shift+I", "Draw the simple polygons that it can be cut into"),
+  { name: "ribbon", label: "Make it a ribbon", keys: ["Shift+R"], group: "answers", hint: "Give open strokes a width", preview: "ribbon",
+    perform: makeRibbon, enabled: (state) => errorShown(state)?.kind === "unfinished" && lineOf(state) !== null },
   { name: "holes", label: "Make holes", keys: ["Shift+H"], group: "answers", hint: "Turn loops round so that every second one, from outside, is a hole",
     perform: (page) => commands.edit(page, withTurned(present(page), turnable(page.store.state))), enabled: (state) => turnable(state).length > 0 },
   { name: "closeLoop", label: "Close the loop", keys: ["Shift+J"], group: "answers", hint: "Bridge the gap between the ends",

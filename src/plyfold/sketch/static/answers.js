@@ -1,10 +1,12 @@
 // What the server says of the drawing: three questions, each asked as soon as the one before is answered; and where there
-// is no surface, whether cusps would help. The newest drawing wins: whatever is still on its way for an older one is
+// is no surface, what can be done about it. The newest drawing wins: whatever is still on its way for an older one is
 // cancelled.
 
-import { VERSION } from "./document.js";
 import { errorShown, isAnswered, shown } from "./store.js";
 
+/** Of what page and server say to each other: PROTOCOL.md. */
+export const PROTOCOL = 3;
+export const addressOf = (question) => `/api/v${PROTOCOL}/${question}`;
 const PAGE = crypto.getRandomValues(new Uint32Array(2)).join("-");
 const TRIANGLES = 3000;
 const NO_SURFACE = "There is no surface with this outline.";
@@ -19,7 +21,7 @@ const AWAY = { kind: "away", where: [], hint: "start plyfold sketch again; the d
 export async function ask(question, body, signal) {
   try {
     const headers = { "Content-Type": "application/json", "X-Plyfold-Page": PAGE };
-    const response = await fetch(`/api/v2/${question}`, { method: "POST", headers, body: JSON.stringify({ version: VERSION, ...body }), signal });
+    const response = await fetch(addressOf(question), { method: "POST", headers, body: JSON.stringify({ version: PROTOCOL, ...body }), signal });
     const answer = await response.json();
     if (answer.error?.kind !== "superseded") return answer;
     return signal && !signal.aborted ? ask(question, body, signal) : null;
@@ -48,7 +50,7 @@ export function followAnswers(store, question = ask) {
 
 const walked = (state, before) => state.immersion !== before.immersion || state.layering !== before.layering;
 const asksOtherwise = ({ lie: known, immersion, layering }) => known.immersion !== immersion || known.layering !== layering;
-const NOTHING = { answer: null, answered: null, offer: null, lie: null, mesh: null, unlifted: null, asking: false };
+const NOTHING = { answer: null, answered: null, offers: null, lie: null, mesh: null, unlifted: null, asking: false };
 
 async function look(store, question, signal) {
   const document = shown(store.state);
@@ -57,25 +59,25 @@ async function look(store, question, signal) {
   const answer = await question("look", { strokes: document.strokes }, signal);
   if (!answer || signal.aborted) return undefined;
   const same = answer.code !== undefined && answer.code === store.state.answer?.code;
-  const { immersible, cusps_may_help: mayHelp } = answer.verdict ?? {};
+  const immersible = answer.verdict?.immersible;
   const { immersion, layering } = same || !store.state.answer ? store.state : { immersion: "0", layering: "0" };
   const gone = immersible ? {} : { mesh: null, unlifted: answer.verdict ? NO_SURFACE : null };
-  const asking = Boolean(immersible || mayHelp);
-  store.set({ answer, answered: document, offer: null, lie: same ? store.state.lie : null, asking, immersion, layering, ...gone });
+  const asking = typeof immersible === "boolean";
+  store.set({ answer, answered: document, offers: null, previewed: null, lie: same ? store.state.lie : null, asking, immersion, layering, ...gone });
   if (immersible) return lie(store, question, signal);
-  return mayHelp ? offer(store, question, signal) : undefined;
+  return immersible === false ? offer(store, question, signal) : undefined;
 }
 
 async function offer(store, question, signal) {
-  const found = await question("cusps", { loops: store.state.answer.loops }, signal);
-  if (found && !signal.aborted) store.set({ offer: found, asking: false });
+  const found = await question("offers", { strokes: store.state.answered.strokes }, signal);
+  if (found && !signal.aborted) store.set({ offers: found.offers ?? [], asking: false });
 }
 
 async function lie(store, question, signal) {
-  const { answer, immersion, layering, lie: former } = store.state;
+  const { answer, answered, immersion, layering, lie: former } = store.state;
   if (!answer?.loops) return;
   const before = former && former.immersion !== immersion ? former.immersion : null;
-  const found = await question("lie", { loops: answer.loops, immersion, layering, before }, signal);
+  const found = await question("lie", { strokes: answered.strokes, immersion, layering, before }, signal);
   if (!found || signal.aborted) return;
   if (found.error) {
     store.set({ lie: null, mesh: null, unlifted: found.error.sentence, asking: false });
@@ -86,9 +88,9 @@ async function lie(store, question, signal) {
 }
 
 async function lift(store, question, signal) {
-  const { answer, lie: found, immersion, layering, gap } = store.state;
+  const { answered, lie: found, immersion, layering, gap } = store.state;
   if (!found?.sheets) return store.set({ asking: false });
-  const body = { loops: answer.loops, immersion, layering, gap, triangles: TRIANGLES, allow_intersections: found.layerable === false };
+  const body = { strokes: answered.strokes, immersion, layering, gap, triangles: TRIANGLES, allow_intersections: found.layerable === false };
   const lifted = await question("surface", body, signal);
   if (!lifted || signal.aborted) return undefined;
   const unlifted = (found.obstruction ?? lifted.obstruction ?? lifted.error)?.sentence ?? null;

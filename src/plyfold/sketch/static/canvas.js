@@ -6,8 +6,9 @@ import { joins } from "./document.js";
 import { distance, middle, minus } from "./geometry.js";
 import { hoverAt } from "./hover.js";
 import { paint } from "./painting.js";
-import { answerShown, errorShown, lieShown, offerShown, shown, smallKink } from "./store.js";
+import { answerShown, errorShown, lieShown, offerOf, ribbonShown, shown, touchesShown } from "./store.js";
 import { TOOLS, cancel } from "./tools.js";
+import { trialOf } from "./trials.js";
 
 const REACH = { mouse: 9, pen: 12, touch: 20 };
 
@@ -48,10 +49,11 @@ function pictureOf({ store, size }, theme, image) {
   const { camera, tool, path, selected, cursor, pointer, hover, snap } = state;
   return {
     size: size(), camera, theme, document, image, tool, path, selected, cursor, hover, snap, answer, lie: lieShown(state),
-    kink: smallKink(state),
-    offered: offerShown(state)?.cusps ?? [],
+    touches: touchesShown(state),
+    offered: offerOf(state, "cusps")?.cusps ?? [],
+    trial: trialOf(state),
     joins: answer ? joins(document.strokes, answer.repairs) : [],
-    openEnds: errorShown(state)?.where ?? [],
+    openEnds: [...(errorShown(state)?.where ?? []), ...(ribbonShown(state)?.error?.where ?? [])],
     next: tool === "points" ? (cursor ?? pointer) : null,
   };
 }

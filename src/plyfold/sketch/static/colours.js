@@ -1,11 +1,11 @@
 /**
  * The colours of the pictures. They are chosen in colours.py; the page has them as CSS variables.
  *
- * theme = {ink, paper, dot, accent, wrong, cusp, lit, winding: [of 1, 2..], negative: [of -1, -2..], sheets: [..],
+ * theme = {ink, paper, dot, accent, wrong, cusp, touch, lit, good, winding: [of 1, 2..], negative: [of -1, -2..], sheets: [..],
  *          "on-winding", "on-negative": ink or white, whichever is read better on these}
  */
 
-const COLOURS = ["ink", "paper", "dot", "accent", "wrong", "cusp", "lit"];
+const COLOURS = ["ink", "paper", "dot", "accent", "wrong", "cusp", "touch", "lit", "good"];
 const LISTS = ["winding", "negative", "on-winding", "on-negative", "sheets"];
 
 /** The colours where an element stands. */

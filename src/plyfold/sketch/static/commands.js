@@ -1,17 +1,18 @@
 // What can be done to the page: small steps that actions, tools and dialogs share. Each takes the page,
 // {store, size(), question(), place, former, writing}, and changes its store.
 
-import { SILENT, ask } from "./answers.js";
+import { PROTOCOL, SILENT, addressOf, ask } from "./answers.js";
 import { fitted } from "./camera.js";
 import { crossingCode } from "./crossings.js";
 import { indexAt, nextIndex } from "./cusps.js";
 import {
-  EMPTY, VERSION, addStroke, allPoints, ends, isEmpty, joins, markCusp, paths, reversed, rounded, vertexAt, withImage, withTurned,
+  EMPTY, addStroke, allPoints, ends, isEmpty, joins, markCusp, paths, reversed, rounded, vertexAt, withImage, withTurned,
 } from "./document.js";
 import { begin, record, redo, undo } from "./history.js";
 import { complete, keepNewPicture, save, settingsOf, whole } from "./keeping.js";
 import { LONGEST_LINK, asText, encode } from "./link.js";
-import { answerShown, offerShown, shown } from "./store.js";
+import { answerShown, offerOf, shown } from "./store.js";
+import { offeredDocument } from "./trials.js";
 import { newPlace, recall } from "./storage.js";
 import { counted } from "./wording.js";
 
@@ -74,16 +75,15 @@ export function cycleCusp(page, document, { stroke, vertex }) {
   tell(page, TURNS[index]);
 }
 
-export const offerLabel = (offer) => (offer && offer.cusps.length > 1 ? `Mark the ${offer.cusps.length} cusps` : "Mark the cusp");
+// ---- offers -------------------------------------------------------------------------------------------------------
 
-/** Mark the cusps that were offered, each at the point of the drawing where it was found. */
-export function markOffered(page) {
-  const { store } = page;
-  const { present } = store.state.history;
-  const marked = offerShown(store.state).cusps.reduce(
-    (document, { where, index }) => markCusp(document, vertexAt(present, where, Infinity), index), present);
-  edit(page, marked);
+export function takeOffer(page, kind) {
+  const offer = offerOf(page.store.state, kind);
+  edit(page, offeredDocument(page.store.state, offer));
+  tell(page, DONE[kind], ["undo"]);
 }
+
+const DONE = { repair: "It is changed as offered.", cusps: "The cusps are marked.", pieces: "These are the pieces." };
 
 export function step(page, direction) {
   const { store } = page;
@@ -163,7 +163,7 @@ export function fit({ store, size }) {
 /** Open a file that was chosen or dropped. */
 export async function openFile(page, file) {
   const headers = { "X-File-Name": encodeURIComponent(file.name), "X-Plyfold-Page": "open" };
-  const response = await fetch("/api/v2/open", { method: "POST", headers, body: file }).catch(() => null);
+  const response = await fetch(addressOf("open"), { method: "POST", headers, body: file }).catch(() => null);
   const answer = await response?.json();
   if (!answer || answer.error) return tell(page, answer?.error.sentence ?? SILENT);
   const { document: { strokes, image } } = answer;
@@ -219,8 +219,8 @@ export const copy = (text) => navigator.clipboard.writeText(text).then(() => tru
 export async function exportAs(page, format) {
   const { immersion, layering, gap } = page.store.state;
   tell(page, `Writing ${format.toUpperCase()} …`);
-  const body = JSON.stringify({ version: VERSION, document: complete(page), format, immersion, layering, gap });
-  const response = await fetch("/api/v2/export", { method: "POST", headers: { "Content-Type": "application/json" }, body }).catch(() => null);
+  const body = JSON.stringify({ version: PROTOCOL, document: complete(page), format, immersion, layering, gap });
+  const response = await fetch(addressOf("export"), { method: "POST", headers: { "Content-Type": "application/json" }, body }).catch(() => null);
   if (!response?.ok || response.headers.get("Content-Disposition") === null) {
     const answer = await response?.json().catch(() => null);
     return tell(page, answer?.error?.sentence ?? SILENT);

@@ -2,7 +2,7 @@
 
 import { toScreen, fitted } from "./camera.js";
 import { ACTIONS } from "./actions.js";
-import { SILENT } from "./answers.js";
+import { SILENT, addressOf } from "./answers.js";
 import { button, actionsIn } from "./buttons.js";
 import { openDrawing, openKept, openShape, tell } from "./commands.js";
 import { allPoints } from "./document.js";
@@ -80,7 +80,7 @@ function card(document_, title, detail, onOpen) {
 }
 
 export async function showGallery(page) {
-  const { curves } = await fetch("/api/v2/gallery").then((response) => response.json()).catch(() => ({}));
+  const { curves } = await fetch(addressOf("gallery")).then((response) => response.json()).catch(() => ({}));
   if (!curves) return tell(page, `${SILENT}: start plyfold sketch again.`);
   const cards = curves.map(({ name, title, document: drawing, crossings, immersions }) => {
     const detail = `${name}: ${crossings} crossing${crossings === "1" ? "" : "s"}, ${immersions === "0" ? "no disk" : `${immersions} immersion${immersions === "1" ? "" : "s"}`}`;
@@ -146,7 +146,7 @@ const SURFACE_KEYS = [
   ["F", "Show all of it"],
   ["X", "See through it"],
 ];
-const GROUPS = { tools: "Tools", history: "History", change: "Change", view: "View", answers: "Answers", surface: "Surface", file: "File", exports: "Save" };
+const GROUPS = { tools: "Tools", history: "History", change: "Change", view: "View", answers: "Answers", offers: "Offers", surface: "Surface", file: "File", exports: "Save" };
 
 export function showHelp() {
   const tables = Object.entries(GROUPS).map(([group, title]) => {

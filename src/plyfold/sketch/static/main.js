@@ -1,7 +1,7 @@
 // The page put together: the store, the answers, the pictures, the keys, and the drawing that it begins with.
 
 import { actionNamed } from "./actions.js";
-import { followAnswers } from "./answers.js";
+import { addressOf, followAnswers } from "./answers.js";
 import { button, fillButtons, listenToKeys } from "./buttons.js";
 import { createCanvas } from "./canvas.js";
 import { copy, finishPath, fit, openDrawing, openFile, openShapes, tell } from "./commands.js";
@@ -14,7 +14,9 @@ import { save, settingsOf, whole } from "./keeping.js";
 import { pressCursor, toggleCursor } from "./keyboard.js";
 import { lightLayout, paintLayout } from "./layout.js";
 import { decode, hasDrawing } from "./link.js";
+import { createOffers } from "./offers.js";
 import { answersAsText, createPanel } from "./panel.js";
+import { followRibbons } from "./ribbons.js";
 import { kept, newPlace, recall } from "./storage.js";
 import { createStore, lieShown, shown } from "./store.js";
 import { followTheme } from "./theme.js";
@@ -68,7 +70,7 @@ async function restore() {
   if (hasDrawing(location.hash)) return openLink();
   if (sessionStorage.getItem("plyfold.started")) return undefined;
   sessionStorage.setItem("plyfold.started", "yes");
-  const given = await fetch("/api/v2/start").then((response) => response.json()).catch(() => ({}));
+  const given = await fetch(addressOf("start")).then((response) => response.json()).catch(() => ({}));
   return given.document && openShapes(page, given);
 }
 
@@ -230,7 +232,9 @@ followTheme(page);
 followNotices();
 followUnkept();
 followPictures();
+createOffers(page, find("offers"));
 followGap(page, find("gap"), find("gap-value"));
+followRibbons(page, find("ribbon-width"), find("width"), find("width-value"));
 listenToFiles();
 listenToSpace();
 listenToKeys(page, (event) => isDrawing(event.target) && (pressCursor(page, event) || endPath(event)));

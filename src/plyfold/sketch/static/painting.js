@@ -3,9 +3,11 @@
  *
  * picture = {size: {width, height}, camera, theme, document, joins: [[a, b]..], openEnds: [[x, y]..],
  *            answer: to `look` or null, lie: to `lie` or null,           both about this very document
+ *            touches: [[x, y]..],                                        where the surface touches itself
  *            offered: [{where, index}..],                                cusps that would help
+ *            trial: {areas, strokes} that an offer would make, or null
  *            tool, path: points being placed, next: where the next one would be, selected: {stroke, vertex},
- *            cursor: [x, y] of the keyboard, hover: {cell, sheets, border}, kink: small or null, snap, image: loaded picture or null}
+ *            cursor: [x, y] of the keyboard, hover: {cell, sheets, border}, snap, image: loaded picture or null}
  * The theme is that of colours.js.
  */
 
@@ -13,9 +15,11 @@ import { toDrawing, toScreen } from "./camera.js";
 import { onWinding, sheetColour, windingColour } from "./colours.js";
 import { allCusps } from "./document.js";
 import { distance } from "./geometry.js";
+import { SPIKE } from "./notes.js";
 
 const TURN = 2 * Math.PI;
 const SPACING = 22;
+const FADED = 0.4;
 // Vertices nearer to each other than this are small, so that each is still seen.
 const CROWDED = 11;
 
@@ -27,7 +31,10 @@ export function paint(context, picture) {
   if (scene.image) paintImage(scene);
   if (answer) answer.cells.forEach((cell) => paintCell(scene, cell));
   if (answer) paintHover(scene);
+  context.globalAlpha = scene.trial ? FADED : 1;
   document.strokes.forEach((stroke) => paintStroke(scene, stroke));
+  context.globalAlpha = 1;
+  if (scene.trial) paintTrial(scene, scene.trial);
   paintJoins(scene);
   if (lie) paintLie(scene);
   if (answer) paintAnswer(scene);
@@ -137,12 +144,31 @@ function paintDirection({ context, theme, at }, points, closed) {
   }
 }
 
+/** What an offer would change, and the drawing that it would leave. */
+function paintTrial(scene, { areas, strokes }) {
+  const { context, theme } = scene;
+  areas.forEach((points, number) => {
+    context.beginPath();
+    trace(scene, points, true);
+    context.globalAlpha = FADED;
+    context.fillStyle = sheetColour(theme, number);
+    context.fill("nonzero");
+    context.globalAlpha = 1;
+  });
+  strokes.forEach(({ points, closed }) => {
+    line(scene, points, { closed, colour: theme.paper, width: 6 });
+    line(scene, points, { closed, colour: theme.good, width: 3, dash: [9, 6] });
+  });
+}
+
 function paintAnswer(scene) {
   const { answer, lie, theme } = scene;
   const { where } = answer.verdict;
-  scene.kink?.lobes.forEach((lobe) => line(scene, lobe, { closed: true, colour: theme.wrong, width: 4 }));
   answer.crossings.forEach((place) => paintDot(scene, place, 3, theme.accent));
   answer.cells.forEach((cell) => paintNumber(scene, cell));
+  answer.repairs.filter(({ kind }) => kind === SPIKE).forEach((spike) => paintRing(scene, spike.where, [3, 4]));
+  answer.contacts.forEach((place) => paintDiamond(scene, place, 4.5, theme.paper, theme.ink));
+  scene.touches.forEach((place) => paintDiamond(scene, place, 8, theme.touch, theme.paper));
   [...where, ...(lie?.obstruction?.where ?? [])].forEach((place) => paintCross(scene, place));
 }
 
@@ -219,11 +245,21 @@ function paintCross(scene, place) {
   }
 }
 
-function paintRing({ context, theme, at }, place) {
+function paintRing({ context, theme, at }, place, dash = []) {
   context.beginPath();
   context.arc(...at(place), 8, 0, TURN);
-  Object.assign(context, { lineWidth: 2.5, strokeStyle: theme.accent });
-  context.stroke();
+  stroke({ context }, { colour: theme.accent, dash });
+}
+
+/** A contact, large and filled where the surface touches itself: its shape tells it from crossings and cusps. */
+function paintDiamond({ context, at }, place, radius, ground, rim) {
+  const [x, y] = at(place);
+  context.beginPath();
+  [[radius, 0], [0, radius], [-radius, 0], [0, -radius]].forEach(([right, down]) => context.lineTo(x + right, y + down));
+  context.closePath();
+  context.fillStyle = ground;
+  context.fill();
+  stroke({ context }, { colour: rim, width: 1.6 });
 }
 
 function paintVertices(scene) {

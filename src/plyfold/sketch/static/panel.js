@@ -4,12 +4,14 @@ import { actionNamed } from "./actions.js";
 import { SILENT } from "./answers.js";
 import { button } from "./buttons.js";
 import { isEmpty } from "./document.js";
+import { previewing } from "./offers.js";
+import { notesOf, spikesNote } from "./notes.js";
+import { answerShown, errorShown, lieShown, offerOf, ribbonShown, shown, touchesShown } from "./store.js";
 import { counted } from "./wording.js";
-import { answerShown, errorShown, lieShown, offerShown, shown } from "./store.js";
 
 const HEADLINES = { unfinished: "Not a loop yet", away: SILENT };
 const LONGEST = 600;
-const REMEDIES = ["markCusps", "holes", "removeKink", "closeLoop", "lastOnly"];
+const REMEDIES = ["holes", "ribbon", "closeLoop", "lastOnly"];
 const find = (id) => document.getElementById(id);
 const grouped = (digits) => (digits.length > 24 ? `about 10^${digits.length - 1}` : digits.replace(/\B(?=(\d{3})+$)/g, ","));
 
@@ -17,13 +19,28 @@ const grouped = (digits) => (digits.length > 24 ? `about 10^${digits.length - 1}
 export function verdictOf(state) {
   const error = errorShown(state);
   if (isEmpty(shown(state))) return { kind: "empty", headline: "", sentence: "" };
-  if (error) return { kind: "unfinished", headline: HEADLINES[error.kind] ?? "Not a loop that can be used", sentence: `${error.sentence}${error.hint ? `: ${error.hint}` : ""}.` };
+  if (error) return { kind: "unfinished", headline: HEADLINES[error.kind] ?? "Not a loop that can be used", sentence: [told(error), tooTight(state)].filter(Boolean).join(" ") };
   const answer = answerShown(state);
   if (!answer) return null;
   const lie = lieShown(state);
-  const kind = answer.verdict.immersible ? (lie?.obstruction ? "unlifted" : "yes") : "no";
+  const kind = kindOf(answer.verdict, lie, touchesShown(state));
   const { headline, sentence } = (lie ?? answer).verdict;
-  return { kind, headline, sentence: [sentence, offerShown(state)?.sentence].filter(Boolean).join(" ") };
+  const said = offerOf(state, state.previewed)?.sentence ?? [sentence, spikesNote(answer), tooTight(state)].filter(Boolean).join(" ");
+  return { kind, headline, sentence: said };
+}
+
+const told = ({ sentence, hint }) => sentenceCase(`${sentence}${hint ? `: ${hint}` : ""}.`);
+
+/** Why ribbons of this width cannot be made. */
+function tooTight(state) {
+  const error = ribbonShown(state)?.error;
+  return error ? told(error) : "";
+}
+
+function kindOf({ immersible }, lie, touches) {
+  if (!immersible) return immersible === null ? "undecided" : "no";
+  if (lie?.obstruction) return "unlifted";
+  return touches.length ? "touching" : "yes";
 }
 
 export function figuresOf(state) {
@@ -35,15 +52,17 @@ export function figuresOf(state) {
     ["crossings", String(answer.crossings.length)],
     ...(answer.cusps.length ? [["cusps", counted(answer.cusps.map(({ index }) => `index ${index}`))]] : []),
     turningOf(answer),
-    ["cells by winding number", windings(answer.cells)],
+    ["cells by winding number", windings(answer.cells_by_winding)],
     ...answer.verdict.figures,
     ["immersions", answer.verdict.immersions === null ? "more than could be counted" : grouped(answer.verdict.immersions)],
   ];
+  const touches = touchesShown(state);
+  if (touches.length) rows.push(["touches itself at", touches.map((place) => `(${place.map(rounded).join(", ")})`).join(", ")]);
+  const notes = notesOf(answer);
+  if (notes) rows.push(["notes", notes]);
   if (lie?.levels) rows.push(["levels", String(Math.max(...lie.levels))]);
   if (answer.gauss) rows.push(["Gauss code", answer.gauss]);
   if (answer.word) rows.push(["Blank's word", answer.word]);
-  const repairs = answer.repairs.filter(({ kind }) => kind !== "gap bridged");
-  if (repairs.length) rows.push(["repairs", counted(repairs.map(({ kind }) => kind))]);
   return rows;
 }
 
@@ -52,16 +71,13 @@ function turningOf({ turning_numbers: numbers, reversed: wasTurned }) {
   return ["turning number", minus(numbers[0]) + (wasTurned ? " (drawn clockwise)" : "")];
 }
 
+const rounded = (number) => minus(Number(number.toPrecision(6)));
 const minus = (number) => String(number).replace("-", "−");
 
 /** As much of a long code as is read; the copy has the whole. */
 const readable = (value) => (value.length > LONGEST ? `${value.slice(0, LONGEST)} …` : value);
 
-function windings(cells) {
-  const counts = new Map();
-  for (const { winding } of cells) counts.set(winding, (counts.get(winding) ?? 0) + 1);
-  return [...counts].sort(([a], [b]) => a - b).map(([winding, count]) => `${count} with ${winding}`.replace("-", "−")).join(", ");
-}
+const windings = (counts) => counts.map(([winding, count]) => `${count} with ${winding}`.replace("-", "−")).join(", ");
 
 /** The answers as text, one to a line. */
 export function answersAsText(state) {
@@ -84,7 +100,9 @@ export function createPanel(page) {
   walkBar(page, "immersion", "previousImmersion", "nextImmersion");
   walkBar(page, "layering", "layeringDown", "layeringUp");
   const remedies = find("remedies");
-  remedies.append(...REMEDIES.map((name) => button(page, actionNamed(name))));
+  const buttons = REMEDIES.map((name) => button(page, actionNamed(name)));
+  remedies.prepend(...buttons);
+  buttons.filter(({ dataset }) => actionNamed(dataset.action).preview).forEach((made) => previewing(page, made));
   page.store.follow((state, before) => {
     if (state !== before) refresh(state);
   });

@@ -2,7 +2,6 @@
 
 import { START as CAMERA } from "./camera.js";
 import { EMPTY } from "./document.js";
-import { lengthOf } from "./geometry.js";
 import { begin } from "./history.js";
 
 export const START = Object.freeze({
@@ -24,7 +23,10 @@ export const START = Object.freeze({
   camera: CAMERA,
   answer: null, // to `look`, or {error}
   answered: null, // the document that the answer is about
-  offer: null, // the answer to `cusps`: where they would help
+  offers: null, // the answer to `offers`: what can be done where there is no surface
+  previewed: null, // the kind of the offer that is pointed at, or "ribbon"
+  ribbon: null, // what open strokes would be or are as ribbons: {line: the document with them, made, width, loops, error}
+  width: null, // of ribbons; null for the one that the page chooses
   lie: null, // the answer to `lie`
   mesh: null, // the surface, or null
   unlifted: null, // why there is no surface: a sentence
@@ -68,19 +70,27 @@ export const answerShown = (state) => (isAnswered(state) && !state.answer.error 
 /** What is wrong with the drawing that is seen, if it is no loop that can be used. */
 export const errorShown = (state) => (isAnswered(state) ? (state.answer.error ?? null) : null);
 
-/** The kink that the drawing would be a disk without, if it is no more than a quarter of it. */
-export function smallKink(state) {
-  const kink = answerShown(state)?.verdict.kink;
-  if (!kink) return null;
-  const lobes = kink.lobes.reduce((sum, lobe) => sum + lengthOf(lobe), 0);
-  return lobes <= (lobes + lengthOf(kink.points)) / 4 ? kink : null;
-}
-
 /** How the cloth lies, if that is about what is seen. */
 export const lieShown = (state) => (answerShown(state) && state.lie?.sheets ? state.lie : null);
 
-/** The cusps that would help, if that is about what is seen. */
-export const offerShown = (state) => (answerShown(state) && state.offer?.cusps?.length ? state.offer : null);
+/** Where the surface that is seen touches itself. */
+export const touchesShown = (state) => lieShown(state)?.touches ?? answerShown(state)?.verdict.touches ?? [];
+
+/** What can be done about what is seen. */
+export const offersShown = (state) => (answerShown(state)?.verdict.immersible === false && state.offers) || [];
+
+/** The offer of a kind: "repair", "cusps" or "pieces". */
+export const offerOf = (state, kind) => offersShown(state).find((offer) => offer.kind === kind) ?? null;
+
+/** The document whose open strokes are to be ribbons: the one that is seen, or the one that ribbons were made of. */
+export function lineOf(state) {
+  const { history: { present }, ribbon } = state;
+  if (ribbon && present === ribbon.made) return ribbon.line;
+  return errorShown(state)?.kind === "unfinished" && present.strokes.some(({ closed, points }) => !closed && points.length > 1) ? present : null;
+}
+
+/** The ribbons that are known of what is seen. */
+export const ribbonShown = (state) => (state.ribbon && state.ribbon.line === lineOf(state) ? state.ribbon : null);
 
 /** The strokes that would have to be turned round for every second loop to be a hole. Open strokes have no number in answers. */
 export function turnable(state) {
