@@ -78,11 +78,12 @@ def as_answer(found):
     """What does not depend on where an outline begins and which way it runs."""
     if not found:
         return found.reason, found.value
-    points = found.outline.points
-    start = np.lexsort(points.T)[0]
-    ways = [np.roll(points, -start, axis=0), np.roll(points[::-1], -(len(points) - 1 - start), axis=0)]
+    corners = [(x, y) for x, y in found.outline.points.tolist()]
+    starts = [at for at, corner in enumerate(corners) if corner == min(corners)]
+    forward = [corners[at:] + corners[:at] for at in starts]
+    ways = forward + [[way[0], *way[:0:-1]] for way in forward]
     return (
-        min(way.tolist() for way in ways),
+        min(ways),
         [(change.kind, change.where) for change in found.changes],
         found.region_change,
         found.layer_change,

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import watched_arrangement
+from plyfold.arrangement.arrangement import Arrangement, watched_arrangement
 from plyfold.arrays import Floats
 from plyfold.clock import Clock, Watch
 from plyfold.errors import CurveError, GeneralPositionError, InputError, TimeLimitError
@@ -189,12 +189,37 @@ def _repaired(given: OutlineLike, caps: Caps, clock: Clock) -> Repaired | Obstru
     drawn = watched_arrangement(given, "perturb", Watch(clock))
     if drawn.outline is None or drawn.given is None:
         raise InputError("a Gauss code has no points to be changed", hint="give the drawing")
+    found = _within(drawn, caps, clock)
+    if _may_lie_on_either_side(drawn):
+        other = _within(watched_arrangement(drawn.given.reversed(), "perturb", Watch(clock)), caps, clock)
+        found = min(filter(None, (found, _turned_back(other))), key=_how_much, default=None)
+    return _beyond(plan_of(drawn), caps, clock) if found is None else found
+
+
+def _within(drawn: Arrangement, caps: Caps, clock: Clock) -> Repaired | None:
+    """Return the repair of a drawing within the caps."""
     plan = plan_of(drawn)
-    for all_lenses in (False, True):
-        found = _found(plan, caps, all_lenses, clock)
-        if found is not None:
-            return found
-    return _beyond(plan, caps, clock)
+    found = _found(plan, caps, False, clock)
+    return _found(plan, caps, True, clock) if found is None else found
+
+
+def _may_lie_on_either_side(drawn: Arrangement) -> bool:
+    """Tell whether nothing tells inside from outside, and strands touch, which are moved outward."""
+    is_directed = drawn.winding.min() == 0 or (drawn.n_loops == 1 and drawn.turning_number != 0)
+    return not is_directed and drawn.given is not drawn.outline
+
+
+def _turned_back(found: Repaired | None) -> Repaired | None:
+    """Return the repair of an outline that runs the other way."""
+    if found is None:
+        return None
+    changes = tuple(replace(change, polygons=tuple(way[::-1] for way in change.polygons)) for change in found.changes)
+    kept = [repair for repair in found.outline.repairs if repair not in found.changes]
+    return replace(found, outline=outline_with(found.outline.reversed(), repairs=(*kept, *changes)), changes=changes)
+
+
+def _how_much(found: Repaired) -> tuple[float, float]:
+    return found.region_change, found.layer_change
 
 
 @dataclass(eq=False)
