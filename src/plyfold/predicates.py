@@ -255,7 +255,7 @@ def exact_crossings(ends: Floats, axis: int) -> list[Fraction]:
 def whole_numbers(numbers: Floats) -> tuple[Wholes, Fraction]:
     """Return doubles as whole numbers, however large, of a power of two."""
     mantissa, exponent = np.frexp(numbers)
-    least = int(exponent.min())
+    least = int(exponent.min(initial=0))
     whole = np.ldexp(mantissa, 53).astype(np.int64).astype(object)
     return whole << (exponent - least).astype(object), Fraction(2) ** (least - 53)
 

@@ -9,6 +9,7 @@ import plyfold as pf
 from plyfold.arrangement.polylines import polygon_turning_number
 from plyfold.errors import CurveError, GeneralPositionError
 from reference import crossings as reference
+from reference.contacts import moved
 from reference.crossings import cross, exact, minus
 
 TOUCHING = {
@@ -98,18 +99,32 @@ def test_points_in_contact_move_outward(points):
         drawn = pf.arrange(points)
     except CurveError:
         return
-    given, moved = (list(map(tuple, outline.points.tolist())) for outline in (drawn.given, drawn.outline))
+    given, goals = (list(map(tuple, outline.points.tolist())) for outline in (drawn.given, drawn.outline))
     if polygon_turning_number(drawn.given.points) == 0 or len(drawn.contacts) == 0:
         return
-    assert {v for v, (p, q) in enumerate(zip(given, moved, strict=True)) if p != q} >= set(drawn.contacts.tolist())
+    assert {v for v, (p, q) in enumerate(zip(given, goals, strict=True)) if p != q} >= set(drawn.contacts.tolist())
     for v in drawn.contacts.tolist():
         before, here, after, goal = (
-            exact([p])[0] for p in (given[v - 1], given[v], given[(v + 1) % len(given)], moved[v])
+            exact([p])[0] for p in (given[v - 1], given[v], given[(v + 1) % len(given)], goals[v])
         )
         away = minus(goal, here)
         assert cross(minus(here, before), away) < 0
         assert cross(minus(after, here), away) < 0
         assert max(map(abs, away)) < 1e-4
+
+
+@settings(max_examples=60, deadline=None)
+@given(grid)
+def test_the_moved_outline_shows_what_infinitely_small_moves_do(points):
+    """The code of the outline in doubles is that of moves in the same directions of next to no size, in fractions."""
+    try:
+        drawn = pf.arrange(points)
+    except CurveError:
+        return
+    given, goals = (exact(outline.points.tolist()) for outline in (drawn.given, drawn.outline))
+    move = [minus(goal, here) for here, goal in zip(given, goals, strict=True)]
+    code = reference.crossings_between(moved([given], [move])[0]).code
+    assert (drawn.partner.tolist(), drawn.ccw.tolist()) == (list(code.partner), list(map(bool, code.ccw)))
 
 
 @pytest.mark.parametrize("seed", range(4))

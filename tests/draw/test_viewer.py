@@ -27,9 +27,9 @@ def small_surface(scale=1.0, shift=0.0):
         cusps=np.empty(0, dtype=int),
         gap=1.0,
         intersections=(),
-        layering=SimpleNamespace(
-            level=np.array([1, 2]), immersion=SimpleNamespace(sheet_cell=np.array([1, 2]), is_disk=True)
-        ),
+        n_layers=2,
+        is_disk=True,
+        layering=SimpleNamespace(level=np.array([1, 2]), immersion=SimpleNamespace(sheet_cell=np.array([1, 2]))),
         unwrap=no_disk,
     )
 

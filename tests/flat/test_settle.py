@@ -122,9 +122,26 @@ def test_a_point_inside_an_edge():
         frozenset({(2, 0), (4, 0), (4, 2), (3, 2)}),
     }
     assert len(pf.triangulate(TOUCHED_EDGE)) == 4
+    assert cuts_of(pf.find_immersion(TOUCHED_EDGE)).tolist() == [[2, 0]]
     places, fine = pf.triangulate(TOUCHED_EDGE, refine=0.25)
     assert places[7].tolist() == [2, 0]
     assert len(pieces_of(fine.tolist())) == 2
+
+
+@pytest.mark.parametrize("turn", [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1)])
+def test_many_points_inside_an_edge(turn):
+    """They are corners in the order in which the edge comes to them, wherever it runs."""
+    c, s = turn
+    comb = [(0, 0), (8, 0), (8, 2), (7, 2), (6, 0), (5, 2), (4, 0), (3, 2), (2, 0), (1, 2), (0, 2), (-1, 1)]
+    there = [(c * x - s * y, s * x + c * y) for x, y in comb]
+    assert check(there) == 4
+    assert len(cuts_of(pf.find_immersion(there))) == 3
+    settled = settled_triangles(pf.find_immersion(there))
+    assert settled.point[settled.inside].tolist() == [8, 6, 4]
+    with_spike = [*there[:3], (9 * c - 3 * s, 9 * s + 3 * c), *there[2:]]
+    places, faces = pf.triangulate(with_spike, refine=0.5)
+    assert places[:14].tolist() == [list(place) for place in with_spike]
+    assert len(pieces_of(faces.tolist())) == 4
 
 
 def test_many_pieces_at_one_point():

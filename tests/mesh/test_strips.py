@@ -14,8 +14,9 @@ import plyfold as pf
 from plyfold.arrangement.noding import strands_of
 from plyfold.errors import PrecisionError
 from plyfold.mesh.cells import triangulate_cells
+from plyfold.mesh.refine import is_moved
 from plyfold.mesh.sheets import glue_copies
-from plyfold.mesh.strips import is_moved, loop_left, strips_of
+from plyfold.mesh.strips import loop_left, strips_of
 from touching import grown_outlines
 
 TRIANGLES = [(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)]

@@ -17,6 +17,7 @@ from plyfold.certify import check_limit, check_pieces
 from plyfold.errors import CurveError
 from plyfold.mesh.cells import triangulate_cells
 from plyfold.mesh.sheets import glue_copies
+from plyfold.ragged import next_in_rows
 from reference.contacts import (
     Answer,
     answer,
@@ -86,12 +87,23 @@ def certified(outline: pf.Outline) -> bool:
     loops, cusps = list(drawn.given.loops), list(drawn.given.cusps)
     check_limit(loops, list(drawn.outline.loops), pf.triangulate(drawn.outline), cusps)
     check_pieces(loops, outline.points, pf.triangulate(outline), cusps)
-    mesh = triangulate_cells(drawn)
-    if mesh.strips:
-        sheets = glue_copies(immersion, mesh)
-        edge = np.searchsorted(mesh.strips.strands.first, mesh.chain_border[sheets.boundary_piece], side="right") - 1
-        check_pieces(loops, mesh.points[sheets.planar_vertex], sheets.faces, cusps, sheets.boundary, edge)
+    certify_sheets(immersion, loops, cusps)
     return True
+
+
+def certify_sheets(immersion: pf.Immersion, loops: list[np.ndarray], cusps: list[np.ndarray]) -> None:
+    """The flat mesh of the sheets is what the outline bounds; its boundary runs along pieces of the outline."""
+    mesh = triangulate_cells(immersion.arrangement)
+    if mesh.strips is None:  # nothing touches
+        return
+    sheets, first = glue_copies(immersion, mesh), mesh.strips.strands.first
+    edge_of_border = np.searchsorted(first, np.arange(first[-1]), side="right") - 1
+    pieces = zip(mesh.chain.tolist(), mesh.chain_end.tolist(), strict=True)
+    edge = dict(zip(pieces, edge_of_border[mesh.chain_border].tolist(), strict=True))
+    start = sheets.planar_vertex[sheets.boundary]
+    end = start[next_in_rows(sheets.first_boundary)]
+    along = [edge[ends] for ends in zip(start.tolist(), end.tolist(), strict=True)]
+    check_pieces(loops, mesh.points[sheets.planar_vertex], sheets.faces, cusps, sheets.boundary, along)
 
 
 def main() -> int:

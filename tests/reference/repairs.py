@@ -231,19 +231,32 @@ def changed(drawn: Drawing, before: list[int], after: list[int]) -> tuple[Fracti
 # ---- the search ------------------------------------------------------------------------------------------------------
 
 
+def whole_curve(drawn: Drawing) -> Curve:
+    """The curve of a drawing."""
+    return [item for visit in range(len(drawn.sides)) for item in (-1 - visit, 2 * visit)]
+
+
+def parts_changed(drawn: Drawing, curve: Curve) -> tuple[Fraction, Fraction]:
+    """Which parts of the covered area and of all layers a curve has otherwise than the drawing."""
+    given = windings(drawn, whole_curve(drawn))
+    parts, whole = changed(drawn, given, windings(drawn, curve)), changed(drawn, [0] * len(given), given)
+    return parts[0] / whole[0], parts[1] / whole[1]
+
+
+def is_within(drawn: Drawing, caps: tuple[float, float], curve: Curve) -> bool:
+    """Does a curve keep within the caps?"""
+    return all(cap == inf or part <= Fraction(cap) for part, cap in zip(parts_changed(drawn, curve), caps, strict=True))
+
+
 def greedy(drawn: Drawing, caps: tuple[float, float], all_lenses: bool) -> list[Move] | None:
     """The smallest moves within the caps, until there is a disk."""
-    curve = whole = [item for visit in range(len(drawn.sides)) for item in (-1 - visit, 2 * visit)]
-    given = windings(drawn, whole)
-    total = changed(drawn, [0] * len(given), given)
-    limits = [inf if cap == inf else Fraction(cap) * part for part, cap in zip(total, caps, strict=True)]
+    curve = whole_curve(drawn)
     chosen: list[Move] = []
     while not is_disk(drawn, curve):
         possible = []
         for move in moves(drawn, curve, all_lenses):
             one = tried(drawn, curve, move)
-            spent = changed(drawn, given, windings(drawn, one.curve))
-            if all(part <= limit for part, limit in zip(spent, limits, strict=True)):
+            if is_within(drawn, caps, one.curve):
                 possible.append(one)
         if not possible:
             return None
@@ -255,7 +268,7 @@ def greedy(drawn: Drawing, caps: tuple[float, float], all_lenses: bool) -> list[
 
 def after_all(drawn: Drawing, chosen: list[Move]) -> Curve | None:
     """The curve after some moves, if they are possible one after the other."""
-    curve = [item for visit in range(len(drawn.sides)) for item in (-1 - visit, 2 * visit)]
+    curve = whole_curve(drawn)
     for move in chosen:
         order = visits(drawn, curve)
         following = dict(pairwise([*order, *order[:1]]))
@@ -267,7 +280,7 @@ def after_all(drawn: Drawing, chosen: list[Move]) -> Curve | None:
     return curve
 
 
-def needed(drawn: Drawing, chosen: list[Move]) -> list[Move]:
+def needed(drawn: Drawing, caps: tuple[float, float], chosen: list[Move]) -> list[Move]:
     """The moves without those that turn out not to be needed: half of them at a time, the latest ones first."""
     if all(len(move.runs) == 1 for move in chosen):
         chosen = [move for i, move in enumerate(chosen) if not any(lies_in(drawn, move, m) for m in chosen[i + 1 :])]
@@ -277,7 +290,7 @@ def needed(drawn: Drawing, chosen: list[Move]) -> list[Move]:
         for begin in range(0, len(chosen), stretch)[::-1]:
             fewer = chosen[:begin] + chosen[begin + stretch :]
             curve = after_all(drawn, fewer)
-            if curve is not None and is_disk(drawn, curve):
+            if curve is not None and is_within(drawn, caps, curve) and is_disk(drawn, curve):
                 chosen = fewer
     return chosen
 
@@ -293,11 +306,8 @@ def repair(drawn: Drawing, caps: tuple[float, float]) -> Outcome | None:
     for all_lenses in (False, True):
         chosen = greedy(drawn, caps, all_lenses)
         if chosen is not None:
-            kept = needed(drawn, chosen)
-            whole = windings(drawn, [item for visit in range(len(drawn.sides)) for item in (-1 - visit, 2 * visit)])
+            kept = needed(drawn, caps, chosen)
             curve = after_all(drawn, kept)
             assert curve is not None
-            spent = changed(drawn, whole, windings(drawn, curve))
-            total = changed(drawn, [0] * len(whole), whole)
-            return Outcome(kept, *(part / all_of_it for part, all_of_it in zip(spent, total, strict=True)))
+            return Outcome(kept, *parts_changed(drawn, curve))
     return None

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import assume, given, settings
 
 import plyfold as pf
-from plyfold.certify import check_layered, check_solid, check_surface
+from plyfold.certify import check_boundary, check_layered, check_solid, check_surface
 from plyfold.errors import CertificateError, GeneralPositionError, InputError
 from plyfold.gallery import CURVES
-from plyfold.mesh.strips import is_moved
+from plyfold.mesh.refine import is_moved
 from plyfold.surface.left import kinds_of, loops_of
 from touching import grown_outlines, rectangles
 
@@ -179,3 +179,20 @@ def test_tops_of_touching_solids_belong_to_their_triangles():
         check_solid(spoiled, solid.faces, 0.5, pieces=(1, 1), touching=True)
     with pytest.raises(CertificateError, match="alternate"):
         check_solid(solid.vertices, solid.faces[:, ::-1], 0.5, pieces=(1, 1), touching=True)
+
+
+def test_a_strand_across_a_double_edge():
+    # It crosses the slit at x = 1/3, which is no double.
+    surface = pf.lift(pf.Outline([KEYHOLE, [(0, 1), (1, 4), (-2, 4)]]), triangles=100)
+    surface.check()
+    assert surface.n_layers == 2
+
+
+def test_the_pieces_together_are_the_outline():
+    surface = pf.lift(NECK, triangles=50)
+    loops, _ = loops_of(surface)
+    check_boundary([NECK], loops)
+    with pytest.raises(CertificateError, match="not the outline"):
+        check_boundary([NECK], loops[:1])
+    with pytest.raises(CertificateError, match="not the outline"):
+        check_boundary([NECK], [loops[0], loops[1][::-1]])

@@ -132,8 +132,9 @@ def _meetings(ends: Floats, first: Ints, second: Ints) -> Contacts:
 
 def _sides(ends: Floats, edge: Ints, other: Ints) -> tuple[Signs, int]:
     """Return on which side of each edge the other edge starts and ends, shape (m, 2)."""
-    start, end = ends[edge, 0, None], ends[edge, 1, None]
-    return counted_cross_sign(start, end, start, ends[other])
+    # To take rows is several times as fast as to index them.
+    start, end = ends.take(edge, axis=0).swapaxes(0, 1)[:, :, None]
+    return counted_cross_sign(start, end, start, ends.take(other, axis=0))
 
 
 def _touches(ends: Floats, edge: Ints, other: Ints, side: Signs) -> Ints:
@@ -166,9 +167,9 @@ def order_visits(points: Floats, contacts: Contacts) -> Visits:
     """
     k = len(contacts.edges)
     edge, other = contacts.edges.T.ravel(), contacts.edges[:, ::-1].T.ravel()
-    start, end = points[edge], points[(edge + 1) % len(points)]
+    start, end = points.take(edge, axis=0), points.take((edge + 1) % len(points), axis=0)
     across = np.arange(2 * k) - k  # the other visit to the same crossing
-    parameter, error = parameter_along_edge(start, end, start[across], end[across])
+    parameter, error = parameter_along_edge(start, end, start.take(across, axis=0), end.take(across, axis=0))
     order = np.argsort(_sorting_key(edge, parameter, len(points)))
     runs = _unsure_runs(edge[order], parameter[order], error[order])
     triple = [three for run in runs for three in _sort_exactly(points, order[run], edge, other)]

@@ -94,7 +94,7 @@ def in_general_position(
         If nothing is left of the outline without its spikes.
     GeneralPositionError
         With ``policy="raise"`` at every touching place; with ``"perturb"`` if double precision cannot show strands
-        apart that are to be, or if several cusps lie at one place.
+        apart that are to be.
     """
     if policy not in ("perturb", "raise"):
         raise InputError(f'general_position must be "perturb" or "raise", not {policy!r}')
@@ -274,7 +274,7 @@ def _shown(touching: _Touching, points: Floats) -> GeneralPosition | Ints:
 
 def _lie_alike(motion: MovingPoints, joined: JoinedLoops, visits: Visits) -> bool:
     """Tell whether moved loops show their outside where it is, and lie in each other, as when they begin to move."""
-    if not joined.is_jump.any():
+    if joined.is_one_loop:
         return same_outside(motion, joined.points)
     number = joined.vertex - joined.loop
     begun = replace(joined, points=motion.points[number])

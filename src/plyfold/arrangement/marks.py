@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from fractions import Fraction
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -15,9 +15,11 @@ from plyfold.errors import GaussCodeError
 from plyfold.outline.curve import Outline
 from plyfold.ragged import starts_of
 
-__all__ = ["Mark", "cusps_of_outline", "cusps_on_borders", "with_marks"]
+__all__ = ["AT_VERTEX", "Mark", "cusps_of_outline", "cusps_on_borders", "with_marks"]
 
 
+# Where on an edge the vertex is that it starts from.
+AT_VERTEX = -inf
 _NO_FEET = np.empty((0, 2), dtype=bool)
 
 
@@ -28,8 +30,8 @@ class Mark(NamedTuple):
     ----------
     edge : int
         Counted over all loops; of a vertex, the edge that starts there.
-    share : Fraction
-        How far along the edge, from 0 to 1.
+    along : float
+        Any number that grows along the edge.
     tie : int
         What comes first of several marks at one place.
     at : int
@@ -42,7 +44,7 @@ class Mark(NamedTuple):
     """
 
     edge: int
-    share: Fraction
+    along: float
     tie: int
     at: int
     loop: int
@@ -60,7 +62,7 @@ def cusps_of_outline(outline: Outline, visit_edge: Ints) -> list[Mark]:
     loop = np.searchsorted(outline.first_point, vertex, side="right") - 1
     columns = (vertex, at, loop, outline.points[vertex], index[vertex])
     return [
-        Mark(edge, Fraction(0), 0, at, loop, (x, y), turns)
+        Mark(edge, AT_VERTEX, 0, at, loop, (x, y), turns)
         for edge, at, loop, (x, y), turns in zip(*(column.tolist() for column in columns), strict=True)
     ]
 
@@ -75,7 +77,7 @@ def cusps_on_borders(code: Code, cusps: Mapping[int, int], turned_round: bool) -
             )
     borders = {(-2 - border) % n if turned_round else border: turns for border, turns in cusps.items()}
     start = 1 if len(code.partner) else 0
-    return [Mark(border, Fraction(0), 0, border + start, 0, (0.0, 0.0), turns) for border, turns in borders.items()]
+    return [Mark(border, AT_VERTEX, 0, border + start, 0, (0.0, 0.0), turns) for border, turns in borders.items()]
 
 
 def with_marks(plain: Map, marks: Sequence[Mark], feet: Sequence[Mark] = (), is_left: Bools = _NO_FEET) -> Map:

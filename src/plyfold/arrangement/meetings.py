@@ -36,6 +36,11 @@ class JoinedLoops:
     vertex: Ints
     is_jump: Bools
 
+    @property
+    def is_one_loop(self) -> bool:
+        """Whether there are no jumps."""
+        return int(self.loop[-1]) == 0
+
 
 def joined_loops(points: Floats, first_point: Ints) -> JoinedLoops:
     """Return loops as one polyline; loop l has the points ``first_point[l]:first_point[l + 1]``."""
@@ -52,9 +57,9 @@ def joined_loops(points: Floats, first_point: Ints) -> JoinedLoops:
 
 def meetings(joined: JoinedLoops, watch: Watch = UNWATCHED) -> Contacts:
     """Return the pairs of edges of an outline that cross, and the vertices that lie on foreign edges."""
+    if joined.is_one_loop:
+        return find_contacts(joined.points, watch)
     found = find_contacts(joined.points, watch, np.flatnonzero(joined.is_jump))
-    if not joined.is_jump.any():
-        return found
     edges = found.edges - joined.loop[found.edges]
     return replace(found, edges=edges, touches=_own_touches_left_out(joined, found.touches))
 
@@ -70,7 +75,7 @@ def _own_touches_left_out(joined: JoinedLoops, touches: Ints) -> Ints:
 
 def visits_along(joined: JoinedLoops, contacts: Contacts) -> Visits:
     """Return the visits of an outline to its crossings, in order along one loop after the other."""
-    if not joined.is_jump.any():
+    if joined.is_one_loop:
         return order_visits(joined.points, contacts)
     number = np.flatnonzero(~joined.is_jump)
     visits = order_visits(joined.points, replace(contacts, edges=number[contacts.edges]))

@@ -6,21 +6,23 @@ others; exact point location says in which: from its leftmost vertex straight to
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from plyfold.arrangement.crossings import Visits, edge_ends
-from plyfold.arrangement.marks import Mark
+from plyfold.arrangement.marks import AT_VERTEX, Mark
 from plyfold.arrangement.meetings import JoinedLoops
 from plyfold.arrays import Bools, Floats, Ints, Wholes
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.graphs import components
-from plyfold.predicates import Place, exact_cross, orient
-from plyfold.ragged import starts_of
+from plyfold.predicates import Place, exact_cross, orient, whole_numbers
+from plyfold.ragged import count_each, starts_of
 
 if TYPE_CHECKING:
     from shapely import STRtree
@@ -28,6 +30,9 @@ if TYPE_CHECKING:
 __all__ = ["Nest", "nest", "same_nest"]
 
 _EDGES_IN_BOX = 8
+# Rays that meet nothing are made so many times longer; this many are looked at together.
+_LONGER = 4
+_RAYS = 1024
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,29 +78,27 @@ def nest(joined: JoinedLoops, visits: Visits, watch: Watch = UNWATCHED, exact: W
 
     Notes
     -----
-    O(n) for each group.
+    What rays from all groups meet on the left, which is O(n) for each at worst.
     """
     start = np.flatnonzero(~joined.is_jump)
     visits = replace(visits, edge=start[visits.edge])
     loop, n_loops = joined.loop[visits.edge], int(joined.loop[-1]) + 1
     first_visit = np.searchsorted(loop, np.arange(n_loops + 1))
-    group = components(n_loops, loop, loop[visits.partner])
+    other = loop[visits.partner]
+    group = components(n_loops, loop[loop < other], other[loop < other])
     plan = _Plan(joined, visits, first_visit, group[joined.loop], exact)
-    outside, bridges, feet = [], [], []
-    for number, corner in enumerate(_corners(plan)):
-        watch.step()
-        dart, beyond = _outer_dart(plan, corner), _met_on_the_left(plan, corner)
-        if beyond is None:
-            outside.append(dart)
-        else:
-            foot = _foot_on_edge(plan, beyond, corner, number)
-            bridges.append((dart, 2 * plan.border(beyond, foot.at) + _is_upward(plan, beyond)))
-            feet.append((_foot_at_vertex(plan, corner), foot))
+    corner = _corners(plan)
+    dart, beyond = _outer_darts(plan, corner), _met_on_the_left(plan, corner, watch)
+    is_free, number = beyond < 0, np.flatnonzero(beyond >= 0)
+    corner, beyond = corner[number], beyond[number]
+    passed = _visits_passed(plan, beyond, corner)
+    met = 2 * plan.border(beyond, passed) + plan.is_upward(beyond)
+    feet = zip(_feet_at_vertices(plan, corner), _feet_on_edges(plan, beyond, passed, corner, number), strict=True)
     return Nest(
         first_visit=first_visit,
-        outside=np.array(outside),
-        bridges=np.array(bridges, dtype=np.int64).reshape(-1, 2),
-        feet=feet,
+        outside=dart[is_free],
+        bridges=np.stack([dart[number], met], axis=1),
+        feet=list(feet),
     )
 
 
@@ -130,135 +133,212 @@ class _Plan:
         x, y = (self.joined.points if self.exact is None else self.exact)[point].tolist()
         return Fraction(x), Fraction(y)
 
-    def is_above(self, points: Ints, other: int) -> Bools:
-        """Tell which points lie higher than another one."""
-        y = (self.joined.points if self.exact is None else self.exact)[:, 1]
-        return np.asarray(y[points] > y[other], dtype=bool)
+    @cached_property
+    def height(self) -> Floats | Ints:
+        """The heights of the points, or numbers in the same order."""
+        return self.joined.points[:, 1] if self.exact is None else _ranks(self.exact[:, 1])
 
     @cached_property
     def ends(self) -> Floats:
-        """Start and end of each edge."""
-        return edge_ends(self.joined.points)
-
-    @cached_property
-    def leftmost(self) -> float:
-        """The least x of all points."""
-        return float(self.joined.points[:, 0].min())
+        """Start and end of each edge; jumps go nowhere."""
+        ends = edge_ends(self.joined.points)
+        ends[self.joined.is_jump, 1] = ends[self.joined.is_jump, 0]
+        return ends
 
     @cached_property
     def first_border(self) -> Ints:
         """The first border of each loop."""
         return starts_of(np.maximum(np.diff(self.first_visit), 1))
 
-    @cached_property
-    def boxes(self) -> STRtree:
-        """The bounding boxes of edges, so many at a time that follow each other: as lines from corner to corner."""
+    def border(self, edge: Ints, visits_passed: Ints) -> Ints:
+        """Return the borders at places on edges, given how many visits come before them, on earlier loops too."""
+        loop = self.joined.loop[edge]
+        start, end = self.first_visit[loop], self.first_visit[loop + 1]
+        return np.asarray(self.first_border[loop] + (visits_passed - start - 1) % np.maximum(end - start, 1))
+
+    def is_upward(self, edge: Ints) -> Bools:
+        """Tell which edges end higher than they start."""
+        return np.asarray(self.height[edge] < self.height[edge + 1])
+
+
+@dataclass(frozen=True, eq=False)
+class _Boxes:
+    """Bounding boxes of edges that follow each other, so many at a time.
+
+    Parameters
+    ----------
+    tree : STRtree
+        The boxes, as lines from corner to corner.
+    first, size : (b,) int
+        The first edge in each box, and the number of its edges.
+    """
+
+    tree: STRtree
+    first: Ints
+    size: Ints
+
+    @classmethod
+    def at(cls, plan: _Plan, heights: Floats) -> _Boxes:
+        """Return the boxes of all edges at some heights; no box holds edges of two loops."""
         from shapely import STRtree, linestrings
 
-        starts = np.arange(0, len(self.ends), _EDGES_IN_BOX)
-        low = np.minimum.reduceat(self.ends.min(axis=1), starts)
-        high = np.maximum.reduceat(self.ends.max(axis=1), starts)
-        return STRtree(linestrings(np.stack([low, high], axis=1)))
+        first = np.flatnonzero(count_each(np.bincount(plan.joined.loop)) % _EDGES_IN_BOX == 0)
+        start, end = plan.ends.swapaxes(0, 1)
+        low = np.minimum.reduceat(np.minimum(start, end), first)
+        high = np.maximum.reduceat(np.maximum(start, end), first)
+        order = np.sort(heights)
+        kept = np.searchsorted(order, low[:, 1]) < np.searchsorted(order, high[:, 1], side="right")
+        tree = STRtree(linestrings(np.stack([low[kept], high[kept]], axis=1)))
+        return cls(tree, first[kept], np.diff(first, append=len(plan.ends))[kept])
 
-    def near(self, ray: Floats) -> Ints:
-        """Return the edges in all boxes that a ray along the x axis meets, given its ends."""
+    def near(self, start: Floats, end: Floats, height: Floats) -> tuple[Ints, Ints]:
+        """Return the edges in all boxes that level rays meet: (place among the rays, edge) of each."""
         from shapely import linestrings
 
-        edges = self.boxes.query(linestrings(ray))[:, None] * _EDGES_IN_BOX + np.arange(_EDGES_IN_BOX)
-        return np.asarray(edges[edges < len(self.ends)])
-
-    def border(self, edge: int, visits_passed: int) -> int:
-        """Return the border at a place on an edge, given how many visits come before it, on earlier loops too."""
-        loop = int(self.joined.loop[edge])
-        start, count = int(self.first_visit[loop]), int(self.first_visit[loop + 1] - self.first_visit[loop])
-        return int(self.first_border[loop]) + (visits_passed - start - 1) % max(count, 1)
+        rays = np.stack([start, height, end, height], axis=1).reshape(-1, 2, 2)
+        ray, box = self.tree.query(linestrings(rays))
+        size = self.size[box]
+        return np.repeat(ray, size), np.repeat(self.first[box], size) + count_each(size)
 
 
-def _corners(plan: _Plan) -> list[int]:
+def _corners(plan: _Plan) -> Ints:
     """Return the leftmost vertex of each group, the lowest of several, from left to right."""
     x, y = plan.joined.points.T if plan.exact is None else map(_ranks, plan.exact.T)
-    order = np.lexsort([y, x])
-    order = order[~plan.joined.is_jump[order]]
-    corners: list[int] = order[np.sort(np.unique(plan.group[order], return_index=True)[1])].tolist()
-    return corners
+    leftmost = np.full(plan.group.max() + 1, np.inf)
+    first = np.flatnonzero(np.diff(plan.joined.loop, prepend=-1))
+    np.minimum.at(leftmost, plan.group[first], np.minimum.reduceat(x, first))
+    corner = np.flatnonzero((x == leftmost[plan.group]) & ~plan.joined.is_jump)
+    corner = corner[np.lexsort([y[corner], x[corner]])]
+    return np.asarray(corner[np.sort(np.unique(plan.group[corner], return_index=True)[1])])
 
 
 def _ranks(numbers: Wholes) -> Ints:
     return np.unique(numbers, return_inverse=True)[1].ravel()
 
 
-def _outer_dart(plan: _Plan, corner: int) -> int:
-    """Return the dart that has the outside of its group on its left at a leftmost vertex."""
-    is_first = corner == 0 or plan.joined.is_jump[corner - 1]
+def _outer_darts(plan: _Plan, corner: Ints) -> Ints:
+    """Return the darts that have the outside of their groups on their left at leftmost vertices."""
+    is_first = (corner == 0) | plan.joined.is_jump[corner - 1]
     # The first vertex of a loop comes again at its end.
-    last = int(np.searchsorted(plan.joined.loop, plan.joined.loop[corner], side="right")) - 1
-    before = (last if is_first else corner) - 1
-    border = plan.border(corner, int(np.searchsorted(plan.visits.edge, corner)))
-    return 2 * border + _turns_left(plan, before, corner, corner + 1)
+    last = np.searchsorted(plan.joined.loop, plan.joined.loop[corner], side="right") - 1
+    before = np.where(is_first, last, corner) - 1
+    border = plan.border(corner, np.searchsorted(plan.visits.edge, corner))
+    return np.asarray(2 * border + _turn_left(plan, before, corner, corner + 1))
 
 
-def _turns_left(plan: _Plan, before: int, here: int, after: int) -> bool:
+def _turn_left(plan: _Plan, before: Ints, here: Ints, after: Ints) -> Bools:
     if plan.exact is None:
-        return bool(orient(*plan.joined.points[[before, here, after]]) > 0)
-    p, q, r = (plan.place(point) for point in (before, here, after))
-    return exact_cross(p, q, q, r) > 0
+        return np.asarray(orient(*(plan.joined.points[point] for point in (before, here, after))) > 0)
+    p, q, r = (plan.exact[point].T for point in (before, here, after))
+    return np.asarray((q[0] - p[0]) * (r[1] - q[1]) > (q[1] - p[1]) * (r[0] - q[0]), dtype=bool)
 
 
-def _foot_at_vertex(plan: _Plan, corner: int) -> Mark:
-    """Return the foot of the bridge that leaves a leftmost vertex; it comes after a cusp there."""
-    x, y = plan.joined.points[corner].tolist()
-    loop = int(plan.joined.loop[corner])
-    return Mark(corner - loop, Fraction(0), 1, int(np.searchsorted(plan.visits.edge, corner)), loop, (x, y))
+def _feet_at_vertices(plan: _Plan, corner: Ints) -> Iterator[Mark]:
+    """Yield the feet of the bridges that leave leftmost vertices; they come after cusps there."""
+    loop, at = plan.joined.loop[corner], np.searchsorted(plan.visits.edge, corner)
+    columns = (corner - loop, at, loop, plan.joined.points[corner])
+    for edge, passed, number, (x, y) in zip(*(column.tolist() for column in columns), strict=True):
+        yield Mark(edge, AT_VERTEX, 1, passed, number, (x, y))
 
 
-def _foot_on_edge(plan: _Plan, edge: int, corner: int, number: int) -> Mark:
-    """Return the foot of the bridge from a vertex to an edge on its left: a little higher than the vertex.
+def _feet_on_edges(plan: _Plan, edge: Ints, passed: Ints, corner: Ints, number: Ints) -> Iterator[Mark]:
+    """Yield the feet of the bridges from vertices to edges on their left: a little higher than the vertices.
 
     Later ones, which come from further right, are higher if the vertices have one height: they pass above.
     """
-    loop, upward = int(plan.joined.loop[edge]), _is_upward(plan, edge)
-    (_, height), (_, start), (_, end) = (plan.place(point) for point in (corner, edge, edge + 1))
-    share = (height - start) / (end - start)
-    tie = 2 + number if upward else -2 - number
-    (start_x, _), (end_x, _) = plan.ends[edge].tolist()
-    point = (start_x + float(share) * (end_x - start_x), float(plan.joined.points[corner, 1]))
-    return Mark(edge - loop, share, tie, _visits_passed(plan, edge, share, upward), loop, point)
+    height, loop = plan.joined.points[corner, 1], plan.joined.loop[edge]
+    (start, _), (end, _) = plan.ends[edge].transpose(1, 2, 0)
+    x = start + _shares(plan, edge, corner) * (end - start)
+    upward = np.where(plan.is_upward(edge), 1, -1)
+    columns = (edge - loop, upward * plan.height[corner], upward * (2 + number), passed, loop, x, height)
+    for at_edge, along, tie, at, on, *place in zip(*(column.tolist() for column in columns), strict=True):
+        yield Mark(at_edge, along, tie, at, on, tuple(place))
 
 
-def _is_upward(plan: _Plan, edge: int) -> bool:
-    return bool(plan.is_above(np.array([edge + 1]), edge)[0])
+def _shares(plan: _Plan, edge: Ints, corner: Ints) -> Floats:
+    """Return how far along edges the heights of vertices are, each share to the nearest double."""
+    points = np.stack([edge, edge + 1, corner])
+    whole = plan.exact[points, 1] if plan.exact is not None else whole_numbers(plan.joined.points[points, 1])[0]
+    start, end, between = whole
+    return np.asarray((between - start) / (end - start), dtype=np.float64)
 
 
-def _met_on_the_left(plan: _Plan, corner: int) -> int | None:
-    """Return the edge of the other groups that a ray from a vertex to the left meets first.
+def _met_on_the_left(plan: _Plan, corner: Ints, watch: Watch) -> Ints:
+    """Return the edge of the other groups that a ray from each vertex to the left meets first; −1 if it meets none.
 
-    The ray runs a little higher than the vertex, by less than any other difference in height. So it meets no vertices
-    and no crossings.
+    The rays run a little higher than the vertices, by less than any other difference in height. So they meet no
+    vertices and no crossings. They are short at first: most meet something soon.
     """
-    x, height = plan.joined.points[corner].tolist()
-    near = plan.near(np.array([(plan.leftmost, height), (x, height)]))
-    near = near[(plan.group[near] != plan.group[corner]) & ~plan.joined.is_jump[near]]
-    met = near[plan.is_above(near, corner) != plan.is_above(near + 1, corner)]
-    if plan.exact is None:
-        nearest, is_sure = _nearest(plan.ends[met], x, height, met)
-        if is_sure:
-            return nearest[0]
-    else:
-        nearest = met.tolist()
-    here, level = plan.place(corner)
-    places = {edge: _place_and_slope(plan.place(edge), plan.place(edge + 1), level) for edge in nearest}
-    passed = [edge for edge, (place, _) in places.items() if place < here]
-    return max(passed, key=places.__getitem__, default=None)
+    x, y = plan.joined.points.T
+    boxes = _Boxes.at(plan, y[corner])
+    leftmost, rightmost = float(x.min()), float(x.max())
+    met = np.full(len(corner), -1)
+    waiting, reach = np.arange(len(corner)), (rightmost - leftmost) / len(corner)
+    if plan.exact is not None:  # places are not compared with the ends of rays, which are doubles
+        reach = np.inf
+    while len(waiting):
+        reach *= _LONGER
+        with np.errstate(over="ignore"):
+            end = np.maximum(x[corner[waiting]] - reach, leftmost)
+        is_known = end == leftmost
+        for start in range(0, len(waiting), _RAYS):
+            watch.step()
+            some = slice(start, start + _RAYS)
+            met[waiting[some]], is_near = _first_met(plan, boxes, corner[waiting[some]], end[some])
+            is_known[some] |= is_near
+        waiting = waiting[~is_known]
+    return met
 
 
-def _nearest(ends: Floats, x: float, height: float, edges: Ints) -> tuple[list[int], bool]:
-    """Return those of some edges that a ray to the left may meet first, by rounded places; and if it is surely met."""
+def _first_met(plan: _Plan, boxes: _Boxes, corner: Ints, end: Floats) -> tuple[Ints, Bools]:
+    """Return the edge that each ray meets first, −1 for none, of those in the boxes on its way to an end.
+
+    And for which rays that is before the end, so that no others matter.
+    """
+    x, height = plan.joined.points[corner].T
+    ray, edge = boxes.near(end, x, height)
+    others = (plan.group[edge] != plan.group[corner[ray]]) & ~plan.joined.is_jump[edge]
+    ray, edge = ray[others], edge[others]
+    level = plan.height[corner[ray]]
+    met = (plan.height[edge] <= level) != (plan.height[edge + 1] <= level)
+    ray, edge = ray[met], edge[met]
+    if plan.exact is not None:
+        return _exactly_first(plan, corner, ray, edge, np.arange(len(corner))), np.ones(len(corner), dtype=bool)
+    place, error = _rounded_places(plan.ends[edge], height[ray])
+    surely = place + error < x[ray]
+    least = np.full(len(corner), -np.inf)
+    np.maximum.at(least, ray[surely], (place - error)[surely])
+    nearest = (place + error >= least[ray]) & (place - error < x[ray])
+    ray, edge, surely = ray[nearest], edge[nearest], surely[nearest]
+    is_open = np.bincount(ray, minlength=len(corner)) > 1
+    is_open[ray[~surely]] = True
+    first = _exactly_first(plan, corner, ray, edge, np.flatnonzero(is_open))
+    first[ray[~is_open[ray]]] = edge[~is_open[ray]]
+    return first, least >= end
+
+
+def _rounded_places(ends: Floats, height: Floats) -> tuple[Floats, Floats]:
+    """Return the x at which edges pass heights, and bounds of the errors."""
     (start_x, start_y), (end_x, end_y) = ends.transpose(1, 2, 0)
     place = start_x + (height - start_y) / (end_y - start_y) * (end_x - start_x)
-    error = 16 * np.finfo(np.float64).eps * (np.abs(start_x) + np.abs(end_x)) + np.finfo(np.float64).tiny
-    left = place + error < x
-    nearest = (place + error >= (place - error)[left].max(initial=-np.inf)) & (place - error < x)
-    return edges[nearest].tolist(), np.count_nonzero(nearest) == 1 and bool(left[nearest].all())
+    return place, 16 * np.finfo(np.float64).eps * (np.abs(start_x) + np.abs(end_x)) + np.finfo(np.float64).tiny
+
+
+def _exactly_first(plan: _Plan, corner: Ints, ray: Ints, edge: Ints, asked: Ints) -> Ints:
+    """Return which edge some rays to the left meet first, by fractions; −1 of all others, and if all are on the right.
+
+    ``ray`` and ``edge`` are what the rays may meet.
+    """
+    first = np.full(len(corner), -1)
+    for number in asked.tolist():
+        here, level = plan.place(corner[number])
+        places = {
+            other: _place_and_slope(plan.place(other), plan.place(other + 1), level)
+            for other in edge[ray == number].tolist()
+        }
+        passed = [other for other, (place, _) in places.items() if place < here]
+        first[number] = max(passed, key=places.__getitem__, default=-1)
+    return first
 
 
 def _place_and_slope(start: Place, end: Place, height: Fraction) -> tuple[Fraction, Fraction]:
@@ -268,11 +348,20 @@ def _place_and_slope(start: Place, end: Place, height: Fraction) -> tuple[Fracti
     return x + (height - y) * slope, slope
 
 
-def _visits_passed(plan: _Plan, edge: int, share: Fraction, upward: bool) -> int:
-    """Return how many visits come before the place on an edge a little above a share of it."""
-    visits, (start, end) = plan.visits, (plan.place(edge), plan.place(edge + 1))
-    first, last = np.searchsorted(visits.edge, [edge, edge + 1]).tolist()
-    others = visits.edge[visits.partner[first:last]].tolist()
-    crossed = [(plan.place(other), plan.place(other + 1)) for other in others]
-    places = [exact_cross(start, p, p, q) / exact_cross(start, end, p, q) for p, q in crossed]
-    return int(first) + sum(place < share or (upward and place == share) for place in places)
+def _visits_passed(plan: _Plan, edge: Ints, corner: Ints) -> Ints:
+    """Return how many visits come before the places on edges a little above the heights of vertices."""
+    first, last = (np.searchsorted(plan.visits.edge, edge, side) for side in ("left", "right"))
+    passed = first.copy()
+    for i in np.flatnonzero(first < last).tolist():
+        (_, start), (_, end), (_, height) = (plan.place(point) for point in (edge[i], edge[i] + 1, corner[i]))
+        bisect = bisect_right if start < end else bisect_left
+        share = (height - start) / (end - start)
+        passed[i] = bisect(range(last[i]), share, int(first[i]), key=partial(_share_of_visit, plan))
+    return passed
+
+
+def _share_of_visit(plan: _Plan, visit: int) -> Fraction:
+    """Return how far along its edge a visit is."""
+    edge, other = plan.visits.edge[[visit, plan.visits.partner[visit]]].tolist()
+    start, end, p, q = map(plan.place, (edge, edge + 1, other, other + 1))
+    return exact_cross(start, p, p, q) / exact_cross(start, end, p, q)

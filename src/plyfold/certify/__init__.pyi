@@ -1,3 +1,4 @@
+from .contacts import check_boundary as check_boundary
 from .contacts import check_limit as check_limit
 from .contacts import check_pieces as check_pieces
 from .disk import check_ball_mesh as check_ball_mesh

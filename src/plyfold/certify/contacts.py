@@ -18,7 +18,7 @@ from plyfold.certify.immersed import check_immersed_surface, turns_too_many
 from plyfold.certify.places import ExactPlaces, Point, doubles, on_edges, require_positive
 from plyfold.errors import CertificateError
 
-__all__ = ["check_limit", "check_pieces"]
+__all__ = ["check_boundary", "check_limit", "check_pieces"]
 
 Whole: TypeAlias = tuple[int, int]
 _Loops: TypeAlias = npt.ArrayLike | Sequence[npt.ArrayLike]
@@ -225,6 +225,34 @@ def check_pieces(  # noqa: PLR0913, PLR0917 - an outline, a mesh, and where it i
     require_positive(places, triangles)
     _require_turns(outline, sides, _Rim(outline, start, end, edge, places))
     _require_same_boundary(_Rim(outline, start, end, edge, places))
+
+
+def check_boundary(loops: _Loops, boundary: _Loops) -> None:
+    """Check that the boundary loops of pieces, put together, are an outline that touches itself, but for its necks.
+
+    Parameters
+    ----------
+    loops : array_like, shape (n, 2), or a sequence of such
+        The outline as it was given.
+    boundary : array_like, shape (m, 2), or a sequence of such
+        The points of the pieces' loops, exactly; :func:`check_surface` shows that a mesh has them.
+
+    Raises
+    ------
+    CertificateError
+        Otherwise, as in :func:`check_pieces`.
+
+    Examples
+    --------
+    >>> bow = [(0, 0), (1, 1), (2, 0), (2, 2), (1, 1), (0, 2)]
+    >>> check_boundary(bow, [[(0, 0), (1, 1), (0, 2)], [(1, 1), (2, 0), (2, 2)]])
+    >>> check_boundary(bow, [[(0, 0), (1, 1), (0, 2)]])
+    Traceback (most recent call last):
+    plyfold.errors.CertificateError: the boundary of the pieces is not the outline, at (1.5, 0.5)
+    """
+    outline, left = as_loops(loops), as_loops(boundary)
+    edge = _edges_between(outline, *left.edges.swapaxes(0, 1))
+    _require_same_boundary(_Rim(outline, np.arange(len(left.points)), left.following, edge, doubles(left.points)))
 
 
 @dataclass(frozen=True, eq=False)

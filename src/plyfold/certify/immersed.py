@@ -285,12 +285,14 @@ def _positions_of(outline: Loops, walk: Floats, first: Ints) -> Ints:
 def _positions_in_loop(points: Floats, walk: Floats) -> list[int]:
     if not len(walk) or (walk[0] != points[0]).any():
         raise CertificateError("the boundary does not start at the curve's first point", where=points[:1])
-    wanted: list[list[float]] = points.tolist()
+    points_left = iter(points.tolist())
     at: list[int] = []
+    wanted = next(points_left)
     for position, place in enumerate(walk.tolist()):
-        if len(at) < len(wanted) and place == wanted[len(at)]:
+        if place == wanted:
             at.append(position)
-    if len(at) < len(wanted):
+            wanted = next(points_left, None)
+    if len(at) < len(points):
         raise CertificateError("the boundary misses a point of the curve", where=points[len(at) : len(at) + 1])
     return at
 

@@ -14,7 +14,8 @@ from plyfold.errors import CertificateError
 
 __all__ = ["check_layered", "from_lowest_corner", "require_gap", "require_layered", "require_no_overlap"]
 
-_PAIRS_AT_A_TIME = 1 << 20
+# Pairs of triangles that are filtered by their boxes at a time, and that are looked at: what of these fits into caches.
+_PAIRS_AT_A_TIME, _PAIRS_LOOKED_AT = 1 << 20, 1 << 12
 
 
 def check_layered(
@@ -246,7 +247,10 @@ def _pairs_with_common_boxes(low: Floats, high: Floats) -> Iterator[tuple[Ints, 
         second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(times) - times, times)
         across = 1 - along
         meet = (low[first, across] <= high[second, across]) & (low[second, across] <= high[first, across])
-        yield order[first[meet]], order[second[meet]]
+        first, second = order[first[meet]], order[second[meet]]
+        for start in range(0, len(first), _PAIRS_LOOKED_AT):
+            some = slice(start, start + _PAIRS_LOOKED_AT)
+            yield first[some], second[some]
 
 
 def _separated(a: Ints, b: Ints, places: ExactPlaces) -> tuple[Bools, Bools, Bools]:

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TypeAlias, TypeVar
+from functools import cached_property
+from math import lcm
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -21,7 +23,6 @@ __all__ = ["ExactPlaces", "are_crossing", "doubles", "on_edges", "require_positi
 
 Point: TypeAlias = tuple[Fraction, Fraction]
 Signs: TypeAlias = npt.NDArray[np.int8]
-_Number = TypeVar("_Number", Fraction, int)
 
 # The rounding error of a cross product of two differences is below 3.0000001 u (|left| + |right|), u = 2^-53.
 _CROSS_ERROR = 6.7e-16
@@ -67,9 +68,11 @@ class ExactPlaces:
 
     def cross_sign_and_doubt(self, a: Ints, b: Ints, c: Ints, d: Ints) -> tuple[Signs, Bools]:
         """Return the signs of cross products, and where the points near by that are doubles may have another one."""
-        near, off = self.near, self.off
+        off = self.off
+        # To take rows is ten times as fast as to index them.
+        p, q, r, s = (self.near.take(vertex, axis=0) for vertex in (a, b, c, d))
         with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-            (ux, uy), (vx, vy) = (near[b] - near[a]).T, (near[d] - near[c]).T
+            (ux, uy), (vx, vy) = (q - p).T, (s - r).T
             left, right = ux * vy, uy * vx
             cross = left - right
             bound = _CROSS_ERROR * (np.abs(left) + np.abs(right)) + _UNDERFLOW
@@ -81,11 +84,10 @@ class ExactPlaces:
         sure &= np.isfinite(cross)
         signs = np.where(sure, np.sign(np.where(sure, cross, 0)), 0).astype(np.int8)
         unsure = np.flatnonzero(~sure)
-        ends = np.stack([a, b, c, d], axis=1)[unsure]
+        ends = np.stack([vertex[unsure] for vertex in (a, b, c, d)], axis=1)
         # The signs of what lies on one edge are 0 as they are.
         apart = ~self._on_one_edge(ends)
-        for i, four in zip(unsure[apart].tolist(), ends[apart].tolist(), strict=True):
-            signs[i] = self._exact_cross_sign(four)
+        signs[unsure[apart]] = [self._exact_cross_sign(four) for four in ends[apart].tolist()]
         return signs, np.asarray(~sure)
 
     def step_sign(self, a: Ints, b: Ints, axis: Ints) -> Signs:
@@ -125,10 +127,21 @@ class ExactPlaces:
         return np.asarray((shared[0] & known[:, 0]) | (shared[1] & known[:, 1]))
 
     def _exact_cross_sign(self, vertices: list[int]) -> int:
-        if not self.off[vertices].any():
-            return _sign(_cross(*_whole(self.near[vertices])))
-        p, q, r, s = map(self.exact, vertices)
-        return _sign(_cross(p, q, r, s))
+        """Return the sign of a cross product in whole numbers, each place times its denominator."""
+        (ax, ay, a), (bx, by, b), (cx, cy, c), (dx, dy, d) = map(self._whole, vertices)
+        return _sign((bx * a - ax * b) * (dy * c - cy * d) - (by * a - ay * b) * (dx * c - cx * d))
+
+    def _whole(self, vertex: int) -> tuple[int, int, int]:
+        """Return a place as two whole numbers and what they are to be divided by; found once for each vertex."""
+        if vertex not in self._known:
+            x, y = self.exact(vertex)
+            below = lcm(x.denominator, y.denominator)
+            self._known[vertex] = int(x * below), int(y * below), below
+        return self._known[vertex]
+
+    @cached_property
+    def _known(self) -> dict[int, tuple[int, int, int]]:
+        return {}
 
 
 def doubles(points: Floats) -> ExactPlaces:
@@ -212,16 +225,7 @@ def _rational(point: Floats) -> Point:
     return Fraction(x), Fraction(y)
 
 
-def _whole(points: Floats) -> list[tuple[int, int]]:
-    """Return points, multiplied by a power of two that makes them whole: quicker than fractions."""
-    ratios = [(x.as_integer_ratio(), y.as_integer_ratio()) for x, y in points.tolist()]
-    scale = max(below for point in ratios for _, below in point)
-    return [(x * (scale // x_below), y * (scale // y_below)) for (x, x_below), (y, y_below) in ratios]
-
-
-def _cross(
-    a: tuple[_Number, _Number], b: tuple[_Number, _Number], c: tuple[_Number, _Number], d: tuple[_Number, _Number]
-) -> _Number:
+def _cross(a: Point, b: Point, c: Point, d: Point) -> Fraction:
     return (b[0] - a[0]) * (d[1] - c[1]) - (b[1] - a[1]) * (d[0] - c[0])
 
 

@@ -124,6 +124,10 @@ def check_rounded(
 
 def _at_rim(faces: Ints, count: int) -> Ints:
     """Return the triangles with a side that has nothing beyond."""
-    start, end = faces, np.roll(faces, -1, axis=1)
-    alone = ~np.isin(start * count + end, end * count + start)
-    return np.flatnonzero(alone.any(axis=1))
+    start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    there, back = np.sort(start * count + end), end * count + start
+    # Sorted numbers are found in sorted ones several times as fast as others.
+    order = np.argsort(back)
+    at = np.searchsorted(there, back[order])
+    alone = order[there[np.minimum(at, len(there) - 1)] != back[order]]
+    return np.unique(alone // 3)

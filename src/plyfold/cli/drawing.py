@@ -149,7 +149,7 @@ def _with_proposed_cusps(outline: Outline, options: argparse.Namespace, watch: S
         raise _not_decided(found)
     if isinstance(found, Obstruction):
         raise NotEmbeddableError(found, hint="name the cusps with --cusp")
-    places = [outline.loops[loop][point].tolist() for loop, point in found.cusps]
+    places = [found.outline.loops[loop][point].tolist() for loop, point in found.cusps]
     proposed = [Repair("cusp proposed", (x, y), 0.0) for x, y in places]
     return outline_with(found.outline, repairs=(*found.outline.repairs, *proposed))
 

@@ -22,6 +22,7 @@ from plyfold.draw.placement import (
     line_weight,
     mark_weight,
 )
+from plyfold.mesh.strips import cells_left
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,7 +66,8 @@ def plot_layers(layering: Layering | IntersectingLayering, ax: Axes | None = Non
     flat = frame(points) @ _SHEAR
     spacing = 0.08 + 0.74 * float(np.ptp(flat[:, 1]))
     loops = [closed(frame(loop)) @ _SHEAR for loop in drawn_loops(layering.immersion.arrangement)]
-    levels = int(layering.level.max(initial=1))
+    there = cells_left(layering.immersion.arrangement)[layering.immersion.sheet_cell]
+    levels = int(layering.level[there].max(initial=1))
     for level in range(1, levels + 1):
         lift = np.array([0.0, spacing * (level - 1)])
         for loop in loops:

@@ -22,6 +22,7 @@ from plyfold.draw.placement import Frame, border_line, cusps_drawn, drawn_points
 from plyfold.errors import InputError
 from plyfold.graphs import components
 from plyfold.layering.layering import Layering
+from plyfold.mesh.strips import cells_left
 
 __all__ = [
     "DASHES",
@@ -185,9 +186,10 @@ def _pieces(layering: Layering, frame: Frame, colours: ClothColours) -> Iterator
     """Yield the pieces, from the lowest level on."""
     arrangement, cell = layering.immersion.arrangement, layering.immersion.sheet_cell
     part = np.arange(len(layering.level)) if colours == "sheets" else _glued_on_one_level(layering)
-    levels = int(layering.level.max())
+    there = cells_left(arrangement)[cell]
+    levels = int(layering.level[there].max())
     for level in range(1, levels + 1):
-        here = np.flatnonzero(layering.level == level)
+        here = np.flatnonzero((layering.level == level) & there)
         owner = np.full(arrangement.n_cells, -1)
         owner[cell[here]] = part[here]
         sheets: dict[int, list[int]] = {}

@@ -11,8 +11,8 @@ import numpy as np
 import shapely
 
 from plyfold.arrangement.arrangement import Arrangement, arrange
-from plyfold.arrangement.noding import Noding, node_outline
-from plyfold.arrangement.polylines import polygon_turning_number
+from plyfold.arrangement.noding import node_outline
+from plyfold.arrangement.outward import winds_backward
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import GeneralPositionError, PrecisionError
 from plyfold.flat.regions import refuse_invalid, regions, signed_areas
@@ -104,7 +104,7 @@ def directed_coverage(curve: OutlineLike) -> tuple[list[Covered], bool]:
             return _cells_of_arrangement(drawn), drawn.reversed
     outline = as_outline(drawn)
     noding = node_outline(outline)
-    turned = _winds_backward(outline, noding)
+    turned = winds_backward(outline, noding)
     found = regions(noding, np.negative if turned else np.positive)
     # An arrangement that was turned round has an outline that is.
     return [Covered(*region) for region in found], turned or (isinstance(drawn, Arrangement) and drawn.reversed)
@@ -134,14 +134,6 @@ def _cells_of_arrangement(drawn: Arrangement) -> list[Covered]:
     wound = np.flatnonzero(drawn.winding).tolist()
     polygons = outlined(drawn, wound)
     return [Covered(*pair) for pair in zip(polygons, drawn.winding[wound].tolist(), strict=True)]
-
-
-def _winds_backward(outline: Outline, noding: Noding) -> bool:
-    """Tell whether an outline is to be turned round, by the same rule as arrangements."""
-    least, most = int(noding.winding.min()), int(noding.winding.max())
-    if least >= 0 or most <= 0:
-        return least < 0
-    return outline.n_loops == 1 and polygon_turning_number(outline.points) < 0
 
 
 # ---- polygons from the borders around them ---------------------------------------------------------------------------

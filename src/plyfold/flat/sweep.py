@@ -175,7 +175,9 @@ def _swept_triangles(immersion: Immersion, tilt: float) -> Ints:
     ahead = drawing.rank[:n] < drawing.rank[drawing.following[:n]]
     starts = int((ahead > ahead[drawing.preceding]).sum())
     turns = int((drawing.cusp + 1)[drawing.cusp > 0].sum())
-    places, given_places = as_coordinates(plan.points), as_coordinates(given_outline(immersion.arrangement).points)
+    places = given_places = as_coordinates(plan.points)
+    if is_moved(immersion.arrangement):
+        given_places = as_coordinates(given_outline(immersion.arrangement).points)
     given = (places, given_places, drawing, *_room(n, starts, turns, len(plan.bridges)))
     # Room for one more: if there were more, that would be seen.
     room = empty_triangles(n - 2 * immersion.euler_characteristic + 1)

@@ -61,12 +61,14 @@ def find_immersion(
     Returns
     -------
     Immersion or Obstruction or Unknown
-        The result is true if there is an immersion. An immersion has been checked against the definition. An
-        obstruction names the theorem that fails: a cusp has too few sheets beside it (reason ``"cusp"``), the outline
-        turns too often (``"turning number"``), a cell has a negative winding number (``"negative winding"``), the
-        exhausted word of a disk has no grouping (``"no grouping"``), the conditions at some crossings, cusps and feet
-        of bridges contradict each other (``"no gluing"``: ``value`` are visits there), or there are surfaces, but none
-        in one piece (``"pieces"``). Unknown at the time limit only.
+        The result is true if there is an immersion. An immersion has been checked against the definition. If the
+        outline touches itself, it is that of the outline with points in contact moved outward, which exists if the
+        outline is a limit of outlines of such surfaces; ``immersion.touches`` says where the surface has no width then.
+        An obstruction names the theorem that fails: a cusp has too few sheets beside it (reason ``"cusp"``), the
+        outline turns too often (``"turning number"``), a cell has a negative winding number (``"negative winding"``),
+        the exhausted word of a disk has no grouping (``"no grouping"``), the conditions at some crossings, cusps and
+        feet of bridges contradict each other (``"no gluing"``: ``value`` are visits there), or there are surfaces, but
+        none in one piece (``"pieces"``). Unknown at the time limit only.
 
     Raises
     ------

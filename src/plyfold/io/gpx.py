@@ -78,7 +78,7 @@ def shapes_in_gpx(data: bytes) -> list[Shape]:
     -------
     list of Shape
         One for each track or route, named as it is. x points east and y north, from the middle of all points; within
-        200 km lengths are right to a thousandth. Lines have heights where all of their points have an ``ele``.
+        200 km of it lengths are right to a thousandth. Lines have heights where all of their points have an ``ele``.
 
     Raises
     ------
@@ -166,13 +166,20 @@ def _turned_to(lon: Floats, origin: float) -> Floats:
 
 
 def _plane(points: Floats, origin: Floats) -> Floats:
-    """Return metres east and north of an origin, by the radii of the ellipsoid there."""
-    lat = math.radians(origin[1])
-    flattened = 1 - _ECCENTRICITY * math.sin(lat) ** 2
-    north = _AXIS * (1 - _ECCENTRICITY) / flattened**1.5
-    east = _AXIS / math.sqrt(flattened) * math.cos(lat)
-    away = np.stack([_turned_to(points[:, 0], float(origin[0])), points[:, 1]], axis=1) - origin
-    return np.asarray(np.radians(away) * [east, north])
+    """Return metres east and north of an origin, on the plane that touches the earth there."""
+    lon, lat = np.radians(origin)
+    east = [-math.sin(lon), math.cos(lon), 0.0]
+    north = [-math.sin(lat) * math.cos(lon), -math.sin(lat) * math.sin(lon), math.cos(lat)]
+    away = _in_space(points) - _in_space(origin[None])
+    return np.asarray(away @ np.array([east, north]).T)
+
+
+def _in_space(points: Floats) -> Floats:
+    """Return places on the ellipsoid, in metres from its middle, from longitudes and latitudes."""
+    lon, lat = np.radians(points[:, :2].T)
+    radius = _AXIS / np.sqrt(1 - _ECCENTRICITY * np.sin(lat) ** 2)
+    flat = radius * np.cos(lat)
+    return np.stack([flat * np.cos(lon), flat * np.sin(lon), (1 - _ECCENTRICITY) * radius * np.sin(lat)], axis=1)
 
 
 def _shape(tracks: list[Floats], name: str, origin: Floats) -> Shape:

@@ -18,12 +18,12 @@ from plyfold.outline.ribbons.sides import CapStyle, JoinStyle
 from plyfold.outline.strokes import join_strokes
 from plyfold.outline.vertices import naming_the_curve
 
-__all__ = ["Line", "Pen", "Shape", "outline_of_shapes", "shape_of_strokes"]
+__all__ = ["Line", "Shape", "StrokeStyle", "outline_of_shapes", "shape_of_strokes"]
 
 _FEWEST_ROWS_OF_A_LOOP = 4
 
 
-class Pen(NamedTuple):
+class StrokeStyle(NamedTuple):
     """What a file says of the strokes along a line: their width, and how their corners and ends look."""
 
     width: float
@@ -48,7 +48,7 @@ class Line(NamedTuple):
         point repeats the first.
     heights : array-like, shape (n,), optional
         Those of its points, where they are no third column.
-    pen : Pen, optional
+    pen : StrokeStyle, optional
         The strokes along it.
     """
 
@@ -58,7 +58,7 @@ class Line(NamedTuple):
     cusps: Mapping[int, int] = {}
     is_line: bool = False
     heights: npt.ArrayLike | None = None
-    pen: Pen | None = None
+    pen: StrokeStyle | None = None
 
 
 class Shape(NamedTuple):

@@ -18,7 +18,7 @@ from plyfold.errors import FileFormatError, InputError
 from plyfold.io.beziers import Bezier, DrawnPath, EllipticArc, sample_points
 from plyfold.io.cusp_notation import CuspMark, parse_cusps, written_cusp
 from plyfold.io.own_version import SVG_MARK, refuse_later_version
-from plyfold.io.shapes import Line, Pen, Shape, outline_of_shapes
+from plyfold.io.shapes import Line, Shape, StrokeStyle, outline_of_shapes
 from plyfold.outline.curve import Outline
 from plyfold.outline.direction import even_odd_directions, sense
 from plyfold.outline.points import LARGEST_COORDINATE, Repair, as_points, diagonal
@@ -51,7 +51,7 @@ class DrawnShape:
     even_odd: bool
     cusps: tuple[CuspMark, ...]
     filled: bool = True
-    pen: Pen | None = None
+    pen: StrokeStyle | None = None
     repairs: tuple[Repair, ...] = ()
 
 
@@ -271,13 +271,13 @@ def _drawn_shape(element: Any) -> DrawnShape:
     return DrawnShape(tuple(pieces), element.id or "", even_odd, tuple(cusps), filled, _pen(element))
 
 
-def _pen(element: Any) -> Pen | None:
+def _pen(element: Any) -> StrokeStyle | None:
     """Return the stroke of a shape as it looks in the end, if it has one."""
     width = float(element.implicit_stroke_width or 0)
     if not _is_painted(element.stroke) or not width > 0:
         return None
     join, cap = (element.values.get(f"stroke-line{what}") for what in ("join", "cap"))
-    return Pen(width, _JOINS.get(join, "mitre"), _CAPS.get(cap, "flat"))
+    return StrokeStyle(width, _JOINS.get(join, "mitre"), _CAPS.get(cap, "flat"))
 
 
 def _is_painted(paint: Any) -> bool:

@@ -20,10 +20,10 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.noding import Strands, exact_ranks, strands_of
 from plyfold.arrays import Bools, Complexes, Floats, Ints, freeze
 from plyfold.errors import PrecisionError
-from plyfold.mesh.refine import NodedCurve, borders_passed, unit_square
+from plyfold.mesh.refine import NodedCurve, borders_passed, is_moved, unit_square
 from plyfold.outline.curve import Outline
 
-__all__ = ["Strips", "loop_left", "noded_strips", "strips_of", "turns_unseen"]
+__all__ = ["Strips", "cells_left", "loop_left", "noded_strips", "strips_of", "turns_unseen"]
 
 # Where on a part strands are compared, as shares of its length: at the first one where all are apart.
 _SHARES = (0.4375, 0.59375, 0.296875, 0.71875, 0.515625)
@@ -111,6 +111,23 @@ def strips_of(arrangement: Arrangement) -> Strips:
     place[order] = np.arange(len(order))
     cell = _cells_of_faces(arrangement, strands, border, order)
     return Strips(strands, border, order, place, cell, strands.first[given.first_point])
+
+
+def cells_left(arrangement: Arrangement) -> Bools:
+    """Tell which cells of a drawing are there on its given points, (cells,); all where nothing touches.
+
+    Examples
+    --------
+    >>> from plyfold import arrange
+    >>> keyhole = arrange([(0, 0), (6, 0), (6, 6), (0, 6), (0, 2), (2, 2), (2, 4), (4, 4), (4, 2), (2, 2), (0, 2)])
+    >>> sum(cells_left(keyhole).tolist()), keyhole.n_cells
+    (3, 4)
+    """
+    if not is_moved(arrangement):
+        return np.ones(arrangement.n_cells, dtype=bool)
+    there = np.zeros(arrangement.n_cells, dtype=bool)
+    there[strips_of(arrangement).cell] = True
+    return there
 
 
 def loop_left(arrangement: Arrangement, places: Floats, faces: Ints, loop: Ints) -> tuple[Floats, Ints]:

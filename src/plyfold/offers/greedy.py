@@ -18,7 +18,7 @@ from plyfold.offers.areas import Measure
 from plyfold.offers.changes import Change, Changes
 from plyfold.offers.rerouted import Move, Plan, Rerouted, Run
 
-__all__ = ["Caps", "flips", "made_until", "numbers_allow", "rerouted_by"]
+__all__ = ["Caps", "flips", "is_within", "made_until", "numbers_allow", "rerouted_by"]
 
 # Lobes that are too large by less than this part of the cap are looked at all the same.
 _SLACK = 0.5
@@ -43,6 +43,22 @@ def numbers_allow(left: Rerouted) -> bool:
 def flips(winding: list[int], times: Mapping[int, int]) -> dict[int, int]:
     """Return the cells that are covered before a change and not after it, or the other way round, each once."""
     return {cell: 1 for cell, more in times.items() if (winding[cell] != 0) != (winding[cell] + more != 0)}
+
+
+def is_within(left: Rerouted, caps: Caps) -> bool:
+    """Tell whether all that was changed, from the drawing on, keeps within the caps, exactly."""
+    plan, given = left.plan, left.plan.drawn.winding.tolist()
+    more = {cell: now - then for cell, (then, now) in enumerate(zip(given, left.winding, strict=True)) if now != then}
+    region = Measure.of(plan.areas, flips(given, more))
+    layers = Measure.of(plan.areas, {cell: abs(times) for cell, times in more.items()})
+    whole = _wholes(plan)
+    return _Spent(caps.region, whole[0]).allows(region) and _Spent(caps.layers, whole[1]).allows(layers)
+
+
+def _wholes(plan: Plan) -> tuple[Measure, Measure]:
+    """Return the covered area, and the areas of all cells, each as often as it is covered."""
+    layers = {cell: abs(times) for cell, times in enumerate(plan.drawn.winding.tolist()) if times}
+    return Measure.of(plan.areas, dict.fromkeys(layers, 1)), Measure.of(plan.areas, layers)
 
 
 def rerouted_by(plan: Plan, moves: Iterable[Move]) -> Rerouted | None:
@@ -154,16 +170,14 @@ class _Search:
 
     @classmethod
     def of(cls, plan: Plan, caps: Caps, all_lenses: bool, clock: Clock) -> _Search:
-        winding = plan.drawn.winding.tolist()
-        covered = {cell: 1 for cell, times in enumerate(winding) if times}
-        layers = {cell: abs(times) for cell, times in enumerate(winding) if times}
+        region, layers = _wholes(plan)
         search = cls(
             plan=plan,
             all_lenses=all_lenses,
             clock=clock,
             left=Rerouted.of(plan),
-            region=_Spent(caps.region, Measure.of(plan.areas, covered)),
-            layers=_Spent(caps.layers, Measure.of(plan.areas, layers)),
+            region=_Spent(caps.region, region),
+            layers=_Spent(caps.layers, layers),
         )
         search._look_at_lobes()
         search._look_at_lenses(range(len(plan.partner)))

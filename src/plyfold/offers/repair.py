@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import watched_arrangement
+from plyfold.arrangement.arrangement import Arrangement, watched_arrangement
 from plyfold.arrays import Floats
 from plyfold.clock import Clock, Watch
 from plyfold.errors import CurveError, GeneralPositionError, InputError, TimeLimitError
@@ -18,7 +18,7 @@ from plyfold.obstruction import Obstruction, Unknown
 from plyfold.offers.areas import Measure
 from plyfold.offers.greedy import Caps, flips, made_until
 from plyfold.offers.redrawn import Pen, pen_for, redrawn, traced
-from plyfold.offers.rerouted import Move, Plan, Rerouted, plan_of
+from plyfold.offers.rerouted import Move, Plan, Rerouted, Run, plan_of
 from plyfold.offers.unneeded import needed
 from plyfold.options import refuse_unless_number
 from plyfold.outline.curve import Outline
@@ -56,6 +56,8 @@ class SmallChange(Repair):
     polygons : tuple of (m, 2) float
         What it went round: outside of all of them no place has another winding number. How often they wind round a
         place is, exactly, by how much its winding number grew.
+    strands : tuple of (m, 2) float
+        The loop that was left out, or the two sides of the lens, from crossing to crossing.
 
     Examples
     --------
@@ -67,6 +69,7 @@ class SmallChange(Repair):
     region: float = 0.0
     layers: float = 0.0
     polygons: tuple[Floats, ...] = field(default=(), repr=False, compare=False)
+    strands: tuple[Floats, ...] = field(default=(), repr=False, compare=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,12 +189,37 @@ def _repaired(given: OutlineLike, caps: Caps, clock: Clock) -> Repaired | Obstru
     drawn = watched_arrangement(given, "perturb", Watch(clock))
     if drawn.outline is None or drawn.given is None:
         raise InputError("a Gauss code has no points to be changed", hint="give the drawing")
+    found = _within(drawn, caps, clock)
+    if _may_lie_on_either_side(drawn):
+        other = _within(watched_arrangement(drawn.given.reversed(), "perturb", Watch(clock)), caps, clock)
+        found = min(filter(None, (found, _turned_back(other))), key=_how_much, default=None)
+    return _beyond(plan_of(drawn), caps, clock) if found is None else found
+
+
+def _within(drawn: Arrangement, caps: Caps, clock: Clock) -> Repaired | None:
+    """Return the repair of a drawing within the caps."""
     plan = plan_of(drawn)
-    for all_lenses in (False, True):
-        found = _found(plan, caps, all_lenses, clock)
-        if found is not None:
-            return found
-    return _beyond(plan, caps, clock)
+    found = _found(plan, caps, False, clock)
+    return _found(plan, caps, True, clock) if found is None else found
+
+
+def _may_lie_on_either_side(drawn: Arrangement) -> bool:
+    """Tell whether nothing tells inside from outside, and strands touch, which are moved outward."""
+    is_directed = drawn.winding.min() == 0 or (drawn.n_loops == 1 and drawn.turning_number != 0)
+    return not is_directed and drawn.given is not drawn.outline
+
+
+def _turned_back(found: Repaired | None) -> Repaired | None:
+    """Return the repair of an outline that runs the other way."""
+    if found is None:
+        return None
+    changes = tuple(replace(change, polygons=tuple(way[::-1] for way in change.polygons)) for change in found.changes)
+    kept = [repair for repair in found.outline.repairs if repair not in found.changes]
+    return replace(found, outline=outline_with(found.outline.reversed(), repairs=(*kept, *changes)), changes=changes)
+
+
+def _how_much(found: Repaired) -> tuple[float, float]:
+    return found.region_change, found.layer_change
 
 
 @dataclass(eq=False)
@@ -232,18 +260,17 @@ def _found(plan: Plan, caps: Caps, all_lenses: bool, clock: Clock) -> Repaired |
     made = made_until(plan, caps, all_lenses, trial, clock)
     if made is None:
         return None
-    moves = needed(plan, made, trial, clock)
+    moves = needed(plan, caps, made, trial, clock)
     assert trial.pen is not None
     assert trial.outline is not None
-    before = trial.pen.given.repairs
+    before = [repair for repair in trial.pen.given.repairs if repair.kind != SPIKE]
     changes, left = _changes(plan, trial.pen, moves)
-    spikes = tuple(SmallChange(*_fields(repair)) for repair in before if repair.kind == SPIKE)
-    outline = outline_with(trial.outline, repairs=(*before, *changes))
-    return Repaired(outline, (*spikes, *changes), *_in_all(plan, left))
+    changes = (*_spikes(trial.pen.given), *changes)
+    return Repaired(outline_with(trial.outline, repairs=(*before, *changes)), changes, *_in_all(plan, left))
 
 
-def _fields(repair: Repair) -> tuple[str, tuple[float, float], float]:
-    return repair.kind, repair.where, repair.size
+def _spikes(given: Outline) -> list[SmallChange]:
+    return [SmallChange(SPIKE, repair.where, repair.size) for repair in given.repairs if repair.kind == SPIKE]
 
 
 def _changes(plan: Plan, pen: Pen, moves: Sequence[Move]) -> tuple[tuple[SmallChange, ...], Rerouted]:
@@ -252,12 +279,16 @@ def _changes(plan: Plan, pen: Pen, moves: Sequence[Move]) -> tuple[tuple[SmallCh
     for move in moves:
         effect = left.effect(move)
         region, layers = _parts(plan, left.winding, effect.times)
-        ends = [pen.crossing(visit) for visit in move.visits]
-        inside = [pen.along(left.darts(run), left.parted, False).places for run in move.runs]
-        size = diagonal(np.concatenate([ends, *inside]))
+        strands = tuple(_strand(pen, left, run) for run in move.runs)
+        size, where = diagonal(np.concatenate(strands)), min(pen.crossing(visit) for visit in move.visits)
         polygons = traced(pen, left, move, effect)
-        changes.append(SmallChange(LENS if move.is_lens else LOOP, min(ends), size, region, layers, polygons))
+        changes.append(SmallChange(LENS if move.is_lens else LOOP, where, size, region, layers, polygons, strands))
     return tuple(changes), left
+
+
+def _strand(pen: Pen, left: Rerouted, run: Run) -> Floats:
+    inside = pen.along(left.darts(run), left.parted, False).places
+    return np.concatenate([[pen.crossing(run.start)], inside, [pen.crossing(run.end)]])
 
 
 def _in_all(plan: Plan, left: Rerouted) -> tuple[float, float]:
@@ -292,7 +323,7 @@ def _beyond(plan: Plan, caps: Caps, clock: Clock) -> Obstruction:
     if made is None:
         sentence = f"Leaving out loops and undoing lenses does not make it the outline of {what} where {may}."
         return Obstruction("repair", sentence, (), None, plan.drawn)
-    moves = needed(plan, made, trial, clock)
+    moves = needed(plan, _NO_CAPS, made, trial, clock)
     assert trial.pen is not None
     changes, left = _changes(plan, trial.pen, moves)
     region, layers = _in_all(plan, left)

@@ -5,18 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from plyfold.clock import Clock
-from plyfold.offers.greedy import numbers_allow, rerouted_by
+from plyfold.offers.greedy import Caps, is_within, numbers_allow, rerouted_by
 from plyfold.offers.rerouted import Move, Plan, Rerouted
 
 __all__ = ["needed"]
 
 
-def needed(plan: Plan, moves: Sequence[Move], is_enough: Callable[[Rerouted], bool], clock: Clock) -> list[Move]:
+def needed(
+    plan: Plan, caps: Caps, moves: Sequence[Move], is_enough: Callable[[Rerouted], bool], clock: Clock
+) -> list[Move]:
     """Return moves that are good enough without any of the others.
 
     Parameters
     ----------
     plan : Plan
+    caps : Caps
+        What is changed without some moves may be more than with them, since one may undo what another one did.
     moves : sequence of Move
         Good enough, in the order in which they are made.
     is_enough : callable
@@ -40,7 +44,7 @@ def needed(plan: Plan, moves: Sequence[Move], is_enough: Callable[[Rerouted], bo
             if not _turn_alike(turns, kept[start : start + stretch], plan):
                 continue
             left = rerouted_by(plan, fewer)
-            if left is not None and numbers_allow(left) and is_enough(left):
+            if left is not None and numbers_allow(left) and is_within(left, caps) and is_enough(left):
                 kept = fewer
     return kept
 

@@ -329,6 +329,77 @@ class Curve(Outline):
         """
         return Curve(np.roll(self.points[::-1], 1, axis=0), self.repairs, np.roll(self.cusps[0][::-1], 1))
 
+    def simplified(self, tolerance: float, keep_code: bool = False) -> Curve:
+        """Return the curve with fewer of its points.
+
+        Parameters
+        ----------
+        tolerance : float
+            How far the others may be from the edges between those that stay.
+        keep_code : bool, optional
+            Keep more points where that is needed, so that the curve crosses itself as before: its signed Gauss code,
+            counted from its first point, is the same. That is proved by comparing the codes in the end.
+
+        Returns
+        -------
+        Curve
+            The first point and all cusps stay.
+
+        Raises
+        ------
+        InputError
+            If the tolerance is no distance.
+
+        Notes
+        -----
+        By Douglas and Peucker, O(n log n) mostly; with ``keep_code`` a few arrangements more. Where the curve touches
+        itself, its code is that of ``arrange(curve)``.
+
+        Examples
+        --------
+        >>> len(Curve([(0, 0), (4, 0), (8, 0.1), (9, 9), (0, 9)]).simplified(0.2))
+        4
+        """
+        from plyfold.arrangement.tidying import simplified
+
+        return simplified(self, tolerance, keep_code)
+
+    def smoothed(self, rounds: int = 3, keep_code: bool = False) -> Curve:
+        """Return the curve with its points moved towards their neighbours.
+
+        Parameters
+        ----------
+        rounds : int, optional
+            How often each point moves halfway to the middle of its neighbours.
+        keep_code : bool, optional
+            Move points less where that is needed, so that the curve crosses itself as before: its signed Gauss code,
+            counted from its first point, is the same. That is proved by comparing the codes in the end.
+
+        Returns
+        -------
+        Curve
+            With as many points; cusps stay where they are.
+
+        Raises
+        ------
+        InputError
+            If ``rounds`` is no count.
+        CurveError
+            Without ``keep_code``, if all points come to lie on one line.
+
+        Notes
+        -----
+        O(n) for each round; with ``keep_code`` a few arrangements more, whose number does not grow with n.
+
+        Examples
+        --------
+        >>> Curve([(0, 0), (4, 0), (4, 4), (0, 4)]).smoothed(1).points.tolist()
+        [[1.0, 1.0], [3.0, 1.0], [3.0, 3.0], [1.0, 3.0]]
+        """
+        from plyfold.arrangement.tidying import smoothed
+
+        return smoothed(self, rounds, keep_code)
+
 
 def outline_of_points(points: Floats, loop: Ints, cusps: Ints, rows: Ints, repairs: Iterable[Repair]) -> Outline:
     """Return the outline of points that are listed loop after loop, no two neighbours equal; one loop is a curve.

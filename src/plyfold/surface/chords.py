@@ -12,7 +12,7 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import PrecisionError
-from plyfold.halfedges import ends_of, half_edges_from_to, twins_of
+from plyfold.halfedges import ends_of, half_edges_from_to
 from plyfold.mesh.cells import CellTriangulation
 from plyfold.mesh.strips import Strips
 from plyfold.predicates import orient
@@ -110,5 +110,10 @@ def triangulation(
     a, b, c = points[triangles].swapaxes(0, 1)
     if len(flat := np.flatnonzero(orient(a, b, c) <= 0)):
         raise PrecisionError("double precision cannot hold a point in the middle of an edge", where=a[flat])
-    left = half_edges_from_to(triangles, chain[0], chain[0][next_in_rows(chain[2])])
-    return CellTriangulation(points, triangles, twins_of(triangles), cell, *chain, left, strips)
+    start, end = ends_of(triangles)
+    along = chain[0], chain[0][next_in_rows(chain[2])]
+    twin_and_left = half_edges_from_to(
+        triangles, *(np.concatenate(ends) for ends in zip((end, start), along, strict=True))
+    )
+    twin, left = np.split(twin_and_left, [len(start)])
+    return CellTriangulation(points, triangles, twin, cell, *chain, left, strips)

@@ -111,13 +111,14 @@ def forced_heights(problem: Problem, watch: Watch) -> Floats | None:
         places = np.concatenate([places, added])
         if len(places) > _MOST_PLACES:
             return None
-        flexibility = _bordered(flexibility, _columns(wanted.rows, respond, places, added))
+        there = wanted.rows[places]
+        flexibility = _bordered(flexibility, _columns(there, respond, len(added)))
         pressing = np.append(force != 0, np.ones(len(added), dtype=bool))
         found = least_forces(flexibility, short[places], wanted.exact, pressing, watch)
         if found is None:
             return None
         force = found
-        z = base + respond(wanted.rows[places].T @ force)
+        z = base + respond(there.T @ force)
         missing = wanted.missing(z)
         done = max(done, _share_done(missing, tolerance))
         watch.step(done)
@@ -139,17 +140,19 @@ def _worst(wanted: Distances, missing: Floats, places: Ints, tolerance: float) -
     return np.asarray(large[: 1 + len(places) // 2])
 
 
-def _columns(rows: Any, respond: Response, places: Ints, added: Ints) -> Floats:
-    """Return how the distances at all places answer to forces at the added ones, each in a column."""
-    parts = np.array_split(added, -(-len(added) // _AT_ONCE))
-    return np.concatenate([rows[places] @ respond(rows[part].T.toarray()) for part in parts], axis=1)
+def _columns(rows: Any, respond: Response, count: int) -> Floats:
+    """Return how the distances in all rows answer to forces at the last ones, each in a column."""
+    parts = np.array_split(np.arange(rows.shape[0] - count, rows.shape[0]), -(-count // _AT_ONCE))
+    return np.concatenate([rows @ respond(rows[part[0] : part[-1] + 1].T.toarray()) for part in parts], axis=1)
 
 
 def _bordered(block: Floats, columns: Floats) -> Floats:
     """Return a symmetric matrix that begins with a block and ends with the given columns."""
-    old = len(block)
-    whole = np.concatenate([np.concatenate([block, columns[:old].T]), columns], axis=1)
-    return np.asarray((whole + whole.T) / 2)
+    old, size = len(block), len(columns)
+    whole = np.empty((size, size))
+    whole[:old, :old], whole[:old, old:], whole[old:, :old] = block, columns[:old], columns[:old].T
+    whole[old:, old:] = (columns[old:] + columns[old:].T) / 2
+    return whole
 
 
 def _share_done(missing: Floats, tolerance: float) -> float:

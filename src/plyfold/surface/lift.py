@@ -15,7 +15,7 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, require_one_loop, watched_arrangement
 from plyfold.arrays import Floats, Ints, freeze
-from plyfold.certify import check_surface
+from plyfold.certify import check_boundary, check_surface
 from plyfold.clock import UNWATCHED, Clock, Progress, Watch
 from plyfold.disk.unwrap import UnwoundDisk, require_one_piece, unwound_mesh
 from plyfold.errors import (
@@ -151,7 +151,8 @@ class Surface:
         Every triangle is positive seen from above, the mesh has as many pieces, holes and handles as the layering says,
         its boundary is the outline, the angles at its vertices are those of an immersion and of the cusps, and the
         sheets over every point are in strict order. Where sheets may pass through each other, they do so only in
-        triangles along the edges that :attr:`passing` names.
+        triangles along the edges that :attr:`passing` names. If the outline touches itself, the boundary is the outline
+        but for its necks, and parts of the surface that are beside one another may touch.
 
         Raises
         ------
@@ -165,7 +166,8 @@ class Surface:
         gap = 0.0 if len(self.passing) else self.gap
         loops, cusps = loops_of(self)
         mesh, kinds = (self.vertices, self.faces, self.boundary), kinds_of(self)
-        touching = may_touch(self)
+        if touching := may_touch(self):
+            check_boundary(self.outline.loops, loops)
         check_surface(loops, *mesh, gap, passing=self.passing, cusps=cusps, pieces=kinds, touching=touching)
 
     def unwrap(self) -> UnwoundDisk:

@@ -54,6 +54,8 @@ Lacking: TypeAlias = Callable[[Ints], Sequence[int] | None]
 _TRUE = 1
 # Conflicts after which the solver may give up when it is asked whether one crossing less is a contradiction too.
 _EFFORT = 5000
+# Crossings whose clauses are made at a time.
+_CROSSINGS_AT_A_TIME = 1024
 # Clauses of the borders and crossings, and what the solver keeps of them.
 _BYTES_PER_LEVEL = 3500
 
@@ -214,8 +216,10 @@ class LevelClauses:
 
     @property
     def every(self) -> Iterator[list[int]]:
-        """All of them."""
-        return chain(self.of_borders, *self.of_crossings, *self.of_marks)
+        """All of them. Those of crossings come in portions, which are forgotten: so many lists keep Python busy."""
+        portions = range(0, self.equations.n_crossings, _CROSSINGS_AT_A_TIME)
+        at_crossings = (self._at_crossings(slice(start, start + _CROSSINGS_AT_A_TIME)) for start in portions)
+        return chain(self.of_borders, chain.from_iterable(chain.from_iterable(at_crossings)), *self.of_marks)
 
     @cached_property
     def of_borders(self) -> list[list[int]]:
@@ -229,12 +233,16 @@ class LevelClauses:
 
     @cached_property
     def of_crossings(self) -> list[list[list[int]]]:
-        """What each crossing demands. The last two rules follow from the others and speed up the solver."""
+        """What each crossing demands."""
         self._require_memory()
-        top, bottom = self.equations.top, self.equations.bottom
+        return self._at_crossings(slice(None))
+
+    def _at_crossings(self, some: slice) -> list[list[list[int]]]:
+        """Return what some crossings demand. The last two rules follow from the others and speed up the solver."""
+        top, bottom, first_over = self.equations.top[some], self.equations.bottom[some], self.first_over[some]
         levels = self.equations.highest[top[:, 0]] + 1
         crossing, i = np.repeat(np.arange(len(top)), levels), count_each(levels)
-        over = np.array(self.first_over, dtype=np.int64)[crossing]
+        over = np.array(first_over, dtype=np.int64)[crossing]
         x = self.at_most
         rows = []
         for upper, lower, holds in ((0, 1, over), (1, 0, -over)):
@@ -251,8 +259,8 @@ class LevelClauses:
             ]
         demands = _by_demand(len(top), np.tile(crossing, len(rows)), np.concatenate([np.stack(row, 1) for row in rows]))
         if self.first_is_over is not None:
-            for number, (variable, holds) in enumerate(zip(self.first_over, self.first_is_over, strict=True)):
-                demands[number].append([variable if holds else -variable])
+            for demand, variable, holds in zip(demands, first_over, self.first_is_over[some], strict=True):
+                demand.append([variable if holds else -variable])
         return demands
 
     @cached_property

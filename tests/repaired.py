@@ -1,0 +1,102 @@
+"""What is asked of a repair: that it is the one by definition, keeps its promises, and does not depend on the start."""
+
+from collections import Counter
+
+import numpy as np
+
+import plyfold as pf
+from reference import contacts
+from reference import repairs as reference
+from reference.crossings import DegenerateError
+
+
+def drawn_by_reference(polygon):
+    try:
+        return reference.drawing(polygon)
+    except DegenerateError:
+        return None
+
+
+def agree(polygon, caps, most=8):
+    """Compare a repair with that by definition, of a polygon in general position with no more crossings."""
+    drawn = drawn_by_reference(polygon)
+    if drawn is None or len(drawn.sides) > 2 * most:
+        return
+    expected = reference.repair(drawn, caps)
+    found = pf.repair(polygon, *caps)
+    assert bool(found) == (expected is not None)
+    if expected is None:
+        return
+    places = [min(drawn.found.points[visit] for run in move.runs for visit in run) for move in expected.moves]
+    kinds = ["lens undone" if len(move.runs) == 2 else "loop left out" for move in expected.moves]
+    assert [change.kind for change in found.changes] == kinds
+    assert np.allclose(np.ravel([change.where for change in found.changes]), np.array(places, dtype=float).ravel())
+    assert np.allclose([found.region_change, found.layer_change], [float(x) for x in expected[1:]], atol=1e-12)
+
+
+def segments(loops):
+    """How often each segment is passed forward, less how often backward."""
+    passed = Counter()
+    for points in loops:
+        corners = [(x, y) for x, y in points.tolist()]
+        for start, end in zip(corners, corners[1:] + corners[:1], strict=True):
+            passed[min(start, end), max(start, end)] += (start < end) - (start > end)
+    return {segment: times for segment, times in passed.items() if times}
+
+
+def added(*many):
+    total = Counter()
+    for passed in many:
+        for segment, times in passed.items():
+            total[segment] += times
+    return {segment: times for segment, times in total.items() if times}
+
+
+def check_promises(outline, found, caps=(0.01, 0.2)):
+    """Within the caps, a surface, and nothing else changed than what the polygons go round."""
+    drawn, left = pf.arrange(outline), found.outline
+    given = drawn.given.reversed() if drawn.reversed else drawn.given
+    assert found.region_change <= caps[0] * (1 + 1e-9)
+    assert found.layer_change <= caps[1] * (1 + 1e-9)
+    assert pf.find_immersion(left)
+    polygons = [polygon for change in found.changes for polygon in change.polygons]
+    # As chains of segments, so around each place, whatever is rounded.
+    assert segments(left.loops) == added(segments(given.loops), segments(polygons))
+    assert sum(change.region for change in found.changes) >= found.region_change * (1 - 1e-9)
+    assert sum(change.layers for change in found.changes) >= found.layer_change * (1 - 1e-9)
+    assert set(found.changes) <= set(left.repairs)
+
+
+def is_disk_by_reference(outline):
+    """Whether an outline is the limit of disks, by the slow reference; None if it is too large for that."""
+    if outline.n_loops > 1 or len(outline) > 30 or pf.arrange(outline).n_crossings > 6:
+        return None
+    return bool(contacts.answer(outline.points.tolist()).outward)
+
+
+def as_answer(found):
+    """What does not depend on where an outline begins and which way it runs."""
+    if not found:
+        return found.reason, found.value
+    corners = [(x, y) for x, y in found.outline.points.tolist()]
+    starts = [at for at, corner in enumerate(corners) if corner == min(corners)]
+    forward = [corners[at:] + corners[:at] for at in starts]
+    ways = forward + [[way[0], *way[:0:-1]] for way in forward]
+    return (
+        min(ways),
+        [(change.kind, change.where) for change in found.changes],
+        found.region_change,
+        found.layer_change,
+    )
+
+
+def as_close(found, like):
+    """Equal answers: points alike, areas up to rounding."""
+    one, other = as_answer(found), as_answer(like)
+    if not found or not like:
+        assert one[0] == other[0]
+        assert (one[1] is None) == (other[1] is None)
+        return
+    assert one[0] == other[0]
+    assert one[1] == other[1]
+    assert np.allclose(one[2:], other[2:], rtol=1e-9, atol=1e-15)
