@@ -43,7 +43,7 @@ test("every stroke, cell, number and cross is painted in its place", () => {
   const [context, calls] = recorder();
   const strokes = [{ points: [[0, 0], [40, 0], [40, 40]], closed: true }];
   const cell = { cell: 1, winding: -1, outline: strokes[0].points, holes: [], label: [30, 10], radius: 10 };
-  const verdict = { where: [[20, 20]], kink: null };
+  const verdict = { where: [[20, 20]] };
   paint(context, { ...BLANK, document: { strokes, image: null }, answer: { ...ANSWER, cells: [cell], verdict } });
   assert.ok(calls.some(([name, ...values]) => name === "moveTo" && `${values}` === `${toScreen(CAMERA, [0, 0])}`));
   assert.deepEqual(calls.find(([name]) => name === "fillText"), ["fillText", "−1", 160, 80]);
@@ -69,6 +69,16 @@ test("contacts are diamonds, large and filled where the surface touches itself, 
   assert.deepEqual(lines, [...corners([0, 0], 4.5), ...corners([9, 9], 4.5), ...corners([9, 9], 8)]);
   assert.deepEqual(calls.find(([name]) => name === "arc").slice(1, 3), toScreen(CAMERA, [5, 5]));
   assert.ok(calls.some(([name, dash]) => name === "setLineDash" && dash.length));
+});
+
+test("what an offer would make is painted over the drawing, which fades, with the places that it changes", () => {
+  const [context, calls] = recorder();
+  const strokes = [{ points: [[0, 0], [40, 0], [40, 40]], closed: true }];
+  const trial = { areas: [[[5, 5], [6, 5], [6, 6]]], strokes: [{ points: [[7, 7], [8, 7], [8, 8]], closed: true }] };
+  paint(context, { ...BLANK, document: { strokes, image: null }, trial });
+  const begins = calls.filter(([name]) => name === "moveTo").map(([, ...values]) => String(values));
+  for (const place of [[0, 0], [5, 5], [7, 7]]) assert.ok(begins.includes(String(toScreen(CAMERA, place))));
+  assert.equal(calls.filter(([name]) => name === "fill").length, 2); // the place, and the arrow of the drawing
 });
 
 test("vertices that are near each other are smaller", () => {
