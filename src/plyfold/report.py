@@ -39,7 +39,7 @@ __all__ = [
 A_DISK = "a disk of cloth"
 """What one curve without cusps bounds, if it bounds a surface without handles."""
 
-_SECONDS_FOR_OFFERS = 2.0
+_SECONDS_FOR_OFFERS = 0.5
 # What does what is offered.
 _COMMANDS = {
     "repair": "plyfold repair FILE -o OUT",
