@@ -280,6 +280,8 @@ def test_what_is_no_line_no_width_and_no_style_is_refused():
         (lambda: pf.ribbon([(0, 0), (1, 0)], 1, closed=True), "needs at least 3"),
         (lambda: pf.ribbon(line, -1), "-1 wide"),
         (lambda: pf.ribbon(line, math.nan), "nan wide"),
+        (lambda: pf.ribbon(line[:2], 0), "0 wide"),
+        (lambda: pf.ribbon(line, [0, 0, 1]), "0 wide"),
         (lambda: pf.ribbon(line, [1, 2]), r"widths of shape \(2,\) for 3 points"),
         (lambda: pf.ribbon(line, "wide"), "a width is a number"),
         (lambda: pf.ribbon(line, 1, "miter"), "join_style is round, mitre or bevel"),

@@ -170,8 +170,8 @@ def _refuse_widths(points: Floats, half: Floats, closed: bool) -> None:
     """Refuse widths that are not positive; an open line may end in a tip."""
     good: Bools = (half > 0) & (half <= LARGEST_COORDINATE)
     if not closed:
-        good[[0, -1]] |= half[[0, -1]] == 0
+        good[[0, -1]] |= (half[[0, -1]] == 0) & half.any()
     bad = np.flatnonzero(~good)
     if len(bad):
-        hint = "widths are positive; at an end of an open line one may be 0"
+        hint = "widths are positive; at ends of an open line they may be 0, but not along all of it"
         raise InputError(f"a ribbon cannot be {2 * half[bad[0]]:g} wide", where=points[bad[:1]], hint=hint)
