@@ -54,6 +54,7 @@ OTHERS = {
     ("io/saving", "FileExistsError"): "what Python says of such files, as documented",
     ("io/saving", "IsADirectoryError"): "what Python says of such files",
     ("io/saving", "OSError"): "what the system says, with the name of the file and not that of its draft",
+    ("io/flat_meshes", "ValueError"): "as Python raises of words that are no numbers; refused in one place",
     ("io/svg", "ValueError"): "as svgelements raises of other numbers that are none; refused in one place",
     ("immersion/grouping", "IndexError"): "within the library: the caller knows how many there are",
     ("layering/orders/search", "ValueError"): "cannot happen",

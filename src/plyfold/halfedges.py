@@ -74,7 +74,7 @@ def glued_pairs(triangles: Ints) -> Ints:
     two straight sides, without angles.
     """
     start, end = ends_of(triangles)
-    key = np.minimum(start, end) * (triangles.max() + 1) + np.maximum(start, end)
+    key = np.minimum(start, end) * (triangles.max(initial=0) + 1) + np.maximum(start, end)
     order = np.argsort(key, kind="stable")
     same = np.flatnonzero(np.diff(key[order]) == 0)
     return np.stack([order[same], order[same + 1]], axis=1)

@@ -277,7 +277,7 @@ class Coordinates(NamedTuple):
 def as_coordinates(points: Floats) -> Coordinates:
     """Return points for :func:`turn`, as arrays of doubles if it is exact for those, of fractions otherwise."""
     size = np.abs(points)
-    if size.max() < _LARGEST and ((size > _LEAST) | (size == 0)).all():
+    if size.max(initial=0) < _LARGEST and ((size > _LEAST) | (size == 0)).all():
         x, y = np.ascontiguousarray(points.T)
         return Coordinates(x, y, np.zeros(12))
     largest = Fraction(float(size.max()))

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import plyfold as pf
 from plyfold.certify import check_pieces
-from plyfold.errors import CurveError, GeneralPositionError, NotImmersibleError
+from plyfold.errors import CurveError, GeneralPositionError, InputError, NotImmersibleError
 from plyfold.flat.settle import Settled, cuts_of, settle, settled_triangles
 from plyfold.mesh.refine import given_outline
 from reference import random_curves
@@ -353,3 +353,14 @@ def noisy_keyhole(rng):
 def test_lines_that_are_straight_but_for_rounding():
     rng = np.random.default_rng(4)
     assert all(check(noisy_keyhole(rng)) == 1 for _ in range(15))
+
+
+def test_a_surface_without_any_width_has_no_triangles_and_no_mesh():
+    square = [(1, 1), (2, 1), (2, 2), (1, 2)]
+    twice = [square, square[::-1]]
+    assert pf.find_immersion(twice)
+    assert len(pf.triangulate(twice)) == 0
+    assert pf.decompose(twice) == []
+    assert len(pf.triangulate(twice, refine=0.1)[1]) == 0
+    with pytest.raises(InputError, match=r"no width anywhere.*at \(1, 1\)"):
+        pf.lift(twice)

@@ -125,6 +125,8 @@ def winding_at(outline: OutlineLike, points: npt.ArrayLike, *, on_outline: OnOut
     [2, 0]
     >>> winding_at(square, [(0, 1), (2, 1), (1, 0), (1, 2)], on_outline="right").tolist()
     [1, 0, 1, 0]
+    >>> winding_at(square, []).tolist()
+    []
     """
     if on_outline not in get_args(OnOutline):
         raise InputError(f'on_outline must be "raise" or "right", not {on_outline!r}')
@@ -143,7 +145,7 @@ def winding_at(outline: OutlineLike, points: npt.ArrayLike, *, on_outline: OnOut
             where=places[touching],
             hint='on_outline="right" takes the winding number a little to the right',
         )
-    return winding.reshape(given.shape[:-1])
+    return winding.reshape(given.shape[:-1] if given.size else len(winding))
 
 
 def _edges_on_the_right(drawn: Outline, places: Floats) -> Iterator[tuple[Ints, Ints]]:

@@ -337,6 +337,11 @@ def _verified(arrangement: Arrangement, outline: NodedCurve, mesh: PlanarMesh) -
     """Keep the triangles over covered cells; they must be what they should be, exactly."""
     cell, left = _cells(outline, mesh)
     keep = arrangement.winding[cell] > 0
+    if not keep.any():
+        hint = "coverage and fills of such an outline are empty, too"
+        raise InputError(
+            "the surface has no width anywhere, so there is no mesh of it", where=mesh.points[:1], hint=hint
+        )
     kept = mesh.triangles[keep]
     moved = np.full(3 * len(keep) + 1, -1)  # one more, so that −1 stays −1
     moved[np.flatnonzero(np.repeat(keep, 3))] = np.arange(3 * len(kept))

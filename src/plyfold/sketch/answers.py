@@ -69,7 +69,7 @@ def answer(name: str, body: bytes, headers: Mapping[str, str]) -> Reply:
     Examples
     --------
     >>> answer("look", b'{"version": 3, "points": [[0, 0], [1, 1], [2, 2]]}', {}).body.decode()
-    '{"version":2,"error":{"kind":"drawing","sentence":"all points lie on one line","where":[[0.0,0.0],[2.0,2.0]],\
+    '{"version":3,"error":{"kind":"drawing","sentence":"all points lie on one line","where":[[0.0,0.0],[2.0,2.0]],\
 "hint":"a curve that runs back and forth on one line bounds nothing"}}'
     """
     try:

@@ -18,6 +18,7 @@ from plyfold.outline.ribbons.line import LineLike, TightBendError, WideLine, as_
 from plyfold.outline.ribbons.sides import LEFT, RIGHT, CapStyle, JoinStyle, Side, Style, rough_side
 from plyfold.outline.ribbons.strip import Strip, strip_between
 from plyfold.predicates import orient
+from plyfold.ragged import count_each
 
 __all__ = ["CapStyle", "JoinStyle", "LineLike", "Ribbon", "Style", "ribbon", "ribbon_of_line", "style_of"]
 
@@ -91,8 +92,8 @@ def ribbon(  # noqa: PLR0913 - each option is keyword-only and independent
     Notes
     -----
     Between the two sides lies a strip of triangles, all positively oriented, whose angles at each point make less than
-    a full turn; that is checked exactly, and proves that the ribbon is an immersed disk or ring. Usually linear; more
-    where segments are short for the width, and bends are cut off across many of them.
+    a full turn; that is checked exactly, and proves that the ribbon is an immersed disk or ring. It does not prove that
+    all of the line lies in it: by hairpins narrower than the ribbon, an end may be cut off. Usually linear; more where segments are short for the width, and bends are cut off across many of them.
 
     Examples
     --------
@@ -136,6 +137,8 @@ def ribbon_of_line(line: WideLine, style: Style) -> Ribbon:
     sides: list[Side] = []
     try:
         sides += [_side(drawn, way, style, line.closed) for way in (LEFT, RIGHT)]
+        for way, side in zip((LEFT, RIGHT), sides, strict=True):
+            _refuse_line_beyond(drawn, side, way)
         strip = _strip(drawn, sides, style, line.closed)
     except TightBendError as error:
         raise _too_tight(drawn, _bend(drawn, sides, error.place)) from None
@@ -171,6 +174,29 @@ def _side(line: WideLine, way: int, style: Style, closed: bool) -> Side:
     if closed and side.high[-2] != len(along) - 1:
         raise TightBendError(float(side.low[-2]))
     return side
+
+
+def _refuse_line_beyond(line: WideLine, side: Side, way: int) -> None:
+    """Refuse a side that its line crosses or touches, in the part of it that the side is beside: it would lie outside.
+
+    The ends of the line may be corners of the side, if it leaves them towards the inside.
+    """
+    last = len(line.points) - 1
+    low = np.clip(np.floor(side.low[:-1]), 0, last).astype(np.int64)
+    high = np.clip(np.ceil(side.high[1:]), 0, last).astype(np.int64)
+    edge = np.repeat(np.arange(len(low)), high - low)
+    segment = low[edge] + count_each(high - low)
+    start, end = side.points[edge], side.points[edge + 1]
+    before, after = line.points[segment], line.points[segment + 1]
+    ends = line.points[[0, -1]]
+    is_end = (start[:, None] == ends).all(axis=2).any(axis=1) | (end[:, None] == ends).all(axis=2).any(axis=1)
+    sides_of_segment = orient(before, after, start) * orient(before, after, end)
+    sides_of_edge = orient(start, end, before) * orient(start, end, after)
+    met = np.where(is_end, (sides_of_segment < 0) & (sides_of_edge < 0), (sides_of_segment <= 0) & (sides_of_edge <= 0))
+    at_start, at_end = (start == before).all(axis=1), (end == after).all(axis=1)
+    met |= at_start & (way * orient(start, end, after) >= 0) | at_end & (way * orient(start, end, before) >= 0)
+    if met.any():
+        raise TightBendError(float(segment[met.argmax()]))
 
 
 def _strip(line: WideLine, sides: list[Side], style: Style, closed: bool) -> Strip:
