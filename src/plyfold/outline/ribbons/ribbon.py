@@ -93,7 +93,8 @@ def ribbon(  # noqa: PLR0913 - each option is keyword-only and independent
     -----
     Between the two sides lies a strip of triangles, all positively oriented, whose angles at each point make less than
     a full turn; that is checked exactly, and proves that the ribbon is an immersed disk or ring. It does not prove that
-    all of the line lies in it: by hairpins narrower than the ribbon, an end may be cut off. Usually linear; more where segments are short for the width, and bends are cut off across many of them.
+    all of the line lies in it: by hairpins narrower than the ribbon, an end may be cut off. Usually linear; more where
+    segments are short for the width, and bends are cut off across many of them.
 
     Examples
     --------
