@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrangement.noding import node_outline
+from plyfold.arrays import Ints
 from plyfold.errors import TimeLimitError
 from plyfold.immersion.immersion import Immersion, Piece
 from plyfold.immersion.obstructions import may_bound_disk
@@ -26,6 +28,7 @@ __all__ = [
     "A_DISK",
     "Words",
     "describe",
+    "given_windings",
     "in_words",
     "offer_in_words",
     "repair_in_words",
@@ -204,7 +207,7 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
         "loops": arrangement.n_loops,
         "cusps": _cusps(outline),
         "crossings": arrangement.n_crossings,
-        "cells": dict(sorted(Counter(arrangement.winding.tolist()).items())),
+        "cells": dict(sorted(Counter(given_windings(arrangement).tolist()).items())),
         "turning_number": arrangement.turning_number,
         "reversed": arrangement.reversed,
         "repairs": _repairs(outline),
@@ -219,6 +222,21 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
     figures |= {"immersible": True, "immersions": None if isinstance(count, Unknown) else count}
     figures |= _surface(found)
     return figures | (_layerable if may_bound_disk(arrangement) else _embeddable)(arrangement, time_limit)
+
+
+def given_windings(arrangement: Arrangement) -> Ints:
+    """Return the winding number of each cell that was drawn, the unbounded one first.
+
+    Where points in contact were moved apart, those are the cells of the points as given.
+
+    Examples
+    --------
+    >>> from plyfold import arrange
+    >>> given_windings(arrange([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)])).tolist()
+    [0, 1, 1]
+    """
+    given = arrangement.given
+    return arrangement.winding if given is None or given is arrangement.outline else node_outline(given).winding
 
 
 def _offers(arrangement: Arrangement) -> dict[str, Any]:

@@ -12,14 +12,13 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.gauss import GaussCode
-from plyfold.arrangement.noding import node_outline
 from plyfold.draw.placement import border_line, cusps_drawn, label_circle, outer_ring_first
 from plyfold.immersion.blank_word import blank_word
 from plyfold.immersion.immersion import Immersion
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.outline.curve import Outline
 from plyfold.outline.direction import even_odd_directions, sense
-from plyfold.report import A_DISK, Words, surface_in_words, touches_of, words
+from plyfold.report import A_DISK, Words, given_windings, surface_in_words, touches_of, words
 from plyfold.sketch.drawings import arranged, first_immersion, immersion_count
 from plyfold.sketch.offering import loop_data
 from plyfold.sketch.schema import VERSION, Look
@@ -72,7 +71,7 @@ def look_at(question: Look) -> dict[str, Any]:
         "borders": [_border(drawn, border) for border in range(drawn.n_borders)],
         "visits": np.stack([drawn.border_before, drawn.border_after], axis=1).tolist(),
         "cells": [_cell(drawn, cell) for cell in range(1, drawn.n_cells)],
-        "cells_by_winding": _cells_by_winding(drawn, given),
+        "cells_by_winding": [list(row) for row in sorted(Counter(given_windings(drawn)[1:].tolist()).items())],
         "verdict": _verdict(question, drawn),
         "code": _code(drawn),
         **_texts(drawn),
@@ -88,12 +87,6 @@ def _cusps(drawn: Arrangement) -> list[dict[str, Any]]:
 def _contacts(drawn: Arrangement, given: Outline) -> list[list[float]]:
     """Return the places of points that lie on other edges or on each other, each once, from left to right."""
     return [[x, y] for x, y in np.unique(given.points[drawn.contacts], axis=0).tolist()]
-
-
-def _cells_by_winding(drawn: Arrangement, given: Outline) -> list[list[int]]:
-    """Return how many cells of the drawing have each winding number; those that only moves make do not count."""
-    winding = drawn.winding if given is drawn.outline else node_outline(given).winding
-    return [[number, count] for number, count in sorted(Counter(winding[1:].tolist()).items())]
 
 
 def _border(drawn: Arrangement, border: int) -> list[list[float]]:
