@@ -110,13 +110,15 @@ def triangulate(
     >>> triangulate([(0, 0), (1, 1), (2, 1), (3, 0), (3, 2), (2, 1), (1, 1), (0, 2)]).tolist()
     [[0, 6, 7], [2, 3, 4]]
     """
-    chosen = chosen_immersion(curve, immersion)
-    came_in = _points_that_came_in(curve, chosen.arrangement)
+    # Codes and arrangements have partners; from all else an outline is made, once.
+    outline = curve if hasattr(curve, "partner") else as_outline(curve)
+    chosen = chosen_immersion(outline, immersion)
+    came_in = _points_that_came_in(outline, chosen.arrangement)
     if refine is not None:
         return _refined(chosen, came_in, refine)
     settled = settled_triangles(chosen)
     faces = came_in.number[settled.point[settled.faces]]
-    return faces if isinstance(curve, Arrangement | Outline) else as_outline(curve).rows[faces]
+    return faces if isinstance(curve, Outline) or not isinstance(outline, Outline) else outline.rows[faces]
 
 
 class _CameIn(NamedTuple):
