@@ -121,6 +121,8 @@ def _parsed(data: bytes) -> _Lines:
     except ExpatError as error:
         reason = ErrorString(error.code)
         raise FileFormatError(f"line {error.lineno}: broken XML ({reason})", hint="export it again") from error
+    except FileFormatError as error:
+        raise FileFormatError(f"line {parser.CurrentLineNumber}: {error.message}", hint=error.hint) from None
     except (ValueError, LookupError) as error:  # an encoding that is not known
         raise FileFormatError(f"broken XML ({error})", hint="save the GPX as UTF-8") from error
     return found
