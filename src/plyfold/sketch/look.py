@@ -40,12 +40,12 @@ def look_at(question: Look) -> dict[str, Any]:
     Returns
     -------
     dict
-    As ``PROTOCOL.md`` says, ready for JSON. A few milliseconds for sketches.
+        As ``PROTOCOL.md`` says, ready for JSON. A few milliseconds for sketches.
 
     Raises
     ------
     PlyfoldError
-    If the strokes make no outline that can be used.
+        If the strokes make no outline that can be used.
 
     Examples
     --------
