@@ -29,7 +29,7 @@ __all__ = ["Repaired", "SmallChange", "percent", "repair"]
 
 LOOP, LENS, SPIKE = "loop left out", "lens undone", "spike taken out"
 
-# How much is cut off of the corners of runs that came apart, of the way to what is next: as little as will do, and
+# How much is cut off of the corners of strands that came apart, of the way to what is next: as little as will do, and
 # where even rounding is too much, nothing, so that they touch.
 _OPENINGS = (Fraction(1, 2**20), Fraction(1, 2**10), Fraction(0))
 # Outlines with more crossings are not asked how much would be needed beyond the caps.
@@ -119,8 +119,8 @@ def repair(
     """Change an outline a little, so that it becomes that of a disk of cloth; one of several loops, that of a surface.
 
     Outlines of pen strokes, and those of maps, are often no disks by a hair: they run through tiny loops at inner
-    corners, or two of their runs have changed sides for a short way. Such a *loop*, from a crossing back to it, is
-    left out; two runs that cross twice in a row, around a *lens*, change places.
+    corners, or two of their strands have changed sides for a short way. Such a *loop*, from a crossing back to it, is
+    left out; two strands that cross twice in a row, around a *lens*, change places.
 
     Parameters
     ----------
@@ -146,13 +146,13 @@ def repair(
     InputError
         If it is a Gauss code, which has no points, or a cap is no number from 0 on.
     GeneralPositionError
-        If runs touch and are too crowded to be moved apart.
+        If strands touch and are too crowded to be moved apart.
 
     Notes
     -----
     The move comes first that changes the covered area least; of several that change it equally, the one that changes
-    the winding numbers least; of these the one furthest left, and lowest. Areas are compared exactly. Two runs that
-    run in one direction change places at no price, so that is tried only where nothing else does. Moves that turn
+    the winding numbers least; of these the one furthest left, and lowest. Areas are compared exactly. Two strands
+    in one direction change places at no price, so that is tried only where nothing else does. Moves that turn
     out not to be needed are taken back, and what is left is decided anew. So the answer does not depend on the points
     with which the loops begin, on their direction or on the unit; but another, smaller change may do as well.
 
