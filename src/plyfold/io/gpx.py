@@ -19,6 +19,8 @@ __all__ = ["shapes_in_gpx"]
 _AXIS, _ECCENTRICITY = 6_378_137.0, 6.694379990141e-3
 _LARGEST_ANGLE = 2.0
 _HINT = "a GPX file has tracks or routes, with lat and lon at each point"
+# Nothing that is read lies so deep; paths are cut here, for documents may be nested without end.
+_BEYOND = 6
 _LONGEST_TEXT = 1000
 
 
@@ -39,7 +41,7 @@ class _Lines:
             raise FileFormatError(f"it is XML, but no GPX: its root is <{name[:40]}>", hint=_HINT)
         self.path.append(name)
         self.text = ""
-        match self.path[1:]:
+        match self.path[1:_BEYOND]:
             case ["trk" | "rte"]:
                 self.names.append("")
                 self.lines.append([[]] if name == "rte" else [])
@@ -52,7 +54,7 @@ class _Lines:
 
     def end(self, _: str) -> None:
         """End an element."""
-        match self.path[1:]:
+        match self.path[1:_BEYOND]:
             case ["trk", "trkseg", "trkpt", "ele"] | ["rte", "rtept", "ele"]:
                 points = self.lines[-1][-1]
                 points[-1] = (*points[-1][:2], _number(self.text, "height"))
