@@ -34,6 +34,7 @@ __all__ = [
     "repair_in_words",
     "repair_lines",
     "surface_in_words",
+    "surface_with_cusps",
     "touches_of",
     "verdict",
     "words",
@@ -244,10 +245,8 @@ def _offers(arrangement: Arrangement) -> dict[str, Any]:
     if arrangement.outline is None:
         return {}
     found = offers(arrangement, _SECONDS_FOR_OFFERS)
-    loops = tuple(range(arrangement.n_loops))
-    surface = surface_in_words([Piece(loops, 2 - len(loops))])
     listed = [] if found.repaired is None else [_repair_offer(found.repaired)]
-    listed += [] if found.cusps is None else [_cusps_offer(found.cusps, surface)]
+    listed += [] if found.cusps is None else [_cusps_offer(found.cusps)]
     fill = {"kind": "fill", "sentence": "what it paints can be cut into polygons", "command": _COMMANDS["fill"]}
     return {"offers": [*listed, fill]}
 
@@ -290,7 +289,22 @@ def _repair_offer(found: Repaired) -> dict[str, Any]:
     }
 
 
-def _cusps_offer(found: SuggestedCusps, surface: str) -> dict[str, Any]:
+def surface_with_cusps(found: SuggestedCusps) -> str:
+    """Say what an outline bounds with cusps that are proposed: a surface in one piece, without handles.
+
+    Examples
+    --------
+    >>> from plyfold import suggest_cusps
+    >>> limacon = [(3, 0), (1, 3), (-2, 0), (1, -3), (3, 0.5), (1, 1), (0.5, 0), (1, -1)]
+    >>> surface_with_cusps(suggest_cusps(limacon))
+    'a disk of cloth'
+    """
+    loops = tuple(range(found.outline.n_loops))
+    return surface_in_words([Piece(loops, 2 - len(loops))])
+
+
+def _cusps_offer(found: SuggestedCusps) -> dict[str, Any]:
+    surface = surface_with_cusps(found)
     marks = [CuspMark(loop, point, turns) for (loop, point), turns in found.cusps.items()]
     cusps = _described_cusps(found.outline, marks)
     sentence = offer_in_words([*found.cusps.values()], surface, _listed_cusps(cusps))

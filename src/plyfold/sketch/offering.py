@@ -13,13 +13,12 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import PrecisionError
 from plyfold.flat.decompose import decompose
-from plyfold.immersion.immersion import Piece
 from plyfold.obstruction import Obstruction
 from plyfold.offers.cusps import SuggestedCusps
 from plyfold.offers.offers import offers
 from plyfold.offers.repair import LENS, LOOP, Repaired
 from plyfold.outline.direction import sense
-from plyfold.report import offer_in_words, repair_in_words, surface_in_words
+from plyfold.report import offer_in_words, repair_in_words, surface_with_cusps
 from plyfold.sketch.drawings import arranged, first_immersion
 from plyfold.sketch.patience import patient
 from plyfold.sketch.schema import VERSION, Offer
@@ -123,12 +122,10 @@ def _cusps_offer(found: SuggestedCusps) -> dict[str, Any]:
         {"where": found.outline.loops[loop][point].tolist(), "index": index}
         for (loop, point), index in found.cusps.items()
     ]
-    loops = tuple(range(found.outline.n_loops))
-    surface = surface_in_words([Piece(loops, 2 - len(loops))])
     return _offer(
         "cusps",
         "A cusp here" if len(marks) == 1 else "Cusps here",
-        f"{offer_in_words([*found.cusps.values()], surface, 'as shown')}.",
+        f"{offer_in_words([*found.cusps.values()], surface_with_cusps(found), 'as shown')}.",
         where=[mark["where"] for mark in marks],
         cusps=marks,
     )
