@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import shapely
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
@@ -33,6 +33,7 @@ def is_general(points):
 
 @settings(deadline=None, max_examples=15)
 @given(curves(), st.floats(0.0001, 0.3))
+@example((np.array([(453.0, 887), (763, 23), (881, 953), (941, -839)]), 2000.0), 0.25)  # two points are no curve
 def test_a_simplified_curve_has_the_same_code_and_is_near(drawn, share):
     points, size = drawn
     assume(is_general(points))

@@ -26,9 +26,9 @@ def simplified(curve: Curve, tolerance: float, keep_code: bool) -> Curve:
         raise InputError(f"the tolerance is a distance, and not {tolerance:g}")
     kept = curve.cusps[0] > 0
     kept[[0, _farthest(curve.points, curve.points[:1])]] = True
-    _keep_what_is_far(curve.points, kept, tolerance)
     wanted = arrange(curve) if keep_code else None
     while True:
+        _keep_what_is_far(curve.points, kept, tolerance)  # also after a split: the others may be far from its edges
         found = _of_points(curve, kept)
         if found is None:
             _split(curve.points, kept, np.arange(int(kept.sum())))
