@@ -86,7 +86,7 @@ def check_promises(outline, found, caps=(0.01, 0.2)):
 def is_disk_by_reference(outline):
     """Whether an outline is that of a disk, by the slow reference; None if it is too large for that.
 
-    In general position by gluings of its cells, which is quick; where it touches itself, as a limit of outlines of disks.
+    In general position by gluings of its cells, which is quick; where it touches itself, as a limit of disks.
     """
     if outline.n_loops > 1 or len(outline) > 40:
         return None
