@@ -125,6 +125,33 @@ def test_cusps_in_contact_stay():
     assert answer(outline) == expected_of(loops, cusps)
 
 
+# The surface winds twice round the origin, from one side of a slit to the other.
+CUSP_AT_A_TIP = [(0, 0), (3, 0), (3, 3), (-3, 3), (-3, -3), (5, -3), (5, 5), (-5, 5), (-5, -5), (4, -5), (4, 0)]
+
+
+def test_cusps_at_tips_have_an_angle_of_a_full_turn_that_one_sees():
+    turns = [1] + [0] * 10
+    assert reference.count_strict([exact(CUSP_AT_A_TIP)], [turns]) == 1
+    for position in reference.positions(CUSP_AT_A_TIP):
+        outline = pf.Curve(position, cusps=turns)
+        assert pf.bounds_disk(outline)
+        assert pf.bounds_disk(outline, touching=False)
+        assert pf.find_immersion(outline).touches == ()
+    once_too_often = pf.Curve(CUSP_AT_A_TIP, cusps=[2, *turns[1:]])
+    assert not pf.bounds_disk(once_too_often)
+
+
+def test_a_cusp_at_a_tip_stays_where_its_edge_moves():
+    """The other end of the edge moves, in the one direction in which it stays on a third edge; so that moves, too."""
+    loops, cusps = [[(2, 0), (2, 3), (2, 4), (1, 2), (3, 4), (2, 2)], [(0, 2), (0, 3), (3, 3)]], {(0, 0): 1}
+    marks = [[1, 0, 0, 0, 0, 0], [0, 0, 0]]
+    assert in_the_direction_that_may_bound([exact(loop) for loop in loops], marks) is None
+    arranged = pf.arrange(pf.Outline(loops, cusps))
+    arranged.check()
+    assert arranged.outline.points[0].tolist() == [2, 0]
+    assert not pf.find_immersion(arranged)
+
+
 def with_cusps(seed):
     """A polygon with cusps at different places, and the same for the reference; None if two lie at one place."""
     polygon, index = reference.random_touching_with_cusps(np.random.default_rng(seed), 1 + (seed % 4 == 0), most=8)

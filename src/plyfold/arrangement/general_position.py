@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from plyfold.arrangement.crossings import Contacts, Visits
-from plyfold.arrangement.crowded_cusps import crowded_cusps, lie_inside
+from plyfold.arrangement.crowded_cusps import crowded_cusps, cusps_that_stay, lie_inside, stay_inside
 from plyfold.arrangement.infinitesimal import (
     MovingPoints,
     begin_to_move,
@@ -190,7 +190,9 @@ def separated(given: Outline, sense: int, watch: Watch = UNWATCHED, way: int = 0
 
     Notes
     -----
-    Where three edges meet inside all of them, whichever way they part will do; so their ends move, too.
+    Where three edges meet inside all of them, their ends move in the same way. Whichever way they part, there are the
+    same immersions. But only if all of them, or all but two, move outward, all sheets there have a cell in common, so
+    that they lie over it in one order, as they must over the single point.
     """
     touching = _Touching(given, meetings(_joined(given), watch), sense, watch)
     stays, moves = _points_to_move(given, touching.contacts, way)
@@ -219,13 +221,14 @@ def _points_to_move(given: Outline, contacts: Contacts, way: int) -> tuple[Ints,
     All other points in contact move, and the ends of edges on which cusps lie: then these edges move outward, too.
     """
     vertex, edge = contacts.touches.T
-    is_cusp = np.concatenate(given.cusps) > 0
-    touching = np.unique(vertex)
-    stays = touching[is_cusp[touching]]
-    edges = edge[is_cusp[vertex] & lie_inside(given, contacts)]
-    points = np.setdiff1d(np.concatenate([touching, edges, given.next_point[edges]]), stays)
+    stays = cusps_that_stay(given, contacts)
     crowded = crowded_cusps(given, contacts)
-    return stays, _Moves(points, crowded.points, crowded.way(way))
+    edges = edge[stays[vertex] & lie_inside(given, contacts)]
+    if len(crowded.points):
+        # Edges of cusps that give way may go inward; so all others move outward that meet there.
+        edges = np.union1d(edges, visits_along(_joined(given), contacts).triple)
+    points = np.setdiff1d(np.concatenate([vertex, edges, given.next_point[edges]]), np.flatnonzero(stays))
+    return np.flatnonzero(stays), _Moves(points, crowded.points, crowded.way(way))
 
 
 def _moved(touching: _Touching, moves: _Moves, scatter: int) -> GeneralPosition | Ints:
@@ -241,6 +244,8 @@ def _moved(touching: _Touching, moves: _Moves, scatter: int) -> GeneralPosition 
         points[moves.others] += step * moves.vectors
         if not are_moved(given, moves.points, points[moves.points], sense).all():
             continue
+        if not stay_inside(given, touching.contacts, points, moves.others, sense):
+            continue
         found = _shown(touching, points)
         if isinstance(found, GeneralPosition) or len(found):
             return found
@@ -252,7 +257,7 @@ def _shown(touching: _Touching, points: Floats) -> GeneralPosition | Ints:
 
     Else the edges that stay together, however little they move.
     """
-    given, contacts, _, watch = touching
+    given, contacts, sense, watch = touching
     motion = begin_to_move(given.points, points, given.next_point)
     wanted, undecided = signed_crossings(motion, contacts)
     joined = joined_loops(points, given.first_point)
@@ -266,8 +271,9 @@ def _shown(touching: _Touching, points: Floats) -> GeneralPosition | Ints:
     if len(together) or not (right and _lie_alike(motion, joined, visits)):
         return np.unique(together)
     repairs = *given.repairs, *_moves(given.points, points)
-    # A cusp at a tip has an angle of 360° that one sees; strands that move outward there leave next to none.
-    cusps = np.concatenate(given.cusps) + (tips(given) if given.has_cusps else 0)
+    # A cusp at a tip has an angle of 360° that one sees; strands that move outward there leave next to none, and those
+    # that move inward next to all of it.
+    cusps = np.concatenate(given.cusps) + (tips(given) if given.has_cusps and sense > 0 else 0)
     outline = outline_of_points(points, given.loop_of_point, cusps, given.rows, repairs)
     return GeneralPosition(outline, given, np.arange(len(given)), joined, visits, False)
 
