@@ -109,7 +109,7 @@ def ribbon(  # noqa: PLR0913 - each option is keyword-only and independent
     <Outline of 2 loops, 39 points>
     >>> ribbon([(0, 0), (9, 0), (9, 1), (0, 1)], 3)
     Traceback (most recent call last):
-    plyfold.errors.InputError: a bend of the line is too tight for a ribbon 3 wide, at (9, 0)
+    plyfold.errors.InputError: a bend of the line is too tight for a ribbon 3 wide, at (9, 1)
       hint: make it narrower there, or round off the bend
     """
     style = style_of(join_style, cap_style, quad_segs, mitre_limit)
