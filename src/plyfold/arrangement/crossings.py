@@ -316,11 +316,6 @@ def _filled_up(first_point: Ints, size: int) -> tuple[Ints, Ints, Ints]:
     return edge, np.flatnonzero(place > last), end - groups
 
 
-def _in_groups(rows: npt.NDArray[_Number], size: int) -> npt.NDArray[_Number]:
-    """Cut rows (r, n) into groups (r, size, groups)."""
-    return np.ascontiguousarray(rows.reshape(len(rows), -1, size).transpose(0, 2, 1))
-
-
 def _few_pairs(groups: _Groups) -> tuple[Ints, Ints] | None:
     """Return the pairs of groups that meet, or None if there are too many."""
     found, total = [], 0
