@@ -8,8 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
+from plyfold.arrangement import unless
 from plyfold.arrangement.arrangement import ways_apart
+from plyfold.arrangement.general_position import InContact, without_contacts
 from plyfold.errors import CurveError
+from plyfold.immersion.obstructions import touches_as_no_disk
 from reference import contacts as reference
 from reference.contacts import Answer, may_bound, random_touching, without_spikes
 from reference.crossings import base_visit, exact
@@ -175,6 +178,43 @@ def test_cusps_on_each_other_give_way():
     directed = in_the_direction_that_may_bound(loops, cusps)
     some = any(reference.moves_that_bound(np.random.default_rng(0), directed[0], 60, directed[1]))
     assert pf.bounds_disk(pf.Curve(polygon, cusps=index)) == some
+
+
+# ---- what the given points tell --------------------------------------------------------------------------------------
+
+
+def known_before_moves(outline):
+    """Whether the given points show that an outline is no disk; None if it does not touch itself."""
+    found = without_contacts(pf.Outline([outline]) if isinstance(outline, list) else outline, "perturb")
+    return touches_as_no_disk(found) if isinstance(found, InContact) else None
+
+
+def test_a_no_before_points_move_is_one_after_moves():
+    """However they move: by the definition of limits and of strict disks, and by all outward and inward ways."""
+    known = []
+    for seed in range(120):
+        polygon = random_touching(np.random.default_rng(seed), most=8)
+        expected = reference.answer(polygon)
+        known.append(expected and known_before_moves(polygon))
+        assert not known[-1] or expected == (0, 0)
+    for curve, loops in filter(None, map(with_cusps, range(60))):
+        known.append(known_before_moves(curve))
+        assert not known[-1] or expected_of(*loops) == (0, 0)
+    for mirrored in reference.positions(CUSP_AT_A_TIP):
+        assert not known_before_moves(pf.Curve(mirrored, cusps=[1] + [0] * 10))
+    assert known.count(True) > 20
+    assert known.count(False) > 20
+
+
+def test_no_point_moves_where_the_given_ones_tell(monkeypatch):
+    """However crowded they are."""
+    monkeypatch.setattr(unless, "moved_apart", None)
+    crowded = [np.random.default_rng(seed).integers(0, 8, (100, 2)) for seed in range(3)]
+    both_signs = [(0, 0), (1, -1), (2, 0), (3, 1), (5, -1), (6, 0), (5, 1), (3, -1), (1, 1)]  # turns once
+    assert pf.arrange(both_signs).turning_number == 1
+    for points in (*crowded, SQUARE * 2, both_signs):
+        for touching in (True, False):
+            assert not pf.bounds_disk(points, touching=touching)
 
 
 # ---- the answer belongs to the drawing -------------------------------------------------------------------------------

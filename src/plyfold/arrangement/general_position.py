@@ -8,6 +8,7 @@ made small enough for doubles to show the very same. Vertices that touch as cusp
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -24,7 +25,7 @@ from plyfold.arrangement.infinitesimal import (
 )
 from plyfold.arrangement.meetings import JoinedLoops, joined_loops, meetings, visits_along
 from plyfold.arrangement.nesting import nest, same_nest
-from plyfold.arrangement.noding import node_outline
+from plyfold.arrangement.noding import Noding, node_outline
 from plyfold.arrangement.outward import are_moved, outward_vectors, winds_backward
 from plyfold.arrangement.spikes import tips, without_spikes
 from plyfold.arrays import Floats, Ints
@@ -32,7 +33,16 @@ from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GeneralPositionError, InputError
 from plyfold.outline.curve import Outline, Repair, backward_numbers, outline_of_points
 
-__all__ = ["GeneralPosition", "in_general_position", "number_of_ways", "separated", "touching_points"]
+__all__ = [
+    "GeneralPosition",
+    "InContact",
+    "in_general_position",
+    "moved_apart",
+    "number_of_ways",
+    "separated",
+    "touching_points",
+    "without_contacts",
+]
 
 # Sizes of moves as fractions of the drawing's: smaller ones where strands crowd.
 _STEPS = [2.0**-exponent for exponent in range(20, 49, 4)]
@@ -69,6 +79,29 @@ class GeneralPosition:
     turned_round: bool | None
 
 
+@dataclass(frozen=True, eq=False)
+class InContact:
+    """An outline that touches itself or has spikes.
+
+    Parameters
+    ----------
+    outline : Outline
+    left : Outline
+        What is left of it without its spikes; the same one if it has none.
+    kept : (points,) int
+        The numbers of those points.
+    """
+
+    outline: Outline
+    left: Outline
+    kept: Ints
+
+    @cached_property
+    def noding(self) -> Noding:
+        """The exact noding of what is left."""
+        return node_outline(self.left)
+
+
 def in_general_position(
     outline: Outline, policy: Literal["perturb", "raise"], watch: Watch = UNWATCHED
 ) -> GeneralPosition:
@@ -98,6 +131,14 @@ def in_general_position(
     """
     if policy not in ("perturb", "raise"):
         raise InputError(f'general_position must be "perturb" or "raise", not {policy!r}')
+    found = without_contacts(outline, policy, watch)
+    return found if isinstance(found, GeneralPosition) else moved_apart(found, watch)
+
+
+def without_contacts(
+    outline: Outline, policy: Literal["perturb", "raise"], watch: Watch = UNWATCHED
+) -> GeneralPosition | InContact:
+    """Return an outline that is in general position as it is, or what there is to know before points of it move."""
     joined = _joined(outline)
     contacts = meetings(joined, watch)
     if policy == "raise" or len(contacts.touches) == 0:
@@ -106,11 +147,17 @@ def in_general_position(
             return GeneralPosition(outline, outline, np.arange(len(outline)), joined, visits, None)
         if policy == "raise":
             raise _not_general(outline, contacts, visits)
-    left, kept = without_spikes(outline)
-    if left is outline:
-        return _directed(outline, watch)
-    rest = in_general_position(left, policy, watch)
-    return replace(rest, numbers=kept[rest.numbers])
+    return InContact(outline, *without_spikes(outline))
+
+
+def moved_apart(found: InContact, watch: Watch = UNWATCHED) -> GeneralPosition:
+    """Return an outline in contact with its touching strands moved apart."""
+    if found.left is not found.outline:
+        rest = without_contacts(found.left, "perturb", watch)
+        if isinstance(rest, GeneralPosition):
+            return replace(rest, numbers=found.kept)
+    placed = _directed(found, watch)
+    return replace(placed, numbers=found.kept[placed.numbers])
 
 
 def _not_general(outline: Outline, contacts: Contacts, visits: Visits) -> GeneralPositionError:
@@ -135,10 +182,10 @@ def _places(outline: Outline, contacts: Contacts, visits: Visits) -> list[tuple[
     return [(float(x), float(y)) for x, y in places]
 
 
-def _directed(outline: Outline, watch: Watch) -> GeneralPosition:
+def _directed(found: InContact, watch: Watch) -> GeneralPosition:
     """Turn an outline round if its surface lies on the right, and move its points outward."""
-    turned_round = winds_backward(outline, node_outline(outline))
-    if not turned_round:
+    outline = found.left
+    if not winds_backward(outline, found.noding):
         return separated(outline, 1, watch)
     numbers = backward_numbers(outline.first_point)
     parts = (
