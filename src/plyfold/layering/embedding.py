@@ -171,7 +171,7 @@ def _several_pieces(arranged: Arrangement, clauses: LevelClauses) -> Lacking:
 
 
 def _not_in_one_piece(found: Layering) -> Obstruction:
-    pieces = tuple(piece.loops for piece in found.pieces)
+    pieces = tuple(piece.loops for piece in found.immersion.uncut_pieces)
     sentence = f"No embedding in one piece: those that there are fall into pieces, such as {len(pieces)}."
     return Obstruction("pieces", sentence, (), pieces, found.immersion.arrangement)
 
