@@ -7,6 +7,7 @@ outline is asked for the gluings of its sheets.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from itertools import islice
 from typing import Any, overload
 
 import numpy as np
@@ -34,6 +35,9 @@ __all__ = [
     "sample_immersion",
     "watched_immersions",
 ]
+
+# So many immersions are looked at one by one.
+_FEW = 5
 
 
 @overload
@@ -234,7 +238,10 @@ def bounds_disk(curve: OutlineLike, touching: bool = True) -> bool:
     >>> bounds_disk(two_triangles), bounds_disk(two_triangles, touching=False)
     (True, False)
     """
-    return any(map(_bounds_disk, ways_apart(arrange(curve), inward=not touching)))
+    arranged = arrange(curve)
+    if touching:
+        return any(map(_bounds_disk, ways_apart(arranged)))
+    return _bounds_disk(arranged) and (len(arranged.contacts) == 0 or bounds_strictly(arranged))
 
 
 def _bounds_disk(arranged: Arrangement) -> bool:
@@ -242,8 +249,15 @@ def _bounds_disk(arranged: Arrangement) -> bool:
 
 
 def bounds_strictly(arranged: Arrangement) -> bool:
-    """Tell whether the outline as given bounds a surface in the strict sense, which does not touch itself."""
-    return any(_bounds_surface(way, UNWATCHED) for way in ways_apart(arranged, inward=True))
+    """Tell whether the outline as given bounds a surface in the strict sense, which does not touch itself.
+
+    A surface in the strict sense bears any small move, so one of those of the outline moved apart is the same, and
+    touches itself nowhere. Where there are too many to see each, moves inward tell: they can make many crossings.
+    """
+    some = list(islice(immersions(arranged), _FEW))
+    if not all(immersion.touches for immersion in some):
+        return True
+    return len(some) == _FEW and any(_bounds_surface(way, UNWATCHED) for way in ways_apart(arranged, inward=True))
 
 
 def in_best_way(arranged: Arrangement, watch: Watch = UNWATCHED) -> Arrangement:
