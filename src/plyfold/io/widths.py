@@ -124,4 +124,10 @@ def _together(outline: Outline, ribbons: Sequence[Ribbon]) -> Ribbon:
     first = np.cumsum([0, *(len(ribbon.outline) for ribbon in ribbons)])
     faces = [ribbon.faces + start for ribbon, start in zip(ribbons, first, strict=False)]
     heights = [ribbon.heights for ribbon in ribbons if ribbon.heights is not None]
-    return Ribbon(outline, np.concatenate(faces), np.concatenate(heights))
+    first_face = np.cumsum([0, *map(len, faces)]).tolist()
+    courses = [
+        course._replace(first=start)
+        for ribbon, start in zip(ribbons, first_face, strict=False)
+        for course in ribbon.courses
+    ]
+    return Ribbon(outline, np.concatenate(faces), np.concatenate(heights), tuple(courses))
