@@ -1,4 +1,4 @@
-"""Where a closed polyline crosses itself, in exact order along it."""
+"""Where closed polylines cross themselves and each other, in exact order along them."""
 
 from __future__ import annotations
 
@@ -13,13 +13,12 @@ import numpy.typing as npt
 from plyfold.arrays import Bools, Floats, Ints, Signs
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.predicates import counted_cross_sign, exact_parameter, parameter_along_edge
+from plyfold.ragged import count_each, next_in_rows
 
-__all__ = ["Contacts", "Visits", "edge_ends", "find_contacts", "near_pairs", "order_visits"]
+__all__ = ["Contacts", "Visits", "find_contacts", "near_pairs", "order_visits"]
 
 Bytes: TypeAlias = npt.NDArray[np.uint8]
 _Number = TypeVar("_Number", np.float64, np.uint8)
-
-_NONE = np.empty(0, dtype=np.int64)
 
 # Consecutive edges are looked at in groups of this size, unless a group meets more others than this on average.
 _GROUP = 8
@@ -79,28 +78,30 @@ class Visits:
     exact_signs: int
 
 
-def find_contacts(points: Floats, watch: Watch = UNWATCHED, absent: Ints = _NONE) -> Contacts:
-    """Find all pairs of edges of a closed polyline that cross or touch.
+def find_contacts(points: Floats, watch: Watch = UNWATCHED, first_point: Ints | None = None) -> Contacts:
+    """Find all pairs of edges of closed polylines that cross or touch.
 
     Parameters
     ----------
     points : (n, 2) float
-        Vertices; edge i runs from point i to point i + 1, the last one back to point 0.
+        Vertices, loop after loop; edge i runs from point i to the next point of its loop.
     watch : Watch, optional
-    absent : (a,) int, optional
-        Edges that are left out.
+    first_point : (loops + 1,) int, optional
+        The first point of each loop, and last n; one loop by default.
 
     Returns
     -------
     Contacts
         Exact. Cost: O(n log n) plus the number of pairs of edges whose bounding boxes meet.
     """
+    first_point = np.array([0, len(points)]) if first_point is None else first_point
+    following = next_in_rows(first_point)
     # Neighbours need no look: where one runs back over the other, the edge beyond touches too.
-    ends = edge_ends(points)
+    ends = np.stack([points, points.take(following, axis=0)], axis=1)
     parts = []
-    for first, second in near_pairs(points, absent):
+    for first, second in near_pairs(points, following, first_point):
         watch.step()
-        parts.append(_meetings(ends, first, second))
+        parts.append(_meetings(ends, following, first, second))
     touches = np.concatenate([part.touches for part in parts])
     return Contacts(
         edges=np.concatenate([part.edges for part in parts]),
@@ -110,14 +111,7 @@ def find_contacts(points: Floats, watch: Watch = UNWATCHED, absent: Ints = _NONE
     )
 
 
-def edge_ends(points: Floats) -> Floats:
-    """Return start and end of each edge of a closed polyline, shape (n, 2, 2)."""
-    ends = np.empty((len(points), 2, 2))
-    ends[:, 0], ends[:-1, 1], ends[-1, 1] = points, points[1:], points[0]
-    return ends
-
-
-def _meetings(ends: Floats, first: Ints, second: Ints) -> Contacts:
+def _meetings(ends: Floats, following: Ints, first: Ints, second: Ints) -> Contacts:
     """Return the contacts of edges that are no neighbours, shape (m,) each."""
     side, exact = _sides(ends, first, second)
     # Edges keep apart if one of them lies on one side of the other.
@@ -125,9 +119,9 @@ def _meetings(ends: Floats, first: Ints, second: Ints) -> Contacts:
     first, second, side = first[met], second[met], side[met]
     other_side, other_exact = _sides(ends, second, first)
     proper = (side[:, 0] * side[:, 1] < 0) & (other_side[:, 0] * other_side[:, 1] < 0)
-    touches = np.concatenate([_touches(ends, second, first, side), _touches(ends, first, second, other_side)])
+    touches = [_touches(ends, following, second, first, side), _touches(ends, following, first, second, other_side)]
     edges = np.stack([first[proper], second[proper]], axis=1)
-    return Contacts(edges, side[proper, 1] > 0, touches, exact + other_exact)
+    return Contacts(edges, side[proper, 1] > 0, np.concatenate(touches), exact + other_exact)
 
 
 def _sides(ends: Floats, edge: Ints, other: Ints) -> tuple[Signs, int]:
@@ -137,7 +131,7 @@ def _sides(ends: Floats, edge: Ints, other: Ints) -> tuple[Signs, int]:
     return counted_cross_sign(start, end, start, ends.take(other, axis=0))
 
 
-def _touches(ends: Floats, edge: Ints, other: Ints, side: Signs) -> Ints:
+def _touches(ends: Floats, following: Ints, edge: Ints, other: Ints, side: Signs) -> Ints:
     """Return the rows (vertex, other edge) where an edge starts or ends on the other; ``side`` is that of its ends."""
     on_line, end = np.nonzero(side == 0)
     if len(on_line) == 0:
@@ -145,7 +139,7 @@ def _touches(ends: Floats, edge: Ints, other: Ints, side: Signs) -> Ints:
     edge, other = edge[on_line], other[on_line]
     place, line = ends[edge, end], ends[other]
     hit = ((line.min(axis=1) <= place) & (place <= line.max(axis=1))).all(axis=1)
-    vertex = (edge + end) % len(ends)
+    vertex = np.where(end, following[edge], edge)
     return np.stack([vertex[hit], other[hit]], axis=1)
 
 
@@ -228,22 +222,25 @@ def _sort_exactly(points: Floats, visits: Ints, edge: Ints, other: Ints) -> list
 
 @dataclass(frozen=True, eq=False)
 class _Groups:
-    """Bounding boxes of consecutive edges and of groups of them.
+    """Bounding boxes of edges and of groups of consecutive ones, each of one loop.
 
     ``low`` holds x and y of the lower corner of each box and −x, −y of the upper one, ``high`` the opposite corners in
     the same way: two boxes meet if no entry of one's ``low`` exceeds that of the other's ``high``.
 
     Parameters
     ----------
+    edge : (groups · size,) int
+        The edges, group after group; the last group of a loop is filled up with its last edge.
     edge_low : (4, size, groups) float
-    edge_high : (4, edges) float
-        The last group is filled up with boxes that meet nothing.
+    edge_high : (4, groups · size) float
+        Boxes of what fills up groups meet nothing.
     low, high : (4, groups) float
     heading : (groups,) uint8
         A bit for each of eight directions, those of the axes and the diagonals, in which all edges of the group get
         ahead. Consecutive groups with a bit in common make one strand that runs steadily in that direction.
     """
 
+    edge: Ints
     edge_low: Floats
     edge_high: Floats
     low: Floats
@@ -251,15 +248,16 @@ class _Groups:
     heading: Bytes
 
 
-def near_pairs(points: Floats, absent: Ints = _NONE) -> Iterator[tuple[Ints, Ints]]:
+def near_pairs(points: Floats, following: Ints, first_point: Ints) -> Iterator[tuple[Ints, Ints]]:
     """Yield, portion by portion, the pairs of edges that may cross or touch.
 
     Parameters
     ----------
     points : (n, 2) float
-        Vertices of a closed polyline; edge i runs from point i to point i + 1.
-    absent : (a,) int, optional
-        Edges that are left out.
+        Vertices of closed polylines, loop after loop; an edge runs from each to the one that follows it.
+    following : (n,) int
+    first_point : (loops + 1,) int
+        The first point of each loop, and last n.
 
     Yields
     ------
@@ -271,38 +269,51 @@ def near_pairs(points: Floats, absent: Ints = _NONE) -> Iterator[tuple[Ints, Int
     -----
     O(n log n) plus the number of pairs. Memory for a portion does not grow with their number.
     """
-    groups = _grouped(points, _GROUP, absent)
+    groups = _grouped(points, following, first_point, _GROUP)
     pairs = _few_pairs(groups)
     if pairs is None:  # long edges: a box round several of them holds too much
-        groups = _grouped(points, 1, absent)
+        groups = _grouped(points, following, first_point, 1)
         portions = _group_pairs(groups)
     else:
         portions = _portions(pairs)
     for first, second in portions:
-        yield _edge_pairs(groups, first, second, len(points))
+        yield _edge_pairs(groups, first, second, following)
 
 
-def _grouped(points: Floats, size: int, absent: Ints) -> _Groups:
-    x, y = points.T
+def _grouped(points: Floats, following: Ints, first_point: Ints, size: int) -> _Groups:
+    edge, is_filling, begins = _filled_up(first_point, size)
+    x, y = points.take(edge, axis=0).T
+    end_x, end_y = points.take(following.take(edge), axis=0).T
     # Rounding the sums keeps their order, or makes them equal.
-    start = np.array([x, y, x + y, x - y])
-    end = np.concatenate([start[:, 1:], start[:, :1]], axis=1)
+    start, end = np.array([x, y, x + y, x - y]), np.array([end_x, end_y, end_x + end_y, end_x - end_y])
     ahead = np.packbits(np.concatenate([start < end, start > end]), axis=0)
-    heading = np.bitwise_and.reduce(_in_groups(ahead, size, 255)[0], axis=0)
     lower, upper = np.minimum(start[:2], end[:2]), np.maximum(start[:2], end[:2])
     edge_low, edge_high = np.concatenate([lower, -upper]), np.concatenate([upper, -lower])
-    edge_low[:, absent], edge_high[:, absent] = np.inf, -np.inf
-    low = _in_groups(edge_low, size, np.inf)
-    high = _in_groups(edge_high, size, -np.inf)
-    return _Groups(low, edge_high, low.min(axis=1), high.max(axis=1), heading)
+    edge_low[:, is_filling], edge_high[:, is_filling] = np.inf, -np.inf
+    low, high = _in_groups(edge_low, size), _in_groups(edge_high, size)
+    heading = np.bitwise_and.reduce(_in_groups(ahead, size)[0], axis=0)
+    heading[begins[1:]] = 0  # no strand leads from one loop to the next
+    return _Groups(edge, low, edge_high, low.min(axis=1), high.max(axis=1), heading)
 
 
-def _in_groups(rows: npt.NDArray[_Number], size: int, filling: float) -> npt.NDArray[_Number]:
-    """Cut rows (r, n) into groups (r, size, groups), the last one filled up."""
-    height, n = rows.shape
-    filled = np.full((height, -(-n // size) * size), filling, dtype=rows.dtype)
-    filled[:, :n] = rows
-    return np.ascontiguousarray(filled.reshape(height, -1, size).transpose(0, 2, 1))
+def _in_groups(rows: npt.NDArray[_Number], size: int) -> npt.NDArray[_Number]:
+    """Cut rows (r, n) into groups (r, size, groups)."""
+    return np.ascontiguousarray(rows.reshape(len(rows), -1, size).transpose(0, 2, 1))
+
+
+def _filled_up(first_point: Ints, size: int) -> tuple[Ints, Ints, Ints]:
+    """Return the edges in groups, those of each loop filled up with its last one; where, and its first group."""
+    length = first_point[1:] - first_point[:-1]
+    groups = -(-length // size)
+    end = groups.cumsum()
+    if len(length) == 1:  # as below, in a fifth of the time
+        edge = np.arange(int(end[0]) * size)
+        edge[int(length[0]) :] = length[0] - 1
+        return edge, np.arange(int(length[0]), len(edge)), end - groups
+    place = count_each(groups * size)
+    last = np.repeat(length - 1, groups * size)
+    edge = np.repeat(first_point[:-1], groups * size) + np.minimum(place, last)
+    return edge, np.flatnonzero(place > last), end - groups
 
 
 def _few_pairs(groups: _Groups) -> tuple[Ints, Ints] | None:
@@ -322,10 +333,7 @@ def _group_pairs(groups: _Groups) -> Iterator[tuple[Ints, Ints]]:
     from shapely import STRtree, linestrings
 
     # Diagonals have the same bounding boxes, and are made faster.
-    corners = np.array([groups.low[:2], groups.high[:2]])
-    # Those of absent edges alone meet nothing, wherever they are said to be.
-    corners[:, :, np.isinf(groups.low[0])] = 0
-    boxes = linestrings(corners.transpose(2, 0, 1))
+    boxes = linestrings(np.array([groups.low[:2], groups.high[:2]]).transpose(2, 0, 1))
     tree = STRtree(boxes)
     for start in range(0, len(boxes), _LOOKUPS):
         first, second = tree.query(boxes[start : start + _LOOKUPS])
@@ -342,15 +350,14 @@ def _portions(pairs: tuple[Ints, Ints]) -> Iterator[tuple[Ints, Ints]]:
         yield first[start : start + _PORTION], second[start : start + _PORTION]
 
 
-def _edge_pairs(groups: _Groups, first: Ints, second: Ints, n: int) -> tuple[Ints, Ints]:
+def _edge_pairs(groups: _Groups, first: Ints, second: Ints, following: Ints) -> tuple[Ints, Ints]:
     """Return the pairs of edges that meet: of each first group those that meet the second, with its edges they meet."""
     size = groups.edge_low.shape[1]
     member, pair = _meeting(groups.edge_low, first, groups.high, second)
     first, second = first[pair] * size + member, second[pair]
     member, pair = _meeting(groups.edge_low, second, groups.edge_high, first)
-    first, second = first[pair], second[pair] * size + member
-    gap = second - first
-    apart = (gap > 1) & (gap < n - 1)
+    first, second = groups.edge.take(first[pair]), groups.edge.take(second[pair] * size + member)
+    apart = (first < second) & (following.take(first) != second) & (following.take(second) != first)
     return first[apart], second[apart]
 
 
