@@ -23,6 +23,10 @@ from plyfold.predicates import orient
 __all__ = ["CapStyle", "Course", "JoinStyle", "LineLike", "Ribbon", "Style", "ribbon", "ribbon_of_line", "style_of"]
 
 
+# Where half the width is fewer steps between doubles than this, it is rounding that leaves no ribbon, and not a bend.
+_LOST = 16
+
+
 class Course(NamedTuple):
     """A line with heights, and where in its ribbon it runs.
 
@@ -190,11 +194,14 @@ def _refuse_turning_back(line: WideLine) -> None:
 
 
 def _too_tight(line: WideLine, joint: int) -> InputError:
-    return InputError(
-        f"a bend of the line is too tight for a ribbon {2 * line.half_widths[joint]:.6g} wide",
-        where=line.points[[joint]],
-        hint="make it narrower there, or round off the bend",
-    )
+    width, where = f"a ribbon {2 * line.half_widths[joint]:.6g} wide", line.points[[joint]]
+    if line.half_widths[joint] < _LOST * np.spacing(np.abs(where).max()):
+        hint = "make it wider, or move the line towards the origin"
+        return InputError(
+            f"{width} is lost in rounding beside coordinates as large as those here", where=where, hint=hint
+        )
+    hint = "make it narrower there, or round off the bend"
+    return InputError(f"a bend of the line is too tight for {width}", where=where, hint=hint)
 
 
 def _side(line: WideLine, way: int, style: Style, closed: bool) -> Side:
