@@ -12,6 +12,7 @@ from typing import Any, overload
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, arrange, watched_arrangement, ways_apart
+from plyfold.arrangement.general_position import number_of_ways
 from plyfold.arrangement.unless import arrangement_unless
 from plyfold.clock import UNWATCHED, Clock, Watch
 from plyfold.errors import InputError, TimeLimitError
@@ -242,7 +243,11 @@ def bounds_disk(curve: OutlineLike, touching: bool = True) -> bool:
     (True, False)
     """
     arranged = arrangement_unless(curve, touches_as_no_disk)
-    return arranged is not None and any(map(_bounds_disk, ways_apart(arranged, inward=not touching)))
+    if arranged is None:
+        return False
+    if touching:
+        return any(map(_bounds_disk, ways_apart(arranged)))
+    return may_bound_disk(arranged) and bounds_strictly(arranged)
 
 
 def _bounds_disk(arranged: Arrangement) -> bool:
@@ -250,8 +255,15 @@ def _bounds_disk(arranged: Arrangement) -> bool:
 
 
 def bounds_strictly(arranged: Arrangement) -> bool:
-    """Tell whether the outline as given bounds a surface in the strict sense, which does not touch itself."""
-    return any(_bounds_surface(way, UNWATCHED) for way in ways_apart(arranged, inward=True))
+    """Tell whether the outline as given bounds a surface in the strict sense, which does not touch itself.
+
+    Moves inward tell. But where cusps lie on each other, the surface may have the one beside the other on whatever side
+    that moves, for it goes all the way round; so there the surfaces themselves are looked at.
+    """
+    if arranged.given is None or number_of_ways(arranged.given) == 1:
+        return any(_bounds_surface(way, UNWATCHED) for way in ways_apart(arranged, inward=True))
+    found = (immersion for way in ways_apart(arranged) for immersion in watched_immersions(way, UNWATCHED))
+    return any(not immersion.touches for immersion in found)
 
 
 def in_best_way(arranged: Arrangement, watch: Watch = UNWATCHED) -> Arrangement:
