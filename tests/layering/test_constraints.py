@@ -71,7 +71,6 @@ def test_a_table_that_would_be_too_large_is_not_made(monkeypatch):
     immersion = pf.find_immersion(glued_disk(np.random.default_rng(3), 400))
     assert count_layerings(immersion) == 10355447604451182452428586876928
     monkeypatch.setattr("plyfold.layering.tables._MOST_ROWS", 100)
-    monkeypatch.setattr("plyfold.layering.tables._ROWS_AT_A_TIME", 10)
     unknown = count_layerings(immersion)
     assert isinstance(unknown, Unknown)
     assert unknown.reason == "size"
