@@ -58,6 +58,16 @@ def test_counted_and_listed_as_by_trying_all(cycles):
     assert set(listed) == expected
 
 
+@settings(max_examples=100, deadline=None)
+@given(cycles_up_to)
+def test_parts_large_and_small_are_counted_alike(cycles):
+    """Whether few variables are tried in all combinations or joined as tables."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("plyfold.layering.orders.counting._FEW", 3)
+        patch.setattr("plyfold.layering.tables._FEW_VARIABLES", 3)
+        assert count_orders(demanding(cycles), Clock(None)) == len(list(all_solutions(cycles)))
+
+
 def test_orders_in_a_circle_are_named_by_cell_and_sheets():
     problem = demanding([*FANO, (1, 2, -4)], sheets=[(i % 3, 3, 4) for i in range(8)])
     obstruction = solve_orders(problem, Clock(None))

@@ -10,7 +10,7 @@ from plyfold.clock import Clock
 
 __all__ = ["elimination_order"]
 
-# Beyond so many variables in a table it hardly matters any more which ones they are.
+# Members with more neighbours come last: it hardly matters in which order.
 _MANY = 100
 
 
@@ -31,31 +31,33 @@ def elimination_order(groups: Iterable[Sequence[int]], clock: Clock) -> list[int
             beside.setdefault(member, set()).update(group)
     for member, others in beside.items():
         others.discard(member)
-    return list(clock.while_time(_taken_out(beside)))
+    return list(_taken_out(beside, clock))
 
 
-def _taken_out(beside: dict[int, set[int]]) -> Iterator[int]:
+def _taken_out(beside: dict[int, set[int]], clock: Clock) -> Iterator[int]:
     """Yield the members in order, given the neighbours of each; their sets are used up."""
-    lacking = {member: _lacking(beside, member) for member in beside}
+    lacking = {member: _lacking(beside, member, clock) for member in beside}
     waiting = [(number, member) for member, number in lacking.items()]
     heapq.heapify(waiting)
     while waiting:
         number, member = heapq.heappop(waiting)
-        if lacking.get(member) == number:
-            del lacking[member]
+        if lacking.get(member) == number and len(beside[member]) <= _MANY:
             yield member
-            for changed in _take_out(beside, lacking, member) if len(beside[member]) <= _MANY else ():
+            del lacking[member]
+            for changed in _take_out(beside, lacking, member, clock):
                 heapq.heappush(waiting, (lacking[changed], changed))
+    yield from sorted(lacking)
 
 
-def _lacking(beside: dict[int, set[int]], member: int) -> int:
+def _lacking(beside: dict[int, set[int]], member: int, clock: Clock) -> int:
     """Return how many pairs of neighbours of a member are no neighbours themselves."""
+    clock.check()
     others = beside[member]
     number = len(others)
     return (number * (number - 1) - sum(len(others & beside[other]) for other in others)) // 2
 
 
-def _take_out(beside: dict[int, set[int]], lacking: dict[int, int], member: int) -> set[int]:
+def _take_out(beside: dict[int, set[int]], lacking: dict[int, int], member: int, clock: Clock) -> set[int]:
     """Make the neighbours of a member neighbours of each other, without it; return whose pairs have changed."""
     around = beside[member]
     changed = set(around)
@@ -69,5 +71,5 @@ def _take_out(beside: dict[int, set[int]], lacking: dict[int, int], member: int)
             beside[one].add(other)
             beside[other].add(one)
     for other in around:
-        lacking[other] = _lacking(beside, other)
+        lacking[other] = _lacking(beside, other, clock)
     return changed

@@ -206,8 +206,7 @@ class _Counter:
             scope, gone = _scope(joined), gone + 1
         walk = _Walk([*joined, *self._implied(joined, set(scope))], len(joined))
         for other in scope:
-            clock.check()
-            walk.go_down(other)
+            walk.go_down(other, clock)
         steps, ways = walk.added_up(len(scope) - gone)
         factor = int(np.gcd.reduce(ways))
         self.total *= factor
@@ -274,7 +273,7 @@ class _Walk:
         self._at: dict[int, Nodes] = {number: np.zeros(1, dtype=np.int32) for number in range(len(trees))}
         self._last = [tree.places[-1] for tree in trees]
 
-    def go_down(self, place: int) -> None:
+    def go_down(self, place: int, clock: Clock) -> None:
         """Let all ways go on by one variable, with the values that all trees that have it allow."""
         after = {number: step[self._at[number]] for number, step in self._steps[place]}
         before, value = _possible(after.values(), self._n_ways)
@@ -282,6 +281,7 @@ class _Walk:
         if self._n_ways > _MOST_ROWS:
             raise TooLargeError
         for number, nodes in self._at.items():
+            clock.check()
             if number in after:
                 self._at[number] = after[number][0 if len(nodes) == 1 else before, value]
             elif len(nodes) != 1:
