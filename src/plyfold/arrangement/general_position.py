@@ -12,7 +12,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from plyfold.arrangement.crossings import Contacts, Visits
+from plyfold.arrangement.crossings import Contacts, Visits, find_contacts, order_visits
 from plyfold.arrangement.crowded_cusps import crowded_cusps, lie_inside
 from plyfold.arrangement.infinitesimal import (
     MovingPoints,
@@ -22,7 +22,7 @@ from plyfold.arrangement.infinitesimal import (
     signed_crossings,
     signed_pairs,
 )
-from plyfold.arrangement.meetings import JoinedLoops, joined_loops, meetings, visits_along
+from plyfold.arrangement.joined_loops import joined_loops
 from plyfold.arrangement.nesting import nest, same_nest
 from plyfold.arrangement.noding import node_outline
 from plyfold.arrangement.outward import are_moved, outward_vectors, winds_backward
@@ -53,7 +53,6 @@ class GeneralPosition:
         The same points in the same order where they were given, without spikes.
     numbers : (points,) int
         The number that each point has in the outline that came in.
-    joined : JoinedLoops
     visits : Visits
         Of the outline in general position.
     turned_round : bool or None
@@ -64,7 +63,6 @@ class GeneralPosition:
     outline: Outline
     given: Outline
     numbers: Ints
-    joined: JoinedLoops
     visits: Visits
     turned_round: bool | None
 
@@ -98,12 +96,11 @@ def in_general_position(
     """
     if policy not in ("perturb", "raise"):
         raise InputError(f'general_position must be "perturb" or "raise", not {policy!r}')
-    joined = _joined(outline)
-    contacts = meetings(joined, watch)
+    contacts = _contacts(outline, watch)
     if policy == "raise" or len(contacts.touches) == 0:
-        visits = visits_along(joined, contacts)
+        visits = order_visits(outline.points, outline.next_point, contacts)
         if len(contacts.touches) == 0 and len(visits.triple) == 0:
-            return GeneralPosition(outline, outline, np.arange(len(outline)), joined, visits, None)
+            return GeneralPosition(outline, outline, np.arange(len(outline)), visits, None)
         if policy == "raise":
             raise _not_general(outline, contacts, visits)
     left, kept = without_spikes(outline)
@@ -123,8 +120,8 @@ def _not_general(outline: Outline, contacts: Contacts, visits: Visits) -> Genera
     )
 
 
-def _joined(outline: Outline) -> JoinedLoops:
-    return joined_loops(outline.points, outline.first_point)
+def _contacts(outline: Outline, watch: Watch = UNWATCHED) -> Contacts:
+    return find_contacts(outline.points, outline.next_point, watch)
 
 
 def _places(outline: Outline, contacts: Contacts, visits: Visits) -> list[tuple[float, float]]:
@@ -153,7 +150,7 @@ def _directed(outline: Outline, watch: Watch) -> GeneralPosition:
 
 def touching_points(outline: Outline) -> Ints:
     """Return the points of an outline that lie on foreign edges or on each other."""
-    return np.unique(meetings(_joined(outline)).touches[:, 0])
+    return np.unique(_contacts(outline).touches[:, 0])
 
 
 # ---- moves -----------------------------------------------------------------------------------------------------------
@@ -192,7 +189,7 @@ def separated(given: Outline, sense: int, watch: Watch = UNWATCHED, way: int = 0
     -----
     Where three edges meet inside all of them, whichever way they part will do; so their ends move, too.
     """
-    touching = _Touching(given, meetings(_joined(given), watch), sense, watch)
+    touching = _Touching(given, _contacts(given, watch), sense, watch)
     stays, moves = _points_to_move(given, touching.contacts, way)
     scatter = 0
     while scatter < _ATTEMPTS:
@@ -203,14 +200,14 @@ def separated(given: Outline, sense: int, watch: Watch = UNWATCHED, way: int = 0
         moves, scatter = moves._replace(points=np.union1d(moves.points, more)), scatter + (len(more) == 0)
     raise GeneralPositionError(
         "strands touch or overlap, and are too crowded to be moved apart",
-        where=_places(given, touching.contacts, visits_along(_joined(given), touching.contacts)),
+        where=_places(given, touching.contacts, order_visits(given.points, given.next_point, touching.contacts)),
         hint="move these vertices by hand",
     )
 
 
 def number_of_ways(given: Outline) -> int:
     """Return in how many ways touching points may move: 1, but where cusps lie on each other."""
-    return crowded_cusps(given, meetings(_joined(given))).n_ways if given.has_cusps else 1
+    return crowded_cusps(given, _contacts(given)).n_ways if given.has_cusps else 1
 
 
 def _points_to_move(given: Outline, contacts: Contacts, way: int) -> tuple[Ints, _Moves]:
@@ -255,27 +252,27 @@ def _shown(touching: _Touching, points: Floats) -> GeneralPosition | Ints:
     given, contacts, _, watch = touching
     motion = begin_to_move(given.points, points, given.next_point)
     wanted, undecided = signed_crossings(motion, contacts)
-    joined = joined_loops(points, given.first_point)
-    found = meetings(joined, watch)
+    found = find_contacts(points, given.next_point, watch)
     shown = signed_pairs(found.edges, found.from_right, len(points))
     if len(undecided) or len(found.touches) or not np.array_equal(wanted, shown):
         return np.unique(undecided)
-    visits = visits_along(joined, found)
+    visits = order_visits(points, given.next_point, found)
     in_order, together = order_along_edges(motion, visits)
     right = in_order.all() and len(visits.triple) == 0
-    if len(together) or not (right and _lie_alike(motion, joined, visits)):
+    if len(together) or not (right and _lie_alike(motion, points, given.first_point, visits)):
         return np.unique(together)
     repairs = *given.repairs, *_moves(given.points, points)
     # A cusp at a tip has an angle of 360° that one sees; strands that move outward there leave next to none.
     cusps = np.concatenate(given.cusps) + (tips(given) if given.has_cusps else 0)
     outline = outline_of_points(points, given.loop_of_point, cusps, given.rows, repairs)
-    return GeneralPosition(outline, given, np.arange(len(given)), joined, visits, False)
+    return GeneralPosition(outline, given, np.arange(len(given)), visits, False)
 
 
-def _lie_alike(motion: MovingPoints, joined: JoinedLoops, visits: Visits) -> bool:
+def _lie_alike(motion: MovingPoints, points: Floats, first_point: Ints, visits: Visits) -> bool:
     """Tell whether moved loops show their outside where it is, and lie in each other, as when they begin to move."""
-    if joined.is_one_loop:
-        return same_outside(motion, joined.points)
+    if len(first_point) == 2:
+        return same_outside(motion, points)
+    joined = joined_loops(points, first_point)
     number = joined.vertex - joined.loop
     begun = replace(joined, points=motion.points[number])
     return same_nest(nest(joined, visits), nest(begun, visits, exact=motion.moved[number]))

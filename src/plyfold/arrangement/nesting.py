@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement.crossings import Visits, edge_ends
+from plyfold.arrangement.crossings import Visits
+from plyfold.arrangement.joined_loops import JoinedLoops
 from plyfold.arrangement.marks import AT_VERTEX, Mark
-from plyfold.arrangement.meetings import JoinedLoops
 from plyfold.arrays import Bools, Floats, Ints, Wholes
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.graphs import components
@@ -141,9 +141,7 @@ class _Plan:
     @cached_property
     def ends(self) -> Floats:
         """Start and end of each edge; jumps go nowhere."""
-        ends = edge_ends(self.joined.points)
-        ends[self.joined.is_jump, 1] = ends[self.joined.is_jump, 0]
-        return ends
+        return self.joined.edge_ends()
 
     @cached_property
     def first_border(self) -> Ints:
