@@ -39,7 +39,7 @@ def near_miss_polygon(seed, vertices, scale):
 
 def assert_contacts_are_right(points):
     """Crossing pairs with their senses, and touching vertices, are those of the reference."""
-    found = find_contacts(points, np.roll(np.arange(len(points)), -1))
+    found = find_contacts(points)
     vertices = reference.exact(points)
     meetings = [(m.first, m.second, m.ccw) for m in reference.meetings(vertices)]
     assert (
@@ -111,7 +111,7 @@ def test_order_of_crossings_closer_than_rounding(seed):
             pf.arrange(polygon, general_position="raise")
         return
     points = np.array(polygon)
-    visits = order_visits(points, following := np.roll(np.arange(len(points)), -1), find_contacts(points, following))
+    visits = order_visits(points, find_contacts(points))
     assert (visits.partner.tolist(), visits.ccw.tolist()) == (list(code.partner), list(code.ccw))
     assert visits.edge.tolist() == list(edges)
     assert visits.exact_signs > 0

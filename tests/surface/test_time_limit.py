@@ -94,7 +94,7 @@ class TestNothingGoesOn:
 
     def test_crossings(self):
         with pytest.raises(TimeLimitError):
-            find_contacts(PRETZEL.points, PRETZEL.next_point, self.late)
+            find_contacts(PRETZEL.points, self.late)
         with pytest.raises(TimeLimitError):
             in_general_position(PRETZEL, "perturb", self.late)
 

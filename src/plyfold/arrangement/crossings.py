@@ -1,4 +1,4 @@
-"""Where the edges of an outline cross and touch, and the crossings in exact order along it."""
+"""Where closed polylines cross themselves and each other, in exact order along them."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from plyfold.core.buffers import flat
 from plyfold.core.meetings import Meetings
 from plyfold.core.visits import VisitsAlong
 from plyfold.predicates import exact_parameter
+from plyfold.ragged import next_in_rows
 
 __all__ = ["Contacts", "Visits", "find_contacts", "order_visits"]
 
@@ -68,16 +69,16 @@ class Visits:
     exact_signs: int
 
 
-def find_contacts(points: Floats, next_point: Ints, watch: Watch = UNWATCHED) -> Contacts:
-    """Find all pairs of edges of an outline that cross or touch.
+def find_contacts(points: Floats, watch: Watch = UNWATCHED, first_point: Ints | None = None) -> Contacts:
+    """Find all pairs of edges of closed polylines that cross or touch.
 
     Parameters
     ----------
     points : (n, 2) float
-        Vertices, loop after loop.
-    next_point : (n,) int
-        Edge i runs from point i to this one.
+        Vertices, loop after loop; edge i runs from point i to the next point of its loop.
     watch : Watch, optional
+    first_point : (loops + 1,) int, optional
+        The first point of each loop, and last n; one loop by default.
 
     Returns
     -------
@@ -85,7 +86,7 @@ def find_contacts(points: Floats, next_point: Ints, watch: Watch = UNWATCHED) ->
         Exact. Cost: O(n log n) plus the number of pairs of edges whose bounding boxes meet.
     """
     watch.step()
-    found = Meetings(flat(points), flat(next_point), watch.step)
+    found = Meetings(flat(points), flat(_following(points, first_point)), watch.step)
     crossings, touches = (numbers.as_array().reshape(-1, 2) for numbers in (found.crossings, found.touches))
     return Contacts(
         edges=crossings >> [0, 1],
@@ -95,17 +96,22 @@ def find_contacts(points: Floats, next_point: Ints, watch: Watch = UNWATCHED) ->
     )
 
 
-def order_visits(points: Floats, next_point: Ints, contacts: Contacts) -> Visits:
-    """Sort the crossings of an outline along it.
+def _following(points: Floats, first_point: Ints | None) -> Ints:
+    """Return the point that follows each along its loop."""
+    return next_in_rows(np.array([0, len(points)]) if first_point is None else first_point)
+
+
+def order_visits(points: Floats, contacts: Contacts, first_point: Ints | None = None) -> Visits:
+    """Sort the crossings of closed polylines along them.
 
     Parameters
     ----------
     points : (n, 2) float
         Vertices, loop after loop.
-    next_point : (n,) int
-        Edge i runs from point i to this one.
     contacts : Contacts
-        Its crossings, from :func:`find_contacts`.
+        Their crossings, from :func:`find_contacts`.
+    first_point : (loops + 1,) int, optional
+        The first point of each loop, and last n; one loop by default.
 
     Returns
     -------
@@ -113,16 +119,16 @@ def order_visits(points: Floats, next_point: Ints, contacts: Contacts) -> Visits
         Exact: visits whose order rounding could change are sorted again with fractions.
         Cost: O(n + k log k).
     """
-    k = len(contacts.edges)
+    k, following = len(contacts.edges), _following(points, first_point)
     edge, order = contacts.edges.T.ravel(), np.empty(2 * k, dtype=np.int64)
     place, error = np.empty((2, 2 * k))
-    along = VisitsAlong(*(flat(array) for array in (points, next_point, edge, order, place, error)))
+    along = VisitsAlong(*(flat(array) for array in (points, following, edge, order, place, error)))
     runs = [
         run
         for low, high in along.unsure.as_array().reshape(-1, 2).tolist()
         for run in _runs(low, place[order[low:high]], error[order[low:high]])
     ]
-    ends, other = np.stack([points, points[next_point]]) if runs else points, contacts.edges[:, ::-1].T.ravel()
+    ends, other = np.stack([points, points[following]]) if runs else points, contacts.edges[:, ::-1].T.ravel()
     triple = [three for run in runs for three in _sort_exactly(ends, order[run], edge, other)]
     partner, ccw, point = np.empty_like(order), np.empty(2 * k, dtype=bool), np.empty((2 * k, 2))
     along.join(*(flat(array) for array in (contacts.from_right.view(np.uint8), partner, ccw.view(np.uint8), point)))

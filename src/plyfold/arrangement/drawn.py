@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from plyfold.arrangement.general_position import GeneralPosition, in_general_position
-from plyfold.arrangement.joined_loops import joined_loops
 from plyfold.arrangement.maps import CellWalk, Code, Map, in_bounded_cells, oriented, outer_dart, walked_round
 from plyfold.arrangement.marks import cusps_of_outline, with_marks
 from plyfold.arrangement.nesting import nest
@@ -63,7 +62,7 @@ def _drawn_curve(placed: GeneralPosition) -> DrawnMap:
 def _drawn_loops(placed: GeneralPosition, watch: Watch) -> DrawnMap:
     """Return the map of several loops as they are directed."""
     outline, visits = placed.outline, placed.visits
-    found = nest(joined_loops(outline.points, outline.first_point), visits, watch)
+    found = nest(placed.joined, visits, watch)
     left = windings_of_loops(visits.partner, visits.ccw, found.first_visit, found.outside, found.bridges)
     none = np.zeros(len(visits.partner), dtype=np.int64)
     code = Code(visits.partner, visits.ccw, found.first_visit, left, visits.edge, none)

@@ -8,12 +8,13 @@ made small enough for doubles to show the very same. Vertices that touch as cusp
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
 
-from plyfold.arrangement.crossings import Contacts, Visits, find_contacts, order_visits
-from plyfold.arrangement.crowded_cusps import crowded_cusps, lie_inside
+from plyfold.arrangement.crossings import Contacts, Visits
+from plyfold.arrangement.crowded_cusps import crowded_cusps, cusps_that_stay, lie_inside, stay_inside
 from plyfold.arrangement.infinitesimal import (
     MovingPoints,
     begin_to_move,
@@ -22,9 +23,9 @@ from plyfold.arrangement.infinitesimal import (
     signed_crossings,
     signed_pairs,
 )
-from plyfold.arrangement.joined_loops import joined_loops
+from plyfold.arrangement.meetings import JoinedLoops, joined_loops, meetings, visits_along
 from plyfold.arrangement.nesting import nest, same_nest
-from plyfold.arrangement.noding import node_outline
+from plyfold.arrangement.noding import Noding, node_outline
 from plyfold.arrangement.outward import are_moved, outward_vectors, winds_backward
 from plyfold.arrangement.spikes import tips, without_spikes
 from plyfold.arrays import Floats, Ints
@@ -32,7 +33,16 @@ from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GeneralPositionError, InputError
 from plyfold.outline.curve import Outline, Repair, backward_numbers, outline_of_points
 
-__all__ = ["GeneralPosition", "in_general_position", "number_of_ways", "separated", "touching_points"]
+__all__ = [
+    "GeneralPosition",
+    "InContact",
+    "in_general_position",
+    "moved_apart",
+    "number_of_ways",
+    "separated",
+    "touching_points",
+    "without_contacts",
+]
 
 # Sizes of moves as fractions of the drawing's: smaller ones where strands crowd.
 _STEPS = [2.0**-exponent for exponent in range(20, 49, 4)]
@@ -53,6 +63,7 @@ class GeneralPosition:
         The same points in the same order where they were given, without spikes.
     numbers : (points,) int
         The number that each point has in the outline that came in.
+    joined : JoinedLoops
     visits : Visits
         Of the outline in general position.
     turned_round : bool or None
@@ -63,8 +74,32 @@ class GeneralPosition:
     outline: Outline
     given: Outline
     numbers: Ints
+    joined: JoinedLoops
     visits: Visits
     turned_round: bool | None
+
+
+@dataclass(frozen=True, eq=False)
+class InContact:
+    """An outline that touches itself or has spikes.
+
+    Parameters
+    ----------
+    outline : Outline
+    left : Outline
+        What is left of it without its spikes; the same one if it has none.
+    kept : (points,) int
+        The numbers of those points.
+    """
+
+    outline: Outline
+    left: Outline
+    kept: Ints
+
+    @cached_property
+    def noding(self) -> Noding:
+        """The exact noding of what is left."""
+        return node_outline(self.left)
 
 
 def in_general_position(
@@ -96,18 +131,33 @@ def in_general_position(
     """
     if policy not in ("perturb", "raise"):
         raise InputError(f'general_position must be "perturb" or "raise", not {policy!r}')
-    contacts = _contacts(outline, watch)
+    found = without_contacts(outline, policy, watch)
+    return found if isinstance(found, GeneralPosition) else moved_apart(found, watch)
+
+
+def without_contacts(
+    outline: Outline, policy: Literal["perturb", "raise"], watch: Watch = UNWATCHED
+) -> GeneralPosition | InContact:
+    """Return an outline that is in general position as it is, or what there is to know before points of it move."""
+    joined = _joined(outline)
+    contacts = meetings(joined, watch)
     if policy == "raise" or len(contacts.touches) == 0:
-        visits = order_visits(outline.points, outline.next_point, contacts)
+        visits = visits_along(joined, contacts)
         if len(contacts.touches) == 0 and len(visits.triple) == 0:
-            return GeneralPosition(outline, outline, np.arange(len(outline)), visits, None)
+            return GeneralPosition(outline, outline, np.arange(len(outline)), joined, visits, None)
         if policy == "raise":
             raise _not_general(outline, contacts, visits)
-    left, kept = without_spikes(outline)
-    if left is outline:
-        return _directed(outline, watch)
-    rest = in_general_position(left, policy, watch)
-    return replace(rest, numbers=kept[rest.numbers])
+    return InContact(outline, *without_spikes(outline))
+
+
+def moved_apart(found: InContact, watch: Watch = UNWATCHED) -> GeneralPosition:
+    """Return an outline in contact with its touching strands moved apart."""
+    if found.left is not found.outline:
+        rest = without_contacts(found.left, "perturb", watch)
+        if isinstance(rest, GeneralPosition):
+            return replace(rest, numbers=found.kept)
+    placed = _directed(found, watch)
+    return replace(placed, numbers=found.kept[placed.numbers])
 
 
 def _not_general(outline: Outline, contacts: Contacts, visits: Visits) -> GeneralPositionError:
@@ -120,8 +170,8 @@ def _not_general(outline: Outline, contacts: Contacts, visits: Visits) -> Genera
     )
 
 
-def _contacts(outline: Outline, watch: Watch = UNWATCHED) -> Contacts:
-    return find_contacts(outline.points, outline.next_point, watch)
+def _joined(outline: Outline) -> JoinedLoops:
+    return joined_loops(outline.points, outline.first_point)
 
 
 def _places(outline: Outline, contacts: Contacts, visits: Visits) -> list[tuple[float, float]]:
@@ -132,10 +182,10 @@ def _places(outline: Outline, contacts: Contacts, visits: Visits) -> list[tuple[
     return [(float(x), float(y)) for x, y in places]
 
 
-def _directed(outline: Outline, watch: Watch) -> GeneralPosition:
+def _directed(found: InContact, watch: Watch) -> GeneralPosition:
     """Turn an outline round if its surface lies on the right, and move its points outward."""
-    turned_round = winds_backward(outline, node_outline(outline))
-    if not turned_round:
+    outline = found.left
+    if not winds_backward(outline, found.noding):
         return separated(outline, 1, watch)
     numbers = backward_numbers(outline.first_point)
     parts = (
@@ -150,7 +200,7 @@ def _directed(outline: Outline, watch: Watch) -> GeneralPosition:
 
 def touching_points(outline: Outline) -> Ints:
     """Return the points of an outline that lie on foreign edges or on each other."""
-    return np.unique(_contacts(outline).touches[:, 0])
+    return np.unique(meetings(_joined(outline)).touches[:, 0])
 
 
 # ---- moves -----------------------------------------------------------------------------------------------------------
@@ -187,9 +237,11 @@ def separated(given: Outline, sense: int, watch: Watch = UNWATCHED, way: int = 0
 
     Notes
     -----
-    Where three edges meet inside all of them, whichever way they part will do; so their ends move, too.
+    Where three edges meet inside all of them, their ends move in the same way. Whichever way they part, there are the
+    same immersions. But only if all of them, or all but two, move outward, all sheets there have a cell in common, so
+    that they lie over it in one order, as they must over the single point.
     """
-    touching = _Touching(given, _contacts(given, watch), sense, watch)
+    touching = _Touching(given, meetings(_joined(given), watch), sense, watch)
     stays, moves = _points_to_move(given, touching.contacts, way)
     scatter = 0
     while scatter < _ATTEMPTS:
@@ -200,14 +252,14 @@ def separated(given: Outline, sense: int, watch: Watch = UNWATCHED, way: int = 0
         moves, scatter = moves._replace(points=np.union1d(moves.points, more)), scatter + (len(more) == 0)
     raise GeneralPositionError(
         "strands touch or overlap, and are too crowded to be moved apart",
-        where=_places(given, touching.contacts, order_visits(given.points, given.next_point, touching.contacts)),
+        where=_places(given, touching.contacts, visits_along(_joined(given), touching.contacts)),
         hint="move these vertices by hand",
     )
 
 
 def number_of_ways(given: Outline) -> int:
     """Return in how many ways touching points may move: 1, but where cusps lie on each other."""
-    return crowded_cusps(given, _contacts(given)).n_ways if given.has_cusps else 1
+    return crowded_cusps(given, meetings(_joined(given))).n_ways if given.has_cusps else 1
 
 
 def _points_to_move(given: Outline, contacts: Contacts, way: int) -> tuple[Ints, _Moves]:
@@ -216,13 +268,14 @@ def _points_to_move(given: Outline, contacts: Contacts, way: int) -> tuple[Ints,
     All other points in contact move, and the ends of edges on which cusps lie: then these edges move outward, too.
     """
     vertex, edge = contacts.touches.T
-    is_cusp = np.concatenate(given.cusps) > 0
-    touching = np.unique(vertex)
-    stays = touching[is_cusp[touching]]
-    edges = edge[is_cusp[vertex] & lie_inside(given, contacts)]
-    points = np.setdiff1d(np.concatenate([touching, edges, given.next_point[edges]]), stays)
+    stays = cusps_that_stay(given, contacts)
     crowded = crowded_cusps(given, contacts)
-    return stays, _Moves(points, crowded.points, crowded.way(way))
+    edges = edge[stays[vertex] & lie_inside(given, contacts)]
+    if len(crowded.points):
+        # Edges of cusps that give way may go inward; so all others move outward that meet there.
+        edges = np.union1d(edges, visits_along(_joined(given), contacts).triple)
+    points = np.setdiff1d(np.concatenate([vertex, edges, given.next_point[edges]]), np.flatnonzero(stays))
+    return np.flatnonzero(stays), _Moves(points, crowded.points, crowded.way(way))
 
 
 def _moved(touching: _Touching, moves: _Moves, scatter: int) -> GeneralPosition | Ints:
@@ -238,6 +291,8 @@ def _moved(touching: _Touching, moves: _Moves, scatter: int) -> GeneralPosition 
         points[moves.others] += step * moves.vectors
         if not are_moved(given, moves.points, points[moves.points], sense).all():
             continue
+        if not stay_inside(given, touching.contacts, points, moves.others, sense):
+            continue
         found = _shown(touching, points)
         if isinstance(found, GeneralPosition) or len(found):
             return found
@@ -249,30 +304,31 @@ def _shown(touching: _Touching, points: Floats) -> GeneralPosition | Ints:
 
     Else the edges that stay together, however little they move.
     """
-    given, contacts, _, watch = touching
+    given, contacts, sense, watch = touching
     motion = begin_to_move(given.points, points, given.next_point)
     wanted, undecided = signed_crossings(motion, contacts)
-    found = find_contacts(points, given.next_point, watch)
+    joined = joined_loops(points, given.first_point)
+    found = meetings(joined, watch)
     shown = signed_pairs(found.edges, found.from_right, len(points))
     if len(undecided) or len(found.touches) or not np.array_equal(wanted, shown):
         return np.unique(undecided)
-    visits = order_visits(points, given.next_point, found)
+    visits = visits_along(joined, found)
     in_order, together = order_along_edges(motion, visits)
     right = in_order.all() and len(visits.triple) == 0
-    if len(together) or not (right and _lie_alike(motion, points, given.first_point, visits)):
+    if len(together) or not (right and _lie_alike(motion, joined, visits)):
         return np.unique(together)
     repairs = *given.repairs, *_moves(given.points, points)
-    # A cusp at a tip has an angle of 360° that one sees; strands that move outward there leave next to none.
-    cusps = np.concatenate(given.cusps) + (tips(given) if given.has_cusps else 0)
+    # A cusp at a tip has an angle of 360° that one sees; strands that move outward there leave next to none, and those
+    # that move inward next to all of it.
+    cusps = np.concatenate(given.cusps) + (tips(given) if given.has_cusps and sense > 0 else 0)
     outline = outline_of_points(points, given.loop_of_point, cusps, given.rows, repairs)
-    return GeneralPosition(outline, given, np.arange(len(given)), visits, False)
+    return GeneralPosition(outline, given, np.arange(len(given)), joined, visits, False)
 
 
-def _lie_alike(motion: MovingPoints, points: Floats, first_point: Ints, visits: Visits) -> bool:
+def _lie_alike(motion: MovingPoints, joined: JoinedLoops, visits: Visits) -> bool:
     """Tell whether moved loops show their outside where it is, and lie in each other, as when they begin to move."""
-    if len(first_point) == 2:
-        return same_outside(motion, points)
-    joined = joined_loops(points, first_point)
+    if joined.is_one_loop:
+        return same_outside(motion, joined.points)
     number = joined.vertex - joined.loop
     begun = replace(joined, points=motion.points[number])
     return same_nest(nest(joined, visits), nest(begun, visits, exact=motion.moved[number]))

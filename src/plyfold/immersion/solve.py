@@ -12,12 +12,18 @@ from typing import Any, overload
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, arrange, watched_arrangement, ways_apart
+from plyfold.arrangement.unless import arrangement_unless
 from plyfold.clock import UNWATCHED, Clock, Watch
 from plyfold.errors import InputError, TimeLimitError
 from plyfold.immersion.contradiction import no_gluing
 from plyfold.immersion.disks import count_disks, find_disks, list_disks, no_grouping, nth_disk
 from plyfold.immersion.immersion import Immersion
-from plyfold.immersion.obstructions import is_visibly_no_disk, may_bound_disk, visible_obstruction
+from plyfold.immersion.obstructions import (
+    is_visibly_no_disk,
+    may_bound_disk,
+    touches_as_no_disk,
+    visible_obstruction,
+)
 from plyfold.immersion.outlines import count_surfaces, find_surfaces, list_surfaces, nth_surface, random_surface
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.outline.given import OutlineLike
@@ -224,7 +230,8 @@ def bounds_disk(curve: OutlineLike, touching: bool = True) -> bool:
     -------
     bool
         Exact. False for several curves, and for one that bounds a disk with handles. See :func:`find_immersion` for the
-        reason and the cost.
+        reason and the cost. A "no" about a curve that touches itself comes before its points move, where its turning
+        or winding numbers tell.
 
     Examples
     --------
@@ -234,7 +241,8 @@ def bounds_disk(curve: OutlineLike, touching: bool = True) -> bool:
     >>> bounds_disk(two_triangles), bounds_disk(two_triangles, touching=False)
     (True, False)
     """
-    return any(map(_bounds_disk, ways_apart(arrange(curve), inward=not touching)))
+    arranged = arrangement_unless(curve, touches_as_no_disk)
+    return arranged is not None and any(map(_bounds_disk, ways_apart(arranged, inward=not touching)))
 
 
 def _bounds_disk(arranged: Arrangement) -> bool:

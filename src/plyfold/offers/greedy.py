@@ -18,7 +18,7 @@ from plyfold.offers.areas import Measure
 from plyfold.offers.changes import Change, Changes
 from plyfold.offers.rerouted import Move, Plan, Rerouted, Run
 
-__all__ = ["Caps", "flips", "is_within", "made_until", "numbers_allow", "rerouted_by"]
+__all__ = ["Caps", "flips", "is_within", "made_until", "numbers_allow", "rerouted_by", "wholes"]
 
 # Lobes that are too large by less than this part of the cap are looked at all the same.
 _SLACK = 0.5
@@ -51,11 +51,11 @@ def is_within(left: Rerouted, caps: Caps) -> bool:
     more = {cell: now - then for cell, (then, now) in enumerate(zip(given, left.winding, strict=True)) if now != then}
     region = Measure.of(plan.areas, flips(given, more))
     layers = Measure.of(plan.areas, {cell: abs(times) for cell, times in more.items()})
-    whole = _wholes(plan)
+    whole = wholes(plan)
     return _Spent(caps.region, whole[0]).allows(region) and _Spent(caps.layers, whole[1]).allows(layers)
 
 
-def _wholes(plan: Plan) -> tuple[Measure, Measure]:
+def wholes(plan: Plan) -> tuple[Measure, Measure]:
     """Return the covered area, and the areas of all cells, each as often as it is covered."""
     layers = {cell: abs(times) for cell, times in enumerate(plan.drawn.winding.tolist()) if times}
     return Measure.of(plan.areas, dict.fromkeys(layers, 1)), Measure.of(plan.areas, layers)
@@ -100,7 +100,7 @@ def made_until(
     moves: list[Move] = []
     while not (numbers_allow(search.left) and is_enough(search.left)):
         clock.check()
-        change = search.changes.smallest(search.left.can_be_done, search.is_allowed)
+        change = search.changes.smallest(search.look_again, search.judge)
         if change is None:
             return None
         search.make(change)
@@ -164,29 +164,29 @@ class _Search:
     left: Rerouted
     region: _Spent
     layers: _Spent
-    changes: Changes = field(default_factory=Changes)
+    changes: Changes
     # By how much areas between runs may have changed since large lobes were looked at.
     unseen: float = 0.0
 
     @classmethod
     def of(cls, plan: Plan, caps: Caps, all_lenses: bool, clock: Clock) -> _Search:
-        region, layers = _wholes(plan)
-        search = cls(
-            plan=plan,
-            all_lenses=all_lenses,
-            clock=clock,
-            left=Rerouted.of(plan),
-            region=_Spent(caps.region, region),
-            layers=_Spent(caps.layers, layers),
-        )
+        region, layers = (_Spent(part, whole) for part, whole in zip(caps, wholes(plan), strict=True))
+        changes = Changes((region.most_in_one, layers.most_in_one))
+        search = cls(plan, all_lenses, clock, Rerouted.of(plan), region, layers, changes)
         search._look_at_lobes()
         search._look_at_lenses(range(len(plan.partner)))
         return search
 
     # ---- what moves would change -------------------------------------------------------------------------------------
 
-    def is_allowed(self, change: Change) -> bool:
-        """Tell whether a change keeps all that is changed, from the drawing on, within the caps."""
+    def judge(self, change: Change) -> bool | None:
+        """Tell whether a change keeps all that is changed, from the drawing on, within the caps.
+
+        None if the move is no longer possible; it is forgotten then.
+        """
+        if not self.left.can_be_done(change.move):
+            self.changes.forget(change.move)
+            return None
         return all(spent.allows(more) for spent, more in self._added(change))
 
     def _added(self, change: Change) -> list[tuple[_Spent, Measure]]:
@@ -208,7 +208,7 @@ class _Search:
         for start, end in self._lobes_up_to(most).tolist():
             self.clock.check()
             lobe = Run(start, end)
-            if self.left.is_live[start] and Move((lobe,)) not in self.changes.of and not self.plan.has_cusp(lobe):
+            if self.left.is_live[start] and Move((lobe,)) not in self.changes and not self.plan.has_cusp(lobe):
                 self._look_at(Move((lobe,)))
 
     def _lobes_up_to(self, most: float) -> Ints:
@@ -231,35 +231,43 @@ class _Search:
     def _look_at_lenses(self, visits: Iterable[int]) -> None:
         for visit in visits:
             for lens in self.left.lenses_at(visit) if self.left.is_live[visit] else ():
-                if lens not in self.changes.of and (self.all_lenses or self.left.runs_back(lens)):
+                if lens not in self.changes and (self.all_lenses or self.left.runs_back(lens)):
                     self._look_at(lens)
 
     def _look_at(self, move: Move) -> None:
         """Find out what a move would change, as far as it is not surely too much."""
         plan, left = self.plan, self.left
-        effect = left.effect(move, self.layers.most_in_one)
-        if move.is_lens and effect.is_all and not left.is_thin(move, effect.inside):
-            return
+        effect = left.effect(move, self.changes.most)
         region = Measure.of(plan.areas, flips(left.winding, effect.times))
         layers = Measure.of(plan.areas, {cell: abs(more) for cell, more in effect.times.items()})
         borders = [dart // 2 for strand in move.runs for dart in left.darts(strand)]
-        may_be_allowed = effect.is_all and region.least <= self.region.most_in_one
-        self.changes.put(Change(plan, move, effect, region, layers, borders), may_be_allowed)
+        is_thin = not move.is_lens or left.is_thin(move, effect.inside)
+        self.changes.put(Change(plan, move, effect, region, layers, borders), effect.is_all and is_thin)
+
+    def look_again(self, move: Move) -> None:
+        """Find out what a move would change now, if it still is possible."""
+        self.clock.check()
+        if self.left.can_be_done(move):
+            self._look_at(move)
+        else:
+            self.changes.forget(move)
 
     # ---- making one --------------------------------------------------------------------------------------------------
 
     def make(self, change: Change) -> None:
-        """Make a move, and look again at those that it concerns."""
-        for spent, more in self._added(change):
+        """Make a move, and take in what it may concern."""
+        added = self._added(change)
+        for spent, more in added:
             spent.add(more)
+        if any(more.least < 0 for _, more in added):
+            self.changes.reconsider()
         cells = change.effect.inside
         beside = self.left.make(change.move, change.effect)
-        del self.changes.of[change.move]
-        for other in self.changes.out_of_date(cells, change.borders):
-            self.changes.of.pop(other, None)
-            if self.left.can_be_done(other):
-                self._look_at(other)
+        self.changes.forget(change.move)
+        once = Measure.of(self.plan.areas, dict.fromkeys(cells, 1)).most
+        often = Measure.of(self.plan.areas, {cell: 2 * abs(times) for cell, times in cells.items()}).most
+        self.changes.touch(cells, change.borders, (once, often))
         self._look_at_lenses(sorted(beside))
-        self.unseen += Measure.of(self.plan.areas, dict.fromkeys(cells, 2)).most
+        self.unseen += often
         if self.unseen > _SLACK * self.layers.most_in_one:
             self._look_at_lobes()

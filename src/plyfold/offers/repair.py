@@ -16,7 +16,7 @@ from plyfold.errors import CurveError, GeneralPositionError, InputError, TimeLim
 from plyfold.immersion.solve import bounds_disk, find_immersion
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.offers.areas import Measure
-from plyfold.offers.greedy import Caps, flips, made_until
+from plyfold.offers.greedy import Caps, flips, made_until, wholes
 from plyfold.offers.redrawn import Pen, pen_for, redrawn, traced
 from plyfold.offers.rerouted import Move, Plan, Rerouted, Run, plan_of
 from plyfold.offers.unneeded import needed
@@ -275,10 +275,10 @@ def _spikes(given: Outline) -> list[SmallChange]:
 
 def _changes(plan: Plan, pen: Pen, moves: Sequence[Move]) -> tuple[tuple[SmallChange, ...], Rerouted]:
     """Make some moves; return what they changed, and what is left."""
-    left, changes = Rerouted.of(plan), []
+    left, changes, whole = Rerouted.of(plan), [], wholes(plan)
     for move in moves:
         effect = left.effect(move)
-        region, layers = _parts(plan, left.winding, effect.times)
+        region, layers = _parts(plan, whole, left.winding, effect.times)
         strands = tuple(_strand(pen, left, run) for run in move.runs)
         size, where = diagonal(np.concatenate(strands)), min(pen.crossing(visit) for visit in move.visits)
         polygons = traced(pen, left, move, effect)
@@ -295,14 +295,14 @@ def _in_all(plan: Plan, left: Rerouted) -> tuple[float, float]:
     """Return what all moves together changed, as :func:`_parts` does."""
     given = plan.drawn.winding.tolist()
     pairs = enumerate(zip(given, left.winding, strict=True))
-    return _parts(plan, given, {cell: now - then for cell, (then, now) in pairs if now != then})
+    return _parts(plan, wholes(plan), given, {cell: now - then for cell, (then, now) in pairs if now != then})
 
 
-def _parts(plan: Plan, winding: list[int], times: Mapping[int, int]) -> tuple[float, float]:
+def _parts(
+    plan: Plan, whole: tuple[Measure, Measure], winding: list[int], times: Mapping[int, int]
+) -> tuple[float, float]:
     """Return which part of the covered area a change covers or uncovers, and which part of all layers it changes."""
-    given = plan.drawn.winding.tolist()
-    covered = _area(plan, {cell: 1 for cell, number in enumerate(given) if number})
-    layers = _area(plan, {cell: abs(number) for cell, number in enumerate(given) if number})
+    covered, layers = (measure.rounded for measure in whole)
     changed = _area(plan, flips(winding, times)), _area(plan, {cell: abs(more) for cell, more in times.items()})
     return (changed[0] / covered, changed[1] / layers) if covered else (0.0, 0.0)
 
