@@ -5,9 +5,10 @@ from collections import Counter
 import numpy as np
 
 import plyfold as pf
-from reference import contacts
+from reference import contacts, gluings
 from reference import repairs as reference
-from reference.crossings import DegenerateError
+from reference.crossings import DegenerateError, crossings
+from reference.planar_maps import may_bound_disk, reversed_code
 
 
 def drawn_by_reference(polygon):
@@ -83,10 +84,21 @@ def check_promises(outline, found, caps=(0.01, 0.2)):
 
 
 def is_disk_by_reference(outline):
-    """Whether an outline is the limit of disks, by the slow reference; None if it is too large for that."""
-    if outline.n_loops > 1 or len(outline) > 30 or pf.arrange(outline).n_crossings > 6:
+    """Whether an outline is that of a disk, by the slow reference; None if it is too large for that.
+
+    In general position by gluings of its cells, which is quick; where it touches itself, as a limit of disks.
+    """
+    if outline.n_loops > 1 or len(outline) > 40:
         return None
-    return bool(contacts.answer(outline.points.tolist()).outward)
+    points = outline.points.tolist()
+    try:
+        code = crossings(points).code
+    except DegenerateError:
+        return bool(contacts.answer(points).outward) if len(outline) <= 30 else None
+    if len(code.partner) > 12:
+        return None
+    ways = (code, reversed_code(code))
+    return any(may_bound_disk(way) and (not way.partner or bool(gluings.immersions(*way))) for way in ways)
 
 
 def as_answer(found):

@@ -27,17 +27,31 @@ def test_strokes_as_by_definition(seed):
     agree(stroke(np.random.default_rng(seed), 5), (0.01, 0.2))
 
 
-@pytest.mark.parametrize("seed", range(60))
-def test_strokes_become_disks(seed):
+@pytest.mark.parametrize("batch", range(10))
+def test_a_thousand_strokes_become_disks(batch):
+    n_changed = 0
+    for seed in range(100 * batch, 100 * batch + 100):
+        rng = np.random.default_rng(seed)
+        polygon = stroke(rng, int(rng.integers(2, 6)))
+        found = pf.repair(polygon, 0.01, 0.5)
+        if not found:
+            # The end of the stroke lies within its beginning, or there is no small repair at all.
+            assert found.reason == "repair"
+            continue
+        check_promises(polygon, found, (0.01, 0.5))
+        assert is_disk_by_reference(found.outline)
+        n_changed += bool(found.changes)
+    assert n_changed > 40
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_longer_strokes_become_disks(seed):
     rng = np.random.default_rng(seed)
-    polygon = stroke(rng, int(rng.integers(3, 25)))
+    polygon = stroke(rng, int(rng.integers(8, 25)))
     found = pf.repair(polygon, 0.01, 0.5)
     if found:
         check_promises(polygon, found, (0.01, 0.5))
         assert is_disk_by_reference(found.outline) in (True, None)
-    else:
-        # The end of the stroke lies within its beginning, or there is no small repair at all.
-        assert found.reason == "repair"
 
 
 @pytest.mark.parametrize("seed", range(25))
