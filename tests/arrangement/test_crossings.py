@@ -1,7 +1,5 @@
 """Contacts and visits against plain fractions: crowded lattices, near misses, all scales, all sizes of portions."""
 
-import importlib
-
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
@@ -13,7 +11,6 @@ from plyfold.errors import CurveError, GeneralPositionError
 from reference import crossings as reference
 from reference.random_curves import random_polygon, ribbon_outline, star_polygon
 
-crossings = importlib.import_module("plyfold.arrangement.crossings")
 SCALES = [1.0, 1e8, 1e-8, 1e149, 1e-149]
 
 
@@ -60,12 +57,10 @@ def test_contacts_on_lattices(seed, size, vertices):
     assert_contacts_are_right(points)
 
 
-@pytest.mark.parametrize("size", [1, 2, 3, 16])
-def test_contacts_with_other_groups(monkeypatch, size):
-    monkeypatch.setattr(crossings, "_GROUP", size)
-    monkeypatch.setattr(crossings, "_LOOKUPS", size)
-    for seed in range(12):
-        assert_contacts_are_right(lattice_polygon(seed, 4, 26))
+@pytest.mark.parametrize("vertices", [*range(5, 20), 31, 32, 33, 34, 65, 129])
+def test_contacts_at_the_borders_of_groups(vertices):
+    for seed in range(4):
+        assert_contacts_are_right(lattice_polygon(seed, vertices, vertices))
 
 
 @settings(max_examples=100, deadline=None)
@@ -131,20 +126,6 @@ FAMILIES = {
 
 def fields(drawn):
     return {name: value for name, value in vars(drawn).items() if isinstance(value, np.ndarray)}
-
-
-@pytest.mark.parametrize("family", FAMILIES)
-@pytest.mark.parametrize(
-    ("name", "sizes"),
-    [("_GROUP", (1, 2, 3, 100)), ("_CROWD", (0, 10**9)), ("_PORTION", (1, 2, 3)), ("_LOOKUPS", (1, 2, 3))],
-)
-def test_sizes_of_groups_and_portions_change_nothing(monkeypatch, family, name, sizes):
-    points = FAMILIES[family](np.random.default_rng(4))
-    expected = fields(pf.arrange(points, general_position="raise"))
-    for size in sizes:
-        monkeypatch.setattr(crossings, name, size)
-        found = fields(pf.arrange(points, general_position="raise"))
-        assert all(np.array_equal(found[field], value) for field, value in expected.items())
 
 
 def rotated(drawn, visits):

@@ -120,6 +120,23 @@ def test_bow_ties_are_refused():
     assert not pf.repair(EIGHT, np.nextafter(0.5, 0), 0.5)
 
 
+def test_what_exceeds_the_caps_least_is_named_and_what_changes_less_of_one_kind():
+    # A triangle with a loop at each corner. Turning its middle round changes all layers, and less of the region.
+    tips = [(-4, 0), (104, 0), (102.5, -4), (47.5, 84), (52.5, 84), (-2.5, -4)]
+    found = pf.repair(tips, 0.001)
+    assert found.value == {"region": pytest.approx(26 / 4026), "layers": pytest.approx(26 / 4026)}
+    assert "with 3 loops left out, which changes 0.646% of the region and 0.646% of the layers, or" in str(found)
+    assert "1 loop left out and 1 lens undone, which changes 0.199% of the region and 199% of the layers" in str(found)
+    assert len(found.where) == 3
+    assert pf.repair(tips, found.value["region"] * (1 + 1e-9), found.value["layers"] * (1 + 1e-9))
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_what_would_do_is_as_by_definition(seed):
+    rng = np.random.default_rng(seed)
+    agree(random_polygon(rng, int(rng.integers(4, 8))), (0.02, 0.05))
+
+
 def test_spikes_are_reported():
     found = pf.repair([(0, 0), (60, 0), (60, 60), (60, 90), (60, 60), (0, 60)])
     assert [change.kind for change in found.changes] == ["spike taken out"]
