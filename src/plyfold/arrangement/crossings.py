@@ -5,27 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TypeAlias, TypeVar
 
 import numpy as np
-import numpy.typing as npt
 
-from plyfold.arrays import Bools, Floats, Ints, Signs
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.predicates import counted_cross_sign, exact_parameter, parameter_along_edge
-from plyfold.ragged import count_each, next_in_rows
+from plyfold.core.buffers import flat
+from plyfold.core.meetings import Meetings
+from plyfold.core.visits import VisitsAlong
+from plyfold.predicates import exact_parameter
+from plyfold.ragged import next_in_rows
 
-__all__ = ["Contacts", "Visits", "find_contacts", "near_pairs", "order_visits"]
-
-Bytes: TypeAlias = npt.NDArray[np.uint8]
-_Number = TypeVar("_Number", np.float64, np.uint8)
-
-# Consecutive edges are looked at in groups of this size, unless a group meets more others than this on average.
-_GROUP = 8
-_CROWD = 24
-# How many boxes are looked up at a time, and how many pairs of groups are taken apart at a time.
-_LOOKUPS = 2**8
-_PORTION = 2**14
+__all__ = ["Contacts", "Visits", "find_contacts", "order_visits"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,110 +85,61 @@ def find_contacts(points: Floats, watch: Watch = UNWATCHED, first_point: Ints | 
     Contacts
         Exact. Cost: O(n log n) plus the number of pairs of edges whose bounding boxes meet.
     """
-    first_point = np.array([0, len(points)]) if first_point is None else first_point
-    following = next_in_rows(first_point)
-    # Neighbours need no look: where one runs back over the other, the edge beyond touches too.
-    ends = np.stack([points, points.take(following, axis=0)], axis=1)
-    parts = []
-    for first, second in near_pairs(points, following, first_point):
-        watch.step()
-        parts.append(_meetings(ends, following, first, second))
-    touches = np.concatenate([part.touches for part in parts])
+    watch.step()
+    found = Meetings(flat(points), flat(_following(points, first_point)), watch.step)
+    crossings, touches = (numbers.as_array().reshape(-1, 2) for numbers in (found.crossings, found.touches))
     return Contacts(
-        edges=np.concatenate([part.edges for part in parts]),
-        from_right=np.concatenate([part.from_right for part in parts]),
+        edges=crossings >> [0, 1],
+        from_right=crossings[:, 1] % 2 == 1,
         touches=np.unique(touches, axis=0) if len(touches) else touches,
-        exact_signs=sum(part.exact_signs for part in parts),
+        exact_signs=found.exact_signs,
     )
 
 
-def _meetings(ends: Floats, following: Ints, first: Ints, second: Ints) -> Contacts:
-    """Return the contacts of edges that are no neighbours, shape (m,) each."""
-    side, exact = _sides(ends, first, second)
-    # Edges keep apart if one of them lies on one side of the other.
-    met = side[:, 0] * side[:, 1] <= 0
-    first, second, side = first[met], second[met], side[met]
-    other_side, other_exact = _sides(ends, second, first)
-    proper = (side[:, 0] * side[:, 1] < 0) & (other_side[:, 0] * other_side[:, 1] < 0)
-    touches = [_touches(ends, following, second, first, side), _touches(ends, following, first, second, other_side)]
-    edges = np.stack([first[proper], second[proper]], axis=1)
-    return Contacts(edges, side[proper, 1] > 0, np.concatenate(touches), exact + other_exact)
+def _following(points: Floats, first_point: Ints | None) -> Ints:
+    """Return the point that follows each along its loop."""
+    return next_in_rows(np.array([0, len(points)]) if first_point is None else first_point)
 
 
-def _sides(ends: Floats, edge: Ints, other: Ints) -> tuple[Signs, int]:
-    """Return on which side of each edge the other edge starts and ends, shape (m, 2)."""
-    # To take rows is several times as fast as to index them.
-    start, end = ends.take(edge, axis=0).swapaxes(0, 1)[:, :, None]
-    return counted_cross_sign(start, end, start, ends.take(other, axis=0))
-
-
-def _touches(ends: Floats, following: Ints, edge: Ints, other: Ints, side: Signs) -> Ints:
-    """Return the rows (vertex, other edge) where an edge starts or ends on the other; ``side`` is that of its ends."""
-    on_line, end = np.nonzero(side == 0)
-    if len(on_line) == 0:
-        return np.empty((0, 2), dtype=np.int64)
-    edge, other = edge[on_line], other[on_line]
-    place, line = ends[edge, end], ends[other]
-    hit = ((line.min(axis=1) <= place) & (place <= line.max(axis=1))).all(axis=1)
-    vertex = np.where(end, following[edge], edge)
-    return np.stack([vertex[hit], other[hit]], axis=1)
-
-
-def order_visits(points: Floats, contacts: Contacts) -> Visits:
-    """Sort the crossings of a closed polyline along it.
+def order_visits(points: Floats, contacts: Contacts, first_point: Ints | None = None) -> Visits:
+    """Sort the crossings of closed polylines along them.
 
     Parameters
     ----------
     points : (n, 2) float
-        Vertices of the polyline.
+        Vertices, loop after loop.
     contacts : Contacts
-        Its crossings, from :func:`find_contacts`.
+        Their crossings, from :func:`find_contacts`.
+    first_point : (loops + 1,) int, optional
+        The first point of each loop, and last n; one loop by default.
 
     Returns
     -------
     Visits
         Exact: visits whose order rounding could change are sorted again with fractions.
-        Cost: O(k log k).
+        Cost: O(n + k log k).
     """
-    k = len(contacts.edges)
-    edge, other = contacts.edges.T.ravel(), contacts.edges[:, ::-1].T.ravel()
-    start, end = points.take(edge, axis=0), points.take((edge + 1) % len(points), axis=0)
-    across = np.arange(2 * k) - k  # the other visit to the same crossing
-    parameter, error = parameter_along_edge(start, end, start.take(across, axis=0), end.take(across, axis=0))
-    order = np.argsort(_sorting_key(edge, parameter, len(points)))
-    runs = _unsure_runs(edge[order], parameter[order], error[order])
-    triple = [three for run in runs for three in _sort_exactly(points, order[run], edge, other)]
-    rank = np.empty(2 * k, dtype=np.int64)
-    rank[order] = np.arange(2 * k)
-    crossing = start[:k] + parameter[:k, None] * (end[:k] - start[:k])
+    k, following = len(contacts.edges), _following(points, first_point)
+    edge, order = contacts.edges.T.ravel(), np.empty(2 * k, dtype=np.int64)
+    place, error = np.empty((2, 2 * k))
+    along = VisitsAlong(*(flat(array) for array in (points, following, edge, order, place, error)))
+    runs = [
+        run
+        for low, high in along.unsure.as_array().reshape(-1, 2).tolist()
+        for run in _runs(low, place[order[low:high]], error[order[low:high]])
+    ]
+    ends, other = np.stack([points, points[following]]) if runs else points, contacts.edges[:, ::-1].T.ravel()
+    triple = [three for run in runs for three in _sort_exactly(ends, order[run], edge, other)]
+    partner, ccw, point = np.empty_like(order), np.empty(2 * k, dtype=bool), np.empty((2 * k, 2))
+    along.join(*(flat(array) for array in (contacts.from_right.view(np.uint8), partner, ccw.view(np.uint8), point)))
     return Visits(
         edge=edge[order],
-        partner=rank[np.where(order < k, order + k, order - k)],
-        ccw=np.concatenate([contacts.from_right, ~contacts.from_right])[order],
-        point=np.concatenate([crossing, crossing])[order],
+        partner=partner,
+        ccw=ccw,
+        point=point,
         triple=np.array(triple, dtype=np.int64).reshape(-1, 3),
         exact_signs=contacts.exact_signs + sum(run.stop - run.start for run in runs),
     )
-
-
-def _sorting_key(edge: Ints, parameter: Floats, n: int) -> Ints:
-    """Return edge and parameter as one whole number, which sorts ten times as fast as the two.
-
-    It may confuse parameters nearer than some 1e-12; they count as unsure then.
-    """
-    bits = min(52, 62 - n.bit_length())
-    return np.asarray((edge << bits) + (parameter * (2.0**bits - 1)).astype(np.int64))
-
-
-def _unsure_runs(edge: Ints, parameter: Floats, error: Floats) -> list[slice]:
-    """Return the runs of visits, sorted by edge and parameter, whose order is left open by rounding errors."""
-    apart = parameter[1:] - parameter[:-1] > error[1:] + error[:-1]
-    near = ~(apart | (edge[1:] != edge[:-1]))
-    if not near.any():
-        return []
-    unsure = np.unique(edge[1:][near])
-    bounds = np.searchsorted(edge, [unsure, unsure + 1]).T.tolist()
-    return [run for low, high in bounds for run in _runs(low, parameter[low:high], error[low:high])]
 
 
 def _runs(start: int, parameter: Floats, error: Floats) -> Iterator[slice]:
@@ -208,162 +150,9 @@ def _runs(start: int, parameter: Floats, error: Floats) -> Iterator[slice]:
     return (slice(start + low, start + high) for low, high in pairwise(cuts) if high - low > 1)
 
 
-def _sort_exactly(points: Floats, visits: Ints, edge: Ints, other: Ints) -> list[tuple[int, int, int]]:
+def _sort_exactly(ends: Floats, visits: Ints, edge: Ints, other: Ints) -> list[tuple[int, int, int]]:
     """Sort some visits on one edge in place; return the triples of edges that meet."""
-    e, n = int(edge[visits[0]]), len(points)
-    own = points[e], points[(e + 1) % n]
-    place = {v: exact_parameter(*own, points[other[v]], points[(other[v] + 1) % n]) for v in visits.tolist()}
+    e = int(edge[visits[0]])
+    place = {v: exact_parameter(*ends[:, e], *ends[:, other[v]]) for v in visits.tolist()}
     visits[:] = sorted(place, key=lambda v: (place[v], other[v]))
     return [(e, int(other[v]), int(other[w])) for v, w in pairwise(visits.tolist()) if place[v] == place[w]]
-
-
-# ---- candidates: edges that come near each other -------------------------------------------------------------------
-
-
-@dataclass(frozen=True, eq=False)
-class _Groups:
-    """Bounding boxes of edges and of groups of consecutive ones, each of one loop.
-
-    ``low`` holds x and y of the lower corner of each box and −x, −y of the upper one, ``high`` the opposite corners in
-    the same way: two boxes meet if no entry of one's ``low`` exceeds that of the other's ``high``.
-
-    Parameters
-    ----------
-    edge : (groups · size,) int
-        The edges, group after group; the last group of a loop is filled up with its last edge.
-    edge_low : (4, size, groups) float
-    edge_high : (4, groups · size) float
-        Boxes of what fills up groups meet nothing.
-    low, high : (4, groups) float
-    heading : (groups,) uint8
-        A bit for each of eight directions, those of the axes and the diagonals, in which all edges of the group get
-        ahead. Consecutive groups with a bit in common make one strand that runs steadily in that direction.
-    """
-
-    edge: Ints
-    edge_low: Floats
-    edge_high: Floats
-    low: Floats
-    high: Floats
-    heading: Bytes
-
-
-def near_pairs(points: Floats, following: Ints, first_point: Ints) -> Iterator[tuple[Ints, Ints]]:
-    """Yield, portion by portion, the pairs of edges that may cross or touch.
-
-    Parameters
-    ----------
-    points : (n, 2) float
-        Vertices of closed polylines, loop after loop; an edge runs from each to the one that follows it.
-    following : (n,) int
-    first_point : (loops + 1,) int
-        The first point of each loop, and last n.
-
-    Yields
-    ------
-    first, second : (m,) int
-        Edges, first < second, no neighbours. Every pair whose bounding boxes meet comes once, but for edges of a
-        strand that runs steadily in some direction and so cannot meet itself. At least one portion comes.
-
-    Notes
-    -----
-    O(n log n) plus the number of pairs. Memory for a portion does not grow with their number.
-    """
-    groups = _grouped(points, following, first_point, _GROUP)
-    pairs = _few_pairs(groups)
-    if pairs is None:  # long edges: a box round several of them holds too much
-        groups = _grouped(points, following, first_point, 1)
-        portions = _group_pairs(groups)
-    else:
-        portions = _portions(pairs)
-    for first, second in portions:
-        yield _edge_pairs(groups, first, second, following)
-
-
-def _grouped(points: Floats, following: Ints, first_point: Ints, size: int) -> _Groups:
-    edge, is_filling, begins = _filled_up(first_point, size)
-    x, y = points.take(edge, axis=0).T
-    end_x, end_y = points.take(following.take(edge), axis=0).T
-    # Rounding the sums keeps their order, or makes them equal.
-    start, end = np.array([x, y, x + y, x - y]), np.array([end_x, end_y, end_x + end_y, end_x - end_y])
-    ahead = np.packbits(np.concatenate([start < end, start > end]), axis=0)
-    lower, upper = np.minimum(start[:2], end[:2]), np.maximum(start[:2], end[:2])
-    edge_low, edge_high = np.concatenate([lower, -upper]), np.concatenate([upper, -lower])
-    edge_low[:, is_filling], edge_high[:, is_filling] = np.inf, -np.inf
-    low, high = _in_groups(edge_low, size), _in_groups(edge_high, size)
-    heading = np.bitwise_and.reduce(_in_groups(ahead, size)[0], axis=0)
-    heading[begins[1:]] = 0  # no strand leads from one loop to the next
-    return _Groups(edge, low, edge_high, low.min(axis=1), high.max(axis=1), heading)
-
-
-def _in_groups(rows: npt.NDArray[_Number], size: int) -> npt.NDArray[_Number]:
-    """Cut rows (r, n) into groups (r, size, groups)."""
-    return np.ascontiguousarray(rows.reshape(len(rows), -1, size).transpose(0, 2, 1))
-
-
-def _filled_up(first_point: Ints, size: int) -> tuple[Ints, Ints, Ints]:
-    """Return the edges in groups, those of each loop filled up with its last one; where, and its first group."""
-    length = first_point[1:] - first_point[:-1]
-    groups = -(-length // size)
-    end = groups.cumsum()
-    if len(length) == 1:  # as below, in a fifth of the time
-        edge = np.arange(int(end[0]) * size)
-        edge[int(length[0]) :] = length[0] - 1
-        return edge, np.arange(int(length[0]), len(edge)), end - groups
-    place = count_each(groups * size)
-    last = np.repeat(length - 1, groups * size)
-    edge = np.repeat(first_point[:-1], groups * size) + np.minimum(place, last)
-    return edge, np.flatnonzero(place > last), end - groups
-
-
-def _few_pairs(groups: _Groups) -> tuple[Ints, Ints] | None:
-    """Return the pairs of groups that meet, or None if there are too many."""
-    found, total = [], 0
-    for first, second in _group_pairs(groups):
-        found.append((first, second))
-        total += len(first)
-        if total > _CROWD * len(groups.heading):
-            return None
-    firsts, seconds = zip(*found, strict=True)
-    return np.concatenate(firsts), np.concatenate(seconds)
-
-
-def _group_pairs(groups: _Groups) -> Iterator[tuple[Ints, Ints]]:
-    """Yield the pairs i ≤ j of groups whose boxes meet, those left out whose edges run steadily in one direction."""
-    from shapely import STRtree, linestrings
-
-    # Diagonals have the same bounding boxes, and are made faster.
-    boxes = linestrings(np.array([groups.low[:2], groups.high[:2]]).transpose(2, 0, 1))
-    tree = STRtree(boxes)
-    for start in range(0, len(boxes), _LOOKUPS):
-        first, second = tree.query(boxes[start : start + _LOOKUPS])
-        first += start
-        gap = second - first
-        unsteady = groups.heading[first] & groups.heading[second] == 0
-        wanted = (gap > 1) | ((gap >= 0) & unsteady)
-        yield first[wanted], second[wanted]
-
-
-def _portions(pairs: tuple[Ints, Ints]) -> Iterator[tuple[Ints, Ints]]:
-    first, second = pairs
-    for start in range(0, len(first) or 1, _PORTION):
-        yield first[start : start + _PORTION], second[start : start + _PORTION]
-
-
-def _edge_pairs(groups: _Groups, first: Ints, second: Ints, following: Ints) -> tuple[Ints, Ints]:
-    """Return the pairs of edges that meet: of each first group those that meet the second, with its edges they meet."""
-    size = groups.edge_low.shape[1]
-    member, pair = _meeting(groups.edge_low, first, groups.high, second)
-    first, second = first[pair] * size + member, second[pair]
-    member, pair = _meeting(groups.edge_low, second, groups.edge_high, first)
-    first, second = groups.edge.take(first[pair]), groups.edge.take(second[pair] * size + member)
-    apart = (first < second) & (following.take(first) != second) & (following.take(second) != first)
-    return first[apart], second[apart]
-
-
-def _meeting(low: Floats, group: Ints, high: Floats, box: Ints) -> tuple[Ints, Ints]:
-    """Return which members of each group meet the box beside it: (member, place in ``group``) of all that do."""
-    low, high = low.take(group, axis=2), high.take(box, axis=1)
-    near = (low[0] <= high[0]) & (low[1] <= high[1]) & (low[2] <= high[2]) & (low[3] <= high[3])
-    member, place = near.nonzero()
-    return member, place

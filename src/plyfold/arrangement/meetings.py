@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -44,6 +45,11 @@ class JoinedLoops:
         """Whether there are no jumps."""
         return int(self.loop[-1]) == 0
 
+    @cached_property
+    def vertices(self) -> Floats:
+        """The points of the outline, without the copies, shape (points, 2)."""
+        return self.points if self.is_one_loop else self.points.take(np.flatnonzero(~self.is_jump), axis=0)
+
 
 def joined_loops(points: Floats, first_point: Ints) -> JoinedLoops:
     """Return loops as one polyline; loop l has the points ``first_point[l]:first_point[l + 1]``."""
@@ -62,15 +68,9 @@ def joined_loops(points: Floats, first_point: Ints) -> JoinedLoops:
 
 def meetings(joined: JoinedLoops, watch: Watch = UNWATCHED) -> Contacts:
     """Return the pairs of edges of an outline that cross, and the vertices that lie on foreign edges."""
-    points = joined.points if joined.is_one_loop else joined.points.take(np.flatnonzero(~joined.is_jump), axis=0)
-    return find_contacts(points, watch, joined.first_point)
+    return find_contacts(joined.vertices, watch, joined.first_point)
 
 
 def visits_along(joined: JoinedLoops, contacts: Contacts) -> Visits:
     """Return the visits of an outline to its crossings, in order along one loop after the other."""
-    if joined.is_one_loop:
-        return order_visits(joined.points, contacts)
-    number = np.flatnonzero(~joined.is_jump)
-    visits = order_visits(joined.points, replace(contacts, edges=number[contacts.edges]))
-    loop = joined.loop
-    return replace(visits, edge=visits.edge - loop[visits.edge], triple=visits.triple - loop[visits.triple])
+    return order_visits(joined.vertices, contacts, joined.first_point)

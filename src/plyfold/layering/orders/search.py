@@ -305,12 +305,21 @@ class OrderProblem:
         """Return the literals that are true if the second sheets lie above the first."""
         return np.asarray(self.literal[pair_of(self.immersion, self.graph.first_pair, lower, upper)])
 
+    @cached_property
+    def _component(self) -> Ints:
+        """The number of the component of each variable: of those that constraints tie together."""
+        variable = np.abs(self.triples) - 1
+        return components(self.n_variables, *np.concatenate([variable[:, :2], variable[:, 1:]]).T)
+
+    @property
+    def parts(self) -> Ints:
+        """The component of each constraint."""
+        return np.asarray(self._component[np.abs(self.triples[:, 0]) - 1])
+
     def components(self) -> list[list[int]]:
         """Return the variables that constraints tie together, and those that are free each alone, in order."""
-        variable = np.abs(self.triples) - 1
-        ends = np.concatenate([variable[:, :2], variable[:, 1:]])
         groups: dict[int, list[int]] = {}
-        for number, label in enumerate(components(self.n_variables, *ends.T).tolist(), 1):
+        for number, label in enumerate(self._component.tolist(), 1):
             groups.setdefault(label, []).append(number)
         return list(groups.values())
 
