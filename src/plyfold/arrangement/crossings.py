@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
@@ -17,6 +18,9 @@ from plyfold.predicates import exact_parameter
 from plyfold.ragged import next_in_rows
 
 __all__ = ["Contacts", "Visits", "find_contacts", "order_visits"]
+
+# Products of two larger sides are far from the smallest doubles.
+_TINY = 1e-120
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,7 +123,8 @@ def order_visits(points: Floats, contacts: Contacts, first_point: Ints | None = 
         Exact: visits whose order rounding could change are sorted again with fractions.
         Cost: O(n + k log k).
     """
-    k, following = len(contacts.edges), _following(points, first_point)
+    k, following, exponent = len(contacts.edges), _following(points, first_point), _exponent_of_tiny(points)
+    points = np.ldexp(points, -exponent) if exponent else points
     edge, order = contacts.edges.T.ravel(), np.empty(2 * k, dtype=np.int64)
     place, error = np.empty((2, 2 * k))
     along = VisitsAlong(*(flat(array) for array in (points, following, edge, order, place, error)))
@@ -136,10 +141,16 @@ def order_visits(points: Floats, contacts: Contacts, first_point: Ints | None = 
         edge=edge[order],
         partner=partner,
         ccw=ccw,
-        point=point,
+        point=np.ldexp(point, exponent) if exponent else point,
         triple=np.array(triple, dtype=np.int64).reshape(-1, 3),
         exact_signs=contacts.exact_signs + sum(run.stop - run.start for run in runs),
     )
+
+
+def _exponent_of_tiny(points: Floats) -> int:
+    """Return the power of two that a drawing is as large as, if products of its sides would be no doubles; else 0."""
+    size = float(np.abs(points).max(initial=0.0))
+    return math.frexp(size)[1] if size < _TINY else 0
 
 
 def _runs(start: int, parameter: Floats, error: Floats) -> Iterator[slice]:
