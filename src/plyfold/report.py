@@ -50,11 +50,11 @@ A_DISK = "a disk of cloth"
 """What one curve without cusps bounds, if it bounds a surface without handles."""
 
 _SECONDS_FOR_OFFERS = 0.5
-# What does what is offered.
+# What does what is offered, given how commands name the drawing.
 _COMMANDS = {
-    "repair": "plyfold repair FILE -o OUT",
-    "cusps": "--cusps auto",
-    "fill": "plyfold split FILE --fill nonzero -o OUT",
+    "repair": "plyfold repair {} -o OUT",
+    "cusps": "plyfold check {} --cusps auto",
+    "fill": "plyfold split {} --fill nonzero -o OUT",
 }
 _SHOWN_REPAIRS = _SHOWN_CUSPS = _SHOWN_PLACES = 5
 _LONGEST_NUMBER = 12
@@ -189,7 +189,7 @@ def in_words(count: int) -> str:
     return f"about {leading:.2f} · 10^{exponent}"
 
 
-def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[str, Any]:
+def verdict(arrangement: Arrangement, time_limit: float | None = None, drawing: str = "FILE") -> dict[str, Any]:
     """Return everything that is known of an outline as plain data, ready for JSON.
 
     Parameters
@@ -198,6 +198,8 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
     time_limit : float, optional
         Seconds for the search for a layering, and, where the outline cannot be that of a disk alone, for each of the
         other questions; when they are over, ``layerable``, ``immersible`` or ``immersions`` is None: unknown.
+    drawing : str, optional
+        What stands for the drawing in the commands that are offered.
 
     Returns
     -------
@@ -240,7 +242,7 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
     if isinstance(found, Unknown):
         return figures | {"immersible": None, "immersions": None}
     if isinstance(found, Obstruction):
-        return figures | {"immersible": False, "immersions": 0} | _obstructed(found) | _offers(arrangement)
+        return figures | {"immersible": False, "immersions": 0} | _obstructed(found) | _offers(arrangement, drawing)
     count = count_immersions(arrangement, time_limit=limit)
     figures |= {"immersible": True, "immersions": None if isinstance(count, Unknown) else count}
     figures |= _surface(found) | {"sheets": int(windings.sum())}
@@ -309,15 +311,15 @@ def contacts_of(arrangement: Arrangement) -> list[list[float]]:
     return [] if given is None else np.unique(given.points[arrangement.contacts], axis=0).tolist()
 
 
-def _offers(arrangement: Arrangement) -> dict[str, Any]:
+def _offers(arrangement: Arrangement, drawing: str) -> dict[str, Any]:
     """Return what can be done about an outline that bounds no surface; of a code, nothing is said."""
     if arrangement.outline is None:
         return {}
     found = offers(arrangement, _SECONDS_FOR_OFFERS)
     listed = [] if found.repaired is None else [_repair_offer(found.repaired)]
     listed += [] if found.cusps is None else [_cusps_offer(found.cusps)]
-    fill = {"kind": "fill", "sentence": "what it paints can be cut into polygons", "command": _COMMANDS["fill"]}
-    return {"offers": [*listed, fill]}
+    listed.append({"kind": "fill", "sentence": "what it paints can be cut into polygons"})
+    return {"offers": [offer | {"command": _COMMANDS[offer["kind"]].format(drawing)} for offer in listed]}
 
 
 def repair_in_words(found: Repaired) -> str:
@@ -350,7 +352,6 @@ def _repair_offer(found: Repaired) -> dict[str, Any]:
     return {
         "kind": "repair",
         "sentence": repair_in_words(found),
-        "command": _COMMANDS["repair"],
         "surface": _repaired_surface(found),
         "changes": changes,
         "region_change": found.region_change,
@@ -377,7 +378,7 @@ def _cusps_offer(found: SuggestedCusps) -> dict[str, Any]:
     marks = [CuspMark(loop, point, turns) for (loop, point), turns in found.cusps.items()]
     cusps = _described_cusps(found.outline, marks)
     sentence = offer_in_words([*found.cusps.values()], surface, _listed_cusps(cusps))
-    return {"kind": "cusps", "sentence": sentence, "command": _COMMANDS["cusps"], "cusps": cusps, "surface": surface}
+    return {"kind": "cusps", "sentence": sentence, "cusps": cusps, "surface": surface}
 
 
 def _surface(immersion: Immersion) -> dict[str, Any]:

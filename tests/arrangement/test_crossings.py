@@ -9,6 +9,7 @@ import plyfold as pf
 from plyfold.arrangement.crossings import find_contacts, order_visits
 from plyfold.errors import CurveError, GeneralPositionError
 from reference import crossings as reference
+from reference import loops as loops_reference
 from reference.random_curves import random_polygon, ribbon_outline, star_polygon
 
 SCALES = [1.0, 1e8, 1e-8, 1e149, 1e-149]
@@ -160,3 +161,26 @@ def test_the_other_direction_gives_the_same_code(seed):
     assert np.array_equal(back.visit_edge, drawn.visit_edge)
     assert np.array_equal(back.curve.points, there)
     np.testing.assert_allclose(back.crossings, drawn.crossings, rtol=1e-9, atol=1e-6)
+
+
+def steady_loop(rng, vertices):
+    """A thin loop that begins in the middle of its long side, which runs steadily up to the right."""
+    there = np.cumsum(rng.uniform(0.1, 1.0, (vertices, 2)), axis=0) * 9 / vertices
+    back = there[-2:0:-1] + np.array([0.1, -0.1])
+    loop = np.concatenate([there, back[:: max(1, len(back) // 3)]])
+    begin = vertices // 2
+    return np.roll(loop, -begin, axis=0) - loop[begin] + rng.uniform(-2, 2) + rng.uniform(-0.3, 0.3, 2)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 2**32), st.lists(st.integers(3, 40), min_size=2, max_size=4))
+def test_contacts_of_loops_that_follow_each_other(seed, vertices):
+    """The strands of loops, one after the other, run the same way and cross: they are not one strand."""
+    rng = np.random.default_rng(seed)
+    polygons = [steady_loop(rng, count) for count in vertices]
+    first = np.cumsum([0, *map(len, polygons)])
+    found = find_contacts(np.concatenate(polygons), first_point=first)
+    meetings = loops_reference.meetings([reference.exact(points) for points in polygons])
+    numbered = [[first[place.loop] + place.edge for place in pair] for pair in meetings]
+    assert sorted(found.edges.tolist()) == sorted(map(sorted, numbered))
+    assert len(found.touches) == 0

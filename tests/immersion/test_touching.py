@@ -180,6 +180,24 @@ def test_cusps_on_each_other_give_way():
     assert pf.bounds_disk(pf.Curve(polygon, cusps=index)) == some
 
 
+# Two cusps in one place, each beside the other on the same surface: whichever moves, and whereto, there is room for it.
+CUSPS_BESIDE_EACH_OTHER = [
+    ([(1, 2), (2, 0), (2, 3), (0, 1), (2, 1), (1, 2), (1, 0), (3, 2)], [1, 0, 0, 0, 0, 1, 0, 0]),
+    ([(2, 1), (0, 2), (2, 0), (2, 2), (1, 1), (2, 1), (1, 2), (2, 0)], [1, 0, 0, 0, 0, 1, 0, 0]),
+]
+
+
+@pytest.mark.parametrize(("polygon", "index"), CUSPS_BESIDE_EACH_OTHER)
+def test_cusps_beside_each_other_touch(polygon, index):
+    """Moves inward make a disk, but there is none in the strict sense."""
+    assert reference.count_strict([exact(polygon)], [index]) == 0
+    for position in reference.positions(polygon):
+        curve = pf.Curve(position, cusps=index)
+        assert pf.bounds_disk(curve)
+        assert not pf.bounds_disk(curve, touching=False)
+        assert pf.find_immersion(curve).touches
+
+
 # ---- what the given points tell --------------------------------------------------------------------------------------
 
 

@@ -3,9 +3,8 @@
 A cusp has no outside, and no rule says where to; so there are several ways to move it, into all the sectors between the
 directions of the edges at its place. Further in or out in a sector nothing changes.
 
-First come the ways after which the sheets round the place still have one order, as over a single point: those that all
-stairs lie over, in whatever sector both have a turn more. And a cusp gives way by so little that it stays inside all
-that moves outward there.
+First come the ways after which the sheets round the place still have one order, as over a single point. And a cusp
+gives way by so little that it stays inside all that moves outward there.
 """
 
 from __future__ import annotations
@@ -127,39 +126,49 @@ def _ways_out(given: Outline, point: int, touched: Ints, held: Ints, before: Int
     angle = angle[_apart(angle)]
     middle = np.concatenate([angle, angle + np.pi]) + np.tile(np.diff(angle, append=angle[0] + np.pi) / 2, 2)
     inside = (np.sin(middle - _directions(given, held)[:, None]) > 0).sum(axis=0)
-    own, others = _seen(given, point, middle), [_seen(given, other, middle) for other in before.tolist()]
-    in_order = [sum(_is_in_order(own, other, way) for other in others) for way in range(len(middle))]
+    own, others = _stair(given, point, middle), [_stair(given, other, middle) for other in before.tolist()]
+    ways = range(len(middle))
+    in_order = [sum(_is_in_order(own, other, way, len(middle)) for other in others) for way in ways]
     middle = middle[np.lexsort((np.negative(in_order), -inside))]
     return _LITTLE * _TIMES ** len(before) * np.stack([np.cos(middle), np.sin(middle)], axis=1)
 
 
-def _seen(given: Outline, cusp: int, middle: Floats) -> Bools:
-    """Tell in which sectors a cusp has its angle that one sees, on its left: there it has a turn more."""
+class _Stair(NamedTuple):
+    """Where the turns of a surface round a cusp begin and end, in sectors from the first one on."""
+
+    start: int
+    end: int
+
+
+def _stair(given: Outline, cusp: int, middle: Floats) -> _Stair:
+    """Return the stair round a cusp, from the edge that leaves it to the one that arrives."""
     leaving, arriving = _directions(given, np.array([cusp, given.previous_point[cusp]]))
-    seen = 2 * np.pi if tips(given)[cusp] else (arriving + np.pi - leaving) % (2 * np.pi)
-    return np.asarray((middle - leaving) % (2 * np.pi) < seen)
+    start, end = np.searchsorted(middle, np.array([leaving, arriving + np.pi]) % (2 * np.pi)).tolist()
+    seen = (end - start) % len(middle) or len(middle)
+    return _Stair(start, start + seen + len(middle) * int(np.concatenate(given.cusps)[cusp]))
 
 
-def _is_in_order(own: Bools, other: Bools, way: int) -> bool:
-    """Tell whether the sheets of two cusps have one order where both have a turn more, after one moves into a sector.
+def _is_in_order(own: _Stair, other: _Stair, way: int, turn: int) -> bool:
+    """Tell whether all sheets of two stairs have one order after the first one moves into a sector.
 
-    At each of them its stair is in order with what lies there of the other. From there one comes straight to the places
-    far out in other sectors, past no edge of the other as long as that has its turn more all the way.
+    Between the two cusps they do, so the whole stair of each lies above or below what lies at its cusp of the other.
+    Sheets of both that turn together round both are in this order, if they come there: from a sector where they are,
+    straight, so less than half a turn round the other cusp. Where one ends at an edge of the other, both move over it.
     """
-    both, half = own & other, len(own) // 2
-    reached = both & (_straight(other, way) | _straight(own, (way + half) % len(own)))
-    for _ in own:
-        reached |= both & (np.roll(reached, 1) | np.roll(reached, -1))
-    return bool((reached == both).all())
+    half = turn // 2
+    for turns in range((other.start - own.end) // turn, (other.end - own.start) // turn + 1):
+        start, end = own.start + turns * turn, own.end + turns * turn
+        first, last = max(start, other.start), min(end, other.end)
+        at_other = _comes_by(way + half, turn, max(start, first - half), min(end, last + half))
+        at_own = _comes_by(way, turn, max(other.start, first - half), min(other.end, last + half))
+        if first <= last and not (at_other or at_own):
+            return False
+    return True
 
 
-def _straight(seen: Bools, start: int) -> Bools:
-    """Tell which sectors one comes to from one of them, going round by half a turn at most, within those seen."""
-    found = np.zeros_like(seen)
-    for step in (1, -1):
-        round_there = (start + step * np.arange(len(seen) // 2 + 1)) % len(seen)
-        found[round_there] |= np.logical_and.accumulate(seen[round_there])
-    return found
+def _comes_by(sector: int, turn: int, first: int, end: int) -> bool:
+    """Tell whether going round from one number of sectors to another one comes through a sector."""
+    return first + (sector - first) % turn < end
 
 
 def _directions(given: Outline, edges: Ints) -> Floats:

@@ -6,6 +6,7 @@ import argparse
 import json
 from typing import Any
 
+from plyfold.cli.drawing import named_drawing
 from plyfold.cli.inputs import DISK, NO_DISK, UNKNOWN, add_command, add_repair, add_time_limit, read_arrangement
 from plyfold.cli.progress import Stopwatch, timing
 from plyfold.loading import FOR_LAYERINGS, load_libraries
@@ -60,7 +61,7 @@ def _check(options: argparse.Namespace) -> int:
     arranged = read_arrangement(options, watch)
     load_libraries(FOR_LAYERINGS, watch)
     watch("finding immersions and layerings")
-    figures = verdict(arranged, options.time_limit)
+    figures = verdict(arranged, options.time_limit, named_drawing(options))
     watch.stop()
     if options.json:
         print(json.dumps(options.shape | figures | {"seconds": watch.seconds}), flush=True)

@@ -6,6 +6,7 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, require_one_loop
 from plyfold.arrangement.general_position import InContact
+from plyfold.arrangement.places import place_in_cell, places_of_visits
 from plyfold.arrangement.polylines import polygon_turning_number
 from plyfold.arrangement.spikes import tips
 from plyfold.arrays import Ints
@@ -91,7 +92,7 @@ def impossible_cusp(arranged: Arrangement) -> Obstruction | None:
     border = int(arranged.border_after[visit])
     sheets, needed = int(arranged.winding[arranged.left_cell[border]]), int(arranged.cusp_index[visit]) + 1
     place = f"point {int(arranged.visit_edge[visit])}" if arranged.outline else f"the start of border {border}"
-    where = tuple((x, y) for x, y in arranged.visit_point[[visit]].tolist()) if arranged.outline else ()
+    where = places_of_visits(arranged, [visit])
     sentence = (
         f"No cusp of index {needed - 1} can be at {place}: it needs {needed} sheets on its left, and there "
         f"{'is' if sheets == 1 else 'are'} {sheets}."
@@ -159,5 +160,5 @@ def negative_winding(arranged: Arrangement) -> Obstruction | None:
         return None
     who = "curve winds" if arranged.n_loops == 1 else "curves wind"
     sentence = f"The {who} {winding} times around a cell, and cloth cannot cover it a negative number of times."
-    where = (arranged.cell_point(lowest),) if arranged.outline else ()
+    where = (place_in_cell(arranged, lowest),) if arranged.outline else ()
     return Obstruction("negative winding", sentence, where, winding, arranged)

@@ -7,11 +7,13 @@ outline is asked for the gluings of its sheets.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from itertools import islice
 from typing import Any, overload
 
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, arrange, watched_arrangement, ways_apart
+from plyfold.arrangement.general_position import number_of_ways
 from plyfold.arrangement.unless import arrangement_unless
 from plyfold.clock import UNWATCHED, Clock, Watch
 from plyfold.errors import InputError, TimeLimitError
@@ -40,6 +42,9 @@ __all__ = [
     "sample_immersion",
     "watched_immersions",
 ]
+
+# So many immersions are looked at one by one.
+_FEW = 5
 
 
 @overload
@@ -242,7 +247,11 @@ def bounds_disk(curve: OutlineLike, touching: bool = True) -> bool:
     (True, False)
     """
     arranged = arrangement_unless(curve, touches_as_no_disk)
-    return arranged is not None and any(map(_bounds_disk, ways_apart(arranged, inward=not touching)))
+    if arranged is None:
+        return False
+    if touching or len(arranged.contacts) == 0:
+        return any(map(_bounds_disk, ways_apart(arranged)))
+    return may_bound_disk(arranged) and bounds_strictly(arranged)
 
 
 def _bounds_disk(arranged: Arrangement) -> bool:
@@ -250,8 +259,23 @@ def _bounds_disk(arranged: Arrangement) -> bool:
 
 
 def bounds_strictly(arranged: Arrangement) -> bool:
-    """Tell whether the outline as given bounds a surface in the strict sense, which does not touch itself."""
-    return any(_bounds_surface(way, UNWATCHED) for way in ways_apart(arranged, inward=True))
+    """Tell whether the outline as given bounds a surface in the strict sense, which does not touch itself.
+
+    A surface in the strict sense bears any small move, so one of those of the outline moved apart is the same, and
+    touches itself nowhere. Where there are too many to see each, moves inward tell: they can make many crossings. But
+    where cusps lie on each other, the surface may have the one beside the other on whatever side that moves, for it
+    goes all the way round; so there each is seen.
+    """
+    found = (immersion for way in ways_apart(arranged) for immersion in watched_immersions(way, UNWATCHED))
+    moves_tell = arranged.given is None or number_of_ways(arranged.given) == 1
+    seen = islice(found, _FEW) if moves_tell else found
+    n_touching = 0
+    for immersion in seen:
+        if not immersion.touches:
+            return True
+        n_touching += 1
+    undecided = moves_tell and n_touching == _FEW
+    return undecided and any(_bounds_surface(way, UNWATCHED) for way in ways_apart(arranged, inward=True))
 
 
 def in_best_way(arranged: Arrangement, watch: Watch = UNWATCHED) -> Arrangement:

@@ -27,8 +27,8 @@ class Change:
     plan : Plan
     move : Move
     effect : Effect
-    region, layers : Measure
-        The area that would be covered and is not, or the other way round; and all changes of winding numbers.
+    sizes : (Measure, Measure)
+        How much it changes, by what comes first and by what tells equal ones apart.
     borders : collection of int
         Those along the runs of the move.
     """
@@ -36,22 +36,22 @@ class Change:
     plan: Plan
     move: Move
     effect: Effect
-    region: Measure
-    layers: Measure
+    sizes: tuple[Measure, Measure]
     borders: Collection[int]
 
     @property
     def least(self) -> tuple[float, float]:
         """It is not less than this."""
-        return self.region.least, self.layers.least
+        return self.sizes[0].least, self.sizes[1].least
 
     def comes_before_all(self, least: tuple[float, float]) -> bool:
-        """Tell whether this comes before all changes that are at least so much: (region, layers) and what is above."""
-        return least[0] > self.region.most or (least[0] == self.region.most and least[1] > self.layers.most)
+        """Tell whether this comes before all changes that are not less than so much."""
+        first, second = self.sizes
+        return least[0] > first.most or (least[0] == first.most and least[1] > second.most)
 
     def __lt__(self, other: Change) -> bool:
         """Tell whether this is the smaller change, exactly; of equal ones, the one further left."""
-        for mine, theirs in ((self.region, other.region), (self.layers, other.layers)):
+        for mine, theirs in zip(self.sizes, other.sizes, strict=True):
             if mine.most < theirs.least or mine.least > theirs.most:
                 return mine.most < theirs.least
             if mine.times != theirs.times and mine.exact != theirs.exact:
@@ -87,7 +87,7 @@ class Changes:
 
     Parameters
     ----------
-    most : (region, layers)
+    most : (float, float)
         What changes more is surely not allowed.
     """
 
@@ -125,8 +125,8 @@ class Changes:
                 touched |= dict.fromkeys(where.get(number, ()))
         for move in touched:
             if move in self._known:
-                (region, layers), _, change, _ = self._known[move]
-                self._know(change, (max(region - by[0], 0.0), max(layers - by[1], 0.0)), is_now=False)
+                least, _, change, _ = self._known[move]
+                self._know(change, (max(least[0] - by[0], 0.0), max(least[1] - by[1], 0.0)), is_now=False)
 
     def forget(self, move: Move) -> None:
         """Forget a move: it is made, or no longer possible."""

@@ -1,6 +1,7 @@
 """Small changes of an outline until its numbers allow a surface: always the one that changes the covered region least.
 
-Of several that change it equally, the one that changes least how often it is covered; then the one furthest left.
+Of several that change it equally, the one that changes least how often it is covered; then the one furthest left. If
+that is wanted, how often it is covered counts first.
 """
 
 from __future__ import annotations
@@ -8,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -18,7 +19,9 @@ from plyfold.offers.areas import Measure
 from plyfold.offers.changes import Change, Changes
 from plyfold.offers.rerouted import Move, Plan, Rerouted, Run
 
-__all__ = ["Caps", "flips", "is_within", "made_until", "numbers_allow", "rerouted_by", "wholes"]
+__all__ = ["Aim", "Caps", "flips", "is_within", "made_until", "numbers_allow", "rerouted_by", "wholes"]
+
+_T = TypeVar("_T")
 
 # Lobes that are too large by less than this part of the cap are looked at all the same.
 _SLACK = 0.5
@@ -29,6 +32,24 @@ class Caps(NamedTuple):
 
     region: float
     layers: float
+
+
+class Aim(NamedTuple):
+    """Which moves are made, and which of them first.
+
+    Parameters
+    ----------
+    caps : Caps
+        Moves that would change more, all together, are not made.
+    all_lenses : bool
+        Whether strands in one direction change places, too; else those alone that run against each other.
+    layers_first : bool, optional
+        Whether the smallest moves are those that change winding numbers least; else those that change the region least.
+    """
+
+    caps: Caps
+    all_lenses: bool
+    layers_first: bool = False
 
 
 def numbers_allow(left: Rerouted) -> bool:
@@ -71,18 +92,13 @@ def rerouted_by(plan: Plan, moves: Iterable[Move]) -> Rerouted | None:
     return left
 
 
-def made_until(
-    plan: Plan, caps: Caps, all_lenses: bool, is_enough: Callable[[Rerouted], bool], clock: Clock
-) -> list[Move] | None:
+def made_until(plan: Plan, aim: Aim, is_enough: Callable[[Rerouted], bool], clock: Clock) -> list[Move] | None:
     """Return the smallest moves in turn with which an outline is good enough; None if none is left before.
 
     Parameters
     ----------
     plan : Plan
-    caps : Caps
-        Moves that would change more, all together, are not made.
-    all_lenses : bool
-        Whether lenses are undone, too; else loops are left out and no more.
+    aim : Aim
     is_enough : callable
         Asked of an outline whose numbers allow a surface.
     clock : Clock
@@ -96,7 +112,7 @@ def made_until(
     -----
     O(n + k log k) for small loops.
     """
-    search = _Search.of(plan, caps, all_lenses, clock)
+    search = _Search.of(plan, aim, clock)
     moves: list[Move] = []
     while not (numbers_allow(search.left) and is_enough(search.left)):
         clock.check()
@@ -154,12 +170,17 @@ class _Spent:
         self.error += more.error + np.finfo(np.float64).eps * abs(self.rounded)
 
 
+def _ordered(pair: tuple[_T, _T], layers_first: bool) -> tuple[_T, _T]:
+    """Return what is known of the region and of the layers in the order in which they count."""
+    return pair[::-1] if layers_first else pair
+
+
 @dataclass(eq=False)
 class _Search:
     """The outline on its way, what each move would change, and what has been changed."""
 
     plan: Plan
-    all_lenses: bool
+    aim: Aim
     clock: Clock
     left: Rerouted
     region: _Spent
@@ -169,10 +190,10 @@ class _Search:
     unseen: float = 0.0
 
     @classmethod
-    def of(cls, plan: Plan, caps: Caps, all_lenses: bool, clock: Clock) -> _Search:
-        region, layers = (_Spent(part, whole) for part, whole in zip(caps, wholes(plan), strict=True))
-        changes = Changes((region.most_in_one, layers.most_in_one))
-        search = cls(plan, all_lenses, clock, Rerouted.of(plan), region, layers, changes)
+    def of(cls, plan: Plan, aim: Aim, clock: Clock) -> _Search:
+        region, layers = (_Spent(part, whole) for part, whole in zip(aim.caps, wholes(plan), strict=True))
+        changes = Changes(_ordered((region.most_in_one, layers.most_in_one), aim.layers_first))
+        search = cls(plan, aim, clock, Rerouted.of(plan), region, layers, changes)
         search._look_at_lobes()
         search._look_at_lenses(range(len(plan.partner)))
         return search
@@ -231,18 +252,19 @@ class _Search:
     def _look_at_lenses(self, visits: Iterable[int]) -> None:
         for visit in visits:
             for lens in self.left.lenses_at(visit) if self.left.is_live[visit] else ():
-                if lens not in self.changes and (self.all_lenses or self.left.runs_back(lens)):
+                if lens not in self.changes and (self.aim.all_lenses or self.left.runs_back(lens)):
                     self._look_at(lens)
 
     def _look_at(self, move: Move) -> None:
         """Find out what a move would change, as far as it is not surely too much."""
         plan, left = self.plan, self.left
-        effect = left.effect(move, self.changes.most)
+        effect = left.effect(move, (self.region.most_in_one, self.layers.most_in_one))
         region = Measure.of(plan.areas, flips(left.winding, effect.times))
         layers = Measure.of(plan.areas, {cell: abs(more) for cell, more in effect.times.items()})
         borders = [dart // 2 for strand in move.runs for dart in left.darts(strand)]
         is_thin = not move.is_lens or left.is_thin(move, effect.inside)
-        self.changes.put(Change(plan, move, effect, region, layers, borders), effect.is_all and is_thin)
+        sizes = _ordered((region, layers), self.aim.layers_first)
+        self.changes.put(Change(plan, move, effect, sizes, borders), effect.is_all and is_thin)
 
     def look_again(self, move: Move) -> None:
         """Find out what a move would change now, if it still is possible."""
@@ -266,7 +288,7 @@ class _Search:
         self.changes.forget(change.move)
         once = Measure.of(self.plan.areas, dict.fromkeys(cells, 1)).most
         often = Measure.of(self.plan.areas, {cell: 2 * abs(times) for cell, times in cells.items()}).most
-        self.changes.touch(cells, change.borders, (once, often))
+        self.changes.touch(cells, change.borders, _ordered((once, often), self.aim.layers_first))
         self._look_at_lenses(sorted(beside))
         self.unseen += often
         if self.unseen > _SLACK * self.layers.most_in_one:

@@ -20,7 +20,37 @@ from plyfold.outline.ribbons.strip import Strip, strip_between
 from plyfold.outline.ribbons.walk import walk_through
 from plyfold.predicates import orient
 
-__all__ = ["CapStyle", "JoinStyle", "LineLike", "Ribbon", "Style", "ribbon", "ribbon_of_line", "style_of"]
+__all__ = ["CapStyle", "Course", "JoinStyle", "LineLike", "Ribbon", "Style", "ribbon", "ribbon_of_line", "style_of"]
+
+
+# Where half the width is fewer steps between doubles than this, it is rounding that leaves no ribbon, and not a bend.
+_LOST = 16
+
+
+class Course(NamedTuple):
+    """A line with heights, and where in its ribbon it runs.
+
+    Parameters
+    ----------
+    points : (n, 2) float
+        Those of a closed line begin and end in the middle of a segment.
+    heights : (n,) float
+    triangles : (n,) int
+        The triangle that each point is in, counted on beyond the first and the last one if the line is closed.
+    first, n_triangles : int
+        Number of the first triangle of this line's ribbon, and how many there are.
+    """
+
+    points: Floats
+    heights: Floats
+    triangles: Ints
+    first: int
+    n_triangles: int
+
+    def faces_along(self, segment: int) -> Ints:
+        """Return the triangles that a segment passes, as rows of the ribbon's ``faces``."""
+        low, high = np.sort(self.triangles[segment : segment + 2])
+        return self.first + np.arange(low, high + 1) % self.n_triangles
 
 
 class Ribbon(NamedTuple):
@@ -34,11 +64,14 @@ class Ribbon(NamedTuple):
         along their common edges they are the ribbon.
     heights : (points,) float or None
         Those of the line beside each point, if it has some.
+    courses : tuple of Course
+        Its line, if that has heights; several, where several ribbons have been put together.
     """
 
     outline: Outline
     faces: Ints
     heights: Floats | None
+    courses: tuple[Course, ...]
 
 
 def ribbon(  # noqa: PLR0913 - each option is keyword-only and independent
@@ -141,11 +174,12 @@ def ribbon_of_line(line: WideLine, style: Style) -> Ribbon:
     sides: list[Side] = []
     try:
         sides += [_side(drawn, way, style, line.closed) for way in (LEFT, RIGHT)]
-        strip = _strip(drawn, sides, style, line.closed)
+        strip, triangles = _strip(drawn, sides, style, line.closed)
     except TightBendError as error:
         raise _too_tight(drawn, _bend(drawn, sides, error.place)) from None
     outline = Outline(strip.loops, repairs=line.repairs) if line.closed else Curve(strip.loops[0], line.repairs)
-    return Ribbon(outline, strip.faces, _heights(drawn, strip))
+    course = [] if drawn.heights is None else [Course(drawn.points, drawn.heights, triangles, 0, len(strip.faces))]
+    return Ribbon(outline, strip.faces, _heights(drawn, strip), tuple(course))
 
 
 def _refuse_turning_back(line: WideLine) -> None:
@@ -160,11 +194,14 @@ def _refuse_turning_back(line: WideLine) -> None:
 
 
 def _too_tight(line: WideLine, joint: int) -> InputError:
-    return InputError(
-        f"a bend of the line is too tight for a ribbon {2 * line.half_widths[joint]:.6g} wide",
-        where=line.points[[joint]],
-        hint="make it narrower there, or round off the bend",
-    )
+    width, where = f"a ribbon {2 * line.half_widths[joint]:.6g} wide", line.points[[joint]]
+    if line.half_widths[joint] < _LOST * np.spacing(np.abs(where).max()):
+        hint = "make it wider, or move the line towards the origin"
+        return InputError(
+            f"{width} is lost in rounding beside coordinates as large as those here", where=where, hint=hint
+        )
+    hint = "make it narrower there, or round off the bend"
+    return InputError(f"a bend of the line is too tight for {width}", where=where, hint=hint)
 
 
 def _side(line: WideLine, way: int, style: Style, closed: bool) -> Side:
@@ -178,13 +215,12 @@ def _side(line: WideLine, way: int, style: Style, closed: bool) -> Side:
     return side
 
 
-def _strip(line: WideLine, sides: list[Side], style: Style, closed: bool) -> Strip:
-    """Return the strip between two sides, through which the line has been walked, without tips that are no corners."""
+def _strip(line: WideLine, sides: list[Side], style: Style, closed: bool) -> tuple[Strip, Ints]:
+    """Return the strip between two sides, without tips that are no corners, and the triangles of the line's points."""
     if closed:
         left, right = (_inner(side, 2, 2) for side in sides)
         strip = strip_between(left, right, closed)
-        walk_through(strip, line.points, closed, (line.points[:0], line.points[:0]))
-        return strip
+        return strip, walk_through(strip, line.points, closed, (line.points[:0], line.points[:0]))
     # The middle of a flat cap is a corner only where the line has a hook so short that a side joins it.
     is_tip = (line.half_widths[[0, -1]] == 0) | (style.cap == "round")
     for side in sides:
@@ -192,8 +228,8 @@ def _strip(line: WideLine, sides: list[Side], style: Style, closed: bool) -> Str
     return _first_strip(line, sides, *is_tip.tolist())
 
 
-def _first_strip(line: WideLine, sides: list[Side], at_start: bool, at_end: bool) -> Strip:
-    """Return a strip that has each tip on the right or on the left side."""
+def _first_strip(line: WideLine, sides: list[Side], at_start: bool, at_end: bool) -> tuple[Strip, Ints]:
+    """Return a strip that has each tip on the right or on the left side, and the triangles of the line's points."""
     tips = sides[0].points[[0, -1]]
     is_beyond = (tips != line.points[[0, -1]]).any(axis=1)
     beyond = tips[:1][is_beyond[:1]], tips[1:][is_beyond[1:]]
@@ -203,8 +239,7 @@ def _first_strip(line: WideLine, sides: list[Side], at_start: bool, at_end: bool
         right = _inner(sides[1], int(start or not at_start), int(end or not at_end))
         try:
             strip = strip_between(left, right, False)
-            walk_through(strip, line.points, False, beyond)
-            return strip
+            return strip, walk_through(strip, line.points, False, beyond)
         except TightBendError as error:
             failed = error
     raise failed
