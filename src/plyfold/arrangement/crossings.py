@@ -11,7 +11,7 @@ import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.core.buffers import flat
+from plyfold.core.buffers import all_flat, flat
 from plyfold.core.meetings import Meetings
 from plyfold.core.visits import VisitsAlong
 from plyfold.predicates import exact_parameter
@@ -127,7 +127,7 @@ def order_visits(points: Floats, contacts: Contacts, first_point: Ints | None = 
     points = np.ldexp(points, -exponent) if exponent else points
     edge, order = contacts.edges.T.ravel(), np.empty(2 * k, dtype=np.int64)
     place, error = np.empty((2, 2 * k))
-    along = VisitsAlong(*(flat(array) for array in (points, following, edge, order, place, error)))
+    along = VisitsAlong(*all_flat(points, following, edge, order, place, error))
     runs = [
         run
         for low, high in along.unsure.as_array().reshape(-1, 2).tolist()
@@ -136,7 +136,7 @@ def order_visits(points: Floats, contacts: Contacts, first_point: Ints | None = 
     ends, other = np.stack([points, points[following]]) if runs else points, contacts.edges[:, ::-1].T.ravel()
     triple = [three for run in runs for three in _sort_exactly(ends, order[run], edge, other)]
     partner, ccw, point = np.empty_like(order), np.empty(2 * k, dtype=bool), np.empty((2 * k, 2))
-    along.join(*(flat(array) for array in (contacts.from_right.view(np.uint8), partner, ccw.view(np.uint8), point)))
+    along.join(*all_flat(contacts.from_right.view(np.uint8), partner, ccw.view(np.uint8), point))
     return Visits(
         edge=edge[order],
         partner=partner,

@@ -7,7 +7,7 @@ from typing import Any, Protocol, TypeAlias, TypeVar, cast
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Buffer", "RealBuffer", "WholeBuffer", "flat", "real_room", "whole_room"]
+__all__ = ["Buffer", "RealBuffer", "WholeBuffer", "all_flat", "flat", "real_room", "whole_room"]
 
 _Number = TypeVar("_Number")
 
@@ -29,6 +29,11 @@ WholeBuffer: TypeAlias = Buffer[int]
 def flat(array: npt.NDArray[Any]) -> Buffer[Any]:
     """Return the numbers of an array in a row, without copying them if they are in one already."""
     return cast("Buffer[Any]", memoryview(np.ascontiguousarray(array).reshape(-1)))  # type: ignore[arg-type]
+
+
+def all_flat(*arrays: npt.NDArray[Any]) -> list[Buffer[Any]]:
+    """Return the same of several arrays."""
+    return [flat(array) for array in arrays]
 
 
 def real_room(size: int) -> RealBuffer:
