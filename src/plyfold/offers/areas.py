@@ -26,7 +26,7 @@ _UNDERFLOW = float(np.finfo(np.float64).tiny)
 
 @dataclass(frozen=True, eq=False)
 class CellAreas:
-    """The area of each cell, rounded, with a bound on its error; the unbounded one has none.
+    """The area of each cell, rounded and in a unit of its own, with a bound on its error; the unbounded one has none.
 
     Parameters
     ----------
@@ -178,7 +178,10 @@ def areas_of(drawn: Arrangement) -> CellAreas:
 
 
 def _places(drawn: Arrangement) -> tuple[Floats, Floats]:
-    """Return all points and crossings, and how far these may be from where they are said to be."""
+    """Return all points and crossings, and how far these may be from where they are said to be.
+
+    The unit is a power of two in which the drawing has size one: so areas of the smallest drawings are doubles, too.
+    """
     outline = drawn_outline(drawn)
     places = np.concatenate([outline.points, drawn.crossings])
     error = np.zeros(len(places))
@@ -186,7 +189,8 @@ def _places(drawn: Arrangement) -> tuple[Floats, Floats]:
         low, high = crossing_bounds(*_edges_that_cross(drawn))
         off = np.maximum(high - drawn.crossings, drawn.crossings - low)
         error[len(outline) :] = off.max(axis=1) + _UNDERFLOW
-    return places, error
+    unit = -int(np.frexp(np.ptp(outline.points, axis=0).max())[1])
+    return np.ldexp(places, unit), np.ldexp(error, unit)
 
 
 def _crosses(places: Floats, error: Floats, start: Ints, end: Ints, centre: Floats) -> tuple[Floats, Floats]:
