@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
-from plyfold.arrangement.arrangement import ways_apart
+from plyfold.arrangement.ways import ways_apart
 from plyfold.errors import CurveError
 from reference import contacts as reference
 from reference.contacts import Answer, may_bound, random_touching, without_spikes

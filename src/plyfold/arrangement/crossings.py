@@ -10,7 +10,7 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrays import Bools, Floats, Ints, Signs
+from plyfold.arrays import Bools, Floats, Fractions, Ints, Numbers, Signs
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.predicates import counted_cross_sign, exact_parameter, parameter_along_edge
 
@@ -149,7 +149,7 @@ def _touches(ends: Floats, edge: Ints, other: Ints, side: Signs) -> Ints:
     return np.stack([vertex[hit], other[hit]], axis=1)
 
 
-def order_visits(points: Floats, contacts: Contacts) -> Visits:
+def order_visits(points: Floats, contacts: Contacts, exact: Fractions | None = None) -> Visits:
     """Sort the crossings of a closed polyline along it.
 
     Parameters
@@ -158,6 +158,8 @@ def order_visits(points: Floats, contacts: Contacts) -> Visits:
         Vertices of the polyline.
     contacts : Contacts
         Its crossings, from :func:`find_contacts`.
+    exact : (n, 2) object, optional
+        Where the vertices are exactly, if they are no doubles, but infinitely near ``points``.
 
     Returns
     -------
@@ -170,9 +172,12 @@ def order_visits(points: Floats, contacts: Contacts) -> Visits:
     start, end = points.take(edge, axis=0), points.take((edge + 1) % len(points), axis=0)
     across = np.arange(2 * k) - k  # the other visit to the same crossing
     parameter, error = parameter_along_edge(start, end, start.take(across, axis=0), end.take(across, axis=0))
+    if exact is not None:
+        _find_unknown(exact, edge, other, parameter, error)
     order = np.argsort(_sorting_key(edge, parameter, len(points)))
     runs = _unsure_runs(edge[order], parameter[order], error[order])
-    triple = [three for run in runs for three in _sort_exactly(points, order[run], edge, other)]
+    places = points if exact is None else exact
+    triple = [three for run in runs for three in _sort_exactly(places, order[run], edge, other)]
     rank = np.empty(2 * k, dtype=np.int64)
     rank[order] = np.arange(2 * k)
     crossing = start[:k] + parameter[:k, None] * (end[:k] - start[:k])
@@ -184,6 +189,14 @@ def order_visits(points: Floats, contacts: Contacts) -> Visits:
         triple=np.array(triple, dtype=np.int64).reshape(-1, 3),
         exact_signs=contacts.exact_signs + sum(run.stop - run.start for run in runs),
     )
+
+
+def _find_unknown(exact: Fractions, edge: Ints, other: Ints, parameter: Floats, error: Floats) -> None:
+    """Put in how far along edges crossings are of which doubles tell nothing, for the edges lie on each other."""
+    for visit in np.flatnonzero(np.isinf(error)).tolist():
+        ends = ((one, (one + 1) % len(exact)) for one in (edge[visit], other[visit]))
+        parameter[visit] = exact_parameter(*(exact[end] for one in ends for end in one))
+        error[visit] = np.finfo(np.float64).eps
 
 
 def _sorting_key(edge: Ints, parameter: Floats, n: int) -> Ints:
@@ -214,7 +227,7 @@ def _runs(start: int, parameter: Floats, error: Floats) -> Iterator[slice]:
     return (slice(start + low, start + high) for low, high in pairwise(cuts) if high - low > 1)
 
 
-def _sort_exactly(points: Floats, visits: Ints, edge: Ints, other: Ints) -> list[tuple[int, int, int]]:
+def _sort_exactly(points: Numbers, visits: Ints, edge: Ints, other: Ints) -> list[tuple[int, int, int]]:
     """Sort some visits on one edge in place; return the triples of edges that meet."""
     e, n = int(edge[visits[0]]), len(points)
     own = points[e], points[(e + 1) % n]

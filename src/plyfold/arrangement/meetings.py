@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from plyfold.arrangement.crossings import Contacts, Visits, find_contacts, order_visits
-from plyfold.arrays import Bools, Floats, Ints
+from plyfold.arrays import Bools, Floats, Fractions, Ints
 from plyfold.clock import UNWATCHED, Watch
 
 __all__ = ["JoinedLoops", "joined_loops", "meetings", "visits_along"]
@@ -35,6 +35,11 @@ class JoinedLoops:
     loop: Ints
     vertex: Ints
     is_jump: Bools
+
+    @property
+    def number(self) -> Ints:
+        """The number in the outline that each point has, or the one that it is a copy of."""
+        return self.vertex - self.loop
 
     @property
     def is_one_loop(self) -> bool:
@@ -73,11 +78,15 @@ def _own_touches_left_out(joined: JoinedLoops, touches: Ints) -> Ints:
     return np.unique(rows - joined.loop[rows], axis=0)
 
 
-def visits_along(joined: JoinedLoops, contacts: Contacts) -> Visits:
-    """Return the visits of an outline to its crossings, in order along one loop after the other."""
+def visits_along(joined: JoinedLoops, contacts: Contacts, exact: Fractions | None = None) -> Visits:
+    """Return the visits of an outline to its crossings, in order along one loop after the other.
+
+    ``exact`` are the places of its points if they are no doubles, but infinitely near those of ``joined``.
+    """
     if joined.is_one_loop:
-        return order_visits(joined.points, contacts)
+        return order_visits(joined.points, contacts, exact)
     number = np.flatnonzero(~joined.is_jump)
-    visits = order_visits(joined.points, replace(contacts, edges=number[contacts.edges]))
+    contacts = replace(contacts, edges=number[contacts.edges])
+    visits = order_visits(joined.points, contacts, None if exact is None else exact[joined.number])
     loop = joined.loop
     return replace(visits, edge=visits.edge - loop[visits.edge], triple=visits.triple - loop[visits.triple])

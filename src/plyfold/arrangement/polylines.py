@@ -6,13 +6,13 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Floats, Ints, Numbers
 from plyfold.predicates import orient
 
 __all__ = ["inner_points", "polygon_turning_number", "polygon_turning_numbers", "total_winding", "winding_number"]
 
 
-def polygon_turning_number(points: Floats) -> int:
+def polygon_turning_number(points: Numbers) -> int:
     """Return the turning number of a closed polyline from its exterior angles, exactly.
 
     It counts how often the direction of the edges passes through that of the positive x axis: only signs of
@@ -26,7 +26,7 @@ def polygon_turning_number(points: Floats) -> int:
     return polygon_turning_numbers(points, np.array([0, len(points)]))[0]
 
 
-def polygon_turning_numbers(points: Floats, first: Ints) -> tuple[int, ...]:
+def polygon_turning_numbers(points: Numbers, first: Ints) -> tuple[int, ...]:
     """Return the turning numbers of several closed polylines; polyline l has points ``first[l]:first[l + 1]``."""
     following = np.arange(1, len(points) + 1)
     following[first[1:] - 1] = first[:-1]
