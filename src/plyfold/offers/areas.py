@@ -9,11 +9,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Floats, Ints, Numbers
 from plyfold.mesh.refine import chain_of, drawn_outline
 from plyfold.predicates import crossing_bounds, exact_crossings
 from plyfold.ragged import next_in_rows
@@ -22,6 +23,8 @@ __all__ = ["CellAreas", "Measure", "areas_of", "exact_places"]
 
 _ROUNDING = float(np.finfo(np.float64).eps)
 _UNDERFLOW = float(np.finfo(np.float64).tiny)
+# Points that have begun to move are by less than this part of a rounding off.
+_BEGUN = 2.0**-60
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,27 +121,26 @@ class Measure:
 def exact_places(drawn: Arrangement, numbers: Ints) -> list[tuple[Fraction, Fraction]]:
     """Return points of an outline, and crossings, which are numbered after the points, exactly."""
     outline = drawn_outline(drawn)
-    place = {number: (Fraction(x), Fraction(y)) for number, x, y in _points_among(numbers, outline.points)}
+    place = {number: (Fraction(x), Fraction(y)) for number, x, y in _points_among(numbers, drawn.exact_points)}
     crossings = np.unique(numbers[numbers >= len(outline)])
     if len(crossings):
-        ends = _edges_that_cross(drawn)[:, crossings - len(outline)]
+        ends = _edges_that_cross(drawn, drawn.exact_points)[:, crossings - len(outline)]
         found = zip(*(exact_crossings(ends, axis) for axis in (0, 1)), strict=True)
         place |= dict(zip(crossings.tolist(), found, strict=True))
     return [place[number] for number in numbers.tolist()]
 
 
-def _points_among(numbers: Ints, points: Floats) -> Iterable[tuple[int, float, float]]:
+def _points_among(numbers: Ints, points: Numbers) -> Iterable[tuple[int, Any, Any]]:
     chosen = np.unique(numbers[numbers < len(points)])
     return zip(chosen.tolist(), *points[chosen].T.tolist(), strict=True)
 
 
-def _edges_that_cross(drawn: Arrangement) -> Floats:
-    """Return the ends of the two edges at each crossing, shape (4, k, 2)."""
-    outline = drawn_outline(drawn)
+def _edges_that_cross(drawn: Arrangement, points: Numbers) -> Numbers:
+    """Return the ends of the two edges at each crossing, shape (4, k, 2), given the points of the outline."""
     first = np.flatnonzero(np.arange(len(drawn.partner)) < drawn.partner)
     edge, other = drawn.visit_edge[first], drawn.visit_edge[drawn.partner[first]]
-    following = outline.next_point
-    return outline.points[np.stack([edge, following[edge], other, following[other]])]
+    following = drawn_outline(drawn).next_point
+    return points[np.stack([edge, following[edge], other, following[other]])]
 
 
 def areas_of(drawn: Arrangement) -> CellAreas:
@@ -172,9 +174,9 @@ def _places(drawn: Arrangement) -> tuple[Floats, Floats]:
     """Return all points and crossings, and how far these may be from where they are said to be."""
     outline = drawn_outline(drawn)
     places = np.concatenate([outline.points, drawn.crossings])
-    error = np.zeros(len(places))
+    error = np.full(len(places), _BEGUN * np.spacing(np.abs(places).max()) if drawn.is_begun else 0.0)
     if drawn.n_crossings:
-        low, high = crossing_bounds(*_edges_that_cross(drawn))
+        low, high = crossing_bounds(*_edges_that_cross(drawn, outline.points))
         off = np.maximum(high - drawn.crossings, drawn.crossings - low)
         error[len(outline) :] = off.max(axis=1) + _UNDERFLOW
     return places, error

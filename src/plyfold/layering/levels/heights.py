@@ -16,7 +16,7 @@ import numpy.typing as npt
 import shapely
 
 from plyfold.arrangement.arrangement import Arrangement, arrange
-from plyfold.arrays import Bools, Floats, Ints
+from plyfold.arrays import Bools, Floats, Ints, Numbers
 from plyfold.errors import InputError, PrecisionError
 from plyfold.layering.layering import Layering, borders_beside_top, layering_of_levels
 from plyfold.obstruction import Obstruction
@@ -101,7 +101,7 @@ class _Strip(NamedTuple):
     Parameters
     ----------
     arranged : Arrangement
-    points : (n, 2) float
+    points : (n, 2) float, or object
     next_point : (n,) int
         Where the edge ends that starts at each point.
     heights : (n,) float
@@ -113,7 +113,7 @@ class _Strip(NamedTuple):
     """
 
     arranged: Arrangement
-    points: Floats
+    points: Numbers
     next_point: Ints
     heights: Floats
     faces: Ints
@@ -125,7 +125,7 @@ def _strip(ribbon: Ribbon) -> _Strip:
     arranged = arrange(ribbon.outline)
     assert arranged.outline is not None
     assert ribbon.heights is not None
-    points, following = arranged.outline.points, arranged.outline.next_point
+    points, following = arranged.exact_points, arranged.outline.next_point
     folded = ribbon.faces[orient(*points[ribbon.faces].transpose(1, 0, 2)) <= 0]
     if len(folded):
         raise PrecisionError("the ribbon touches itself where it is too thin", where=points[folded[0, :1]])
@@ -138,7 +138,7 @@ def _strip(ribbon: Ribbon) -> _Strip:
     )
 
 
-def _shares(arranged: Arrangement, points: Floats, following: Ints) -> dict[int, Fraction]:
+def _shares(arranged: Arrangement, points: Numbers, following: Ints) -> dict[int, Fraction]:
     visits = arranged.crossing_visits
     edge, other = arranged.visit_edge[visits], arranged.visit_edge[arranged.partner[visits]]
     ends = zip(points[edge], points[following[edge]], points[other], points[following[other]], strict=True)
@@ -232,7 +232,7 @@ def _place(strip: _Strip, stretch: _Stretch) -> Place:
 
 def _faces_around(strip: _Strip, places: list[Place]) -> list[list[int]]:
     """Return the triangles whose bounding boxes may hold each place."""
-    corners = strip.points[strip.faces]
+    corners = strip.points[strip.faces].astype(np.float64)
     tree = shapely.STRtree(shapely.box(*corners.min(axis=1).T, *corners.max(axis=1).T))
     # Fractions lie between the doubles next to what they are rounded to.
     rounded = np.array([[float(x), float(y)] for x, y in places]).reshape(-1, 2)
