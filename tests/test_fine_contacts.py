@@ -11,8 +11,10 @@ import plyfold as pf
 from nightly.contacts import without_touches
 from plyfold.certify import check_pieces
 from plyfold.errors import CurveError
-from reference.contacts import answer, positions
+from plyfold.report import verdict
+from reference.contacts import answer, positions, random_touching_loops, random_touching_with_cusps
 from reference.crossings import crossings_between
+from test_contacts_against_reference import reference_counts
 from touching import are_loops
 
 SHARP = (2**52, 2**52 - 1)
@@ -104,6 +106,43 @@ def test_points_that_have_begun_to_move_cross_as_the_arrangement_says(points):
     drawn = pf.arrange(points)
     code = crossings_between(drawn.begun.tolist()).code
     assert (drawn.partner.tolist(), drawn.ccw.tolist()) == (list(code.partner), list(map(bool, code.ccw)))
+
+
+def finely(rng, loops):
+    """Loops on a small grid made large, with some points one off."""
+    size = 2 ** int(rng.integers(31, 51))
+    for loop in loops:
+        coarse = np.array(loop, dtype=object)
+        off = rng.integers(-1, 2, coarse.shape) * (rng.random(coarse.shape) < 0.25)
+        yield (coarse * size + off).astype(float)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_several_loops_and_cusps(seed):
+    rng = np.random.default_rng(seed)
+    if seed % 2:
+        loops, cusps = random_touching_loops(rng), None
+    else:
+        loop, index = random_touching_with_cusps(rng, 1)
+        loops, cusps = [loop], [index]
+    outline = pf.Outline(list(finely(rng, loops)), cusps)
+    counts = reference_counts(outline)
+    if counts is None:
+        return
+    drawn = pf.arrange(outline)
+    drawn.check()
+    assert (without_touches(drawn), pf.count_immersions(drawn)) == counts
+    if counts[1]:
+        check_pieces(list(drawn.given.loops), outline.points, pf.triangulate(outline), list(drawn.given.cusps))
+
+
+@pytest.mark.parametrize("points", CROWDED)
+def test_pictures_and_reports(points):
+    drawn = pf.arrange(points)
+    assert drawn._repr_svg_().startswith("<svg")
+    assert verdict(drawn)["immersible"] == bool(pf.find_immersion(drawn))
+    mended = pf.repair(points)
+    assert not mended or pf.bounds_disk(mended.outline)
 
 
 def moved_along(points):
