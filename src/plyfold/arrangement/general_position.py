@@ -82,7 +82,8 @@ class GeneralPosition:
     @property
     def exact(self) -> Fractions | None:
         """The points in general position in fractions, where doubles do not show them; None elsewhere."""
-        return self.begun if np.array_equal(self.outline.points, self.given.points) else None
+        shown = self.begun is None or not np.array_equal(self.outline.points, self.given.points)
+        return None if shown else self.begun
 
 
 def in_general_position(
