@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrays import Bools, Floats, Numbers, Signs, Wholes
+from plyfold.arrays import Bools, Floats, Ints, Reals, Signs, Wholes
 from plyfold.compiled import called_from_loops
 
 __all__ = [
@@ -45,6 +45,8 @@ Place: TypeAlias = tuple[Fraction, Fraction]
 _ORIENT_ERROR = 6.7e-16
 # Below this size a product of two differences may have underflowed, and the bound above does not hold.
 _UNDERFLOW = 1e-290
+# Products of smaller directions are too near to that to tell much.
+_TINY_PRODUCT = 1e-250
 # Between these sizes nothing in Dekker's product of two doubles under- or overflows.
 _SMALL_PRODUCT, _LARGE_PRODUCT = 1e-250, 1e250
 _SPLITTER = 2**27 + 1
@@ -154,7 +156,7 @@ def counted_cross_sign(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: 
     return signs, count
 
 
-def _whole_cross_sign(*places: Numbers) -> tuple[Signs, int]:
+def _whole_cross_sign(*places: Reals) -> tuple[Signs, int]:
     """Return the same of fractions, or of some doubles and some fractions."""
     a, b, c, d = (whole_numbers(place) for place in places)
     along, across = _difference(a, b), _difference(c, d)
@@ -208,7 +210,7 @@ def _is_exact_difference(a: Floats, b: Floats, difference: Floats) -> Bools:
     return np.asarray((b - (difference - minus_a)) - (a + minus_a) == 0)
 
 
-def _exact(point: Numbers) -> Place:
+def _exact(point: Reals) -> Place:
     x, y = point.tolist()
     return Fraction(x), Fraction(y)
 
@@ -226,10 +228,19 @@ def parameter_along_edge(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Fl
     with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
         ab, cd, ac = b - a, d - c, c - a
         (above, above_size), (below, below_size) = _crossed(ac, cd), _crossed(ab, cd)
+        if len(tiny := np.flatnonzero(below_size < _TINY_PRODUCT)):
+            along, across = _exponents(ab[tiny]), _exponents(cd[tiny])
+            ab, cd, ac = np.ldexp(ab[tiny], along), np.ldexp(cd[tiny], across), np.ldexp(ac[tiny], along)
+            (above[tiny], above_size[tiny]), (below[tiny], below_size[tiny]) = _crossed(ac, cd), _crossed(ab, cd)
         error = _PARAMETER_ERROR * (above_size + 2 * below_size) / np.abs(below)
         parameter = np.minimum(np.maximum(above / below, 0.0), 1.0)
     known = np.isfinite(error) & np.isfinite(parameter)
     return np.where(known, parameter, 0.5), np.where(known, error, np.inf)
+
+
+def _exponents(directions: Floats) -> Ints:
+    """Return the powers of two that make directions, shape (m, 2), as long as one or so."""
+    return np.asarray(-np.frexp(np.abs(directions).max(axis=1, keepdims=True))[1], dtype=np.int64)
 
 
 def _crossed(one: Floats, other: Floats) -> tuple[Floats, Floats]:
@@ -238,7 +249,7 @@ def _crossed(one: Floats, other: Floats) -> tuple[Floats, Floats]:
     return left - right, np.abs(left) + np.abs(right) + _UNDERFLOW
 
 
-def exact_parameter(a: Numbers, b: Numbers, c: Numbers, d: Numbers) -> Fraction:
+def exact_parameter(a: Reals, b: Reals, c: Reals, d: Reals) -> Fraction:
     """Return where the edge a → b crosses the edge c → d, as an exact fraction of a → b."""
     p, q, r, s = map(_exact, (a, b, c, d))
     return exact_cross(p, r, r, s) / exact_cross(p, q, r, s)
@@ -261,7 +272,7 @@ def crossing_bounds(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats,
     return low, high
 
 
-def exact_crossings(ends: Numbers, axis: int) -> list[Fraction]:
+def exact_crossings(ends: Reals, axis: int) -> list[Fraction]:
     """Return one exact coordinate of the places where the edges a → b cross the edges c → d; ``ends`` are (4, m, 2).
 
     In whole numbers of one unit up to the last step, which takes a tenth of the time that fractions would.
@@ -279,7 +290,7 @@ def exact_crossings(ends: Numbers, axis: int) -> list[Fraction]:
     return [Fraction(n, m) * unit for n, m in zip(numerator.tolist(), below.tolist(), strict=True)]
 
 
-def whole_numbers(numbers: Numbers) -> tuple[Wholes, Fraction]:
+def whole_numbers(numbers: Reals) -> tuple[Wholes, Fraction]:
     """Return doubles, or fractions by powers of two, as whole numbers, however large, of a power of two.
 
     Examples
@@ -312,7 +323,7 @@ class Coordinates(NamedTuple):
     scratch: Any
 
 
-def as_coordinates(points: Numbers) -> Coordinates:
+def as_coordinates(points: Reals) -> Coordinates:
     """Return points for :func:`turn`, as arrays of doubles if it is exact for those, of fractions otherwise."""
     size = np.abs(points)
     if size.max(initial=0) < _LARGEST and ((size > _LEAST) | (size == 0)).all():

@@ -58,6 +58,16 @@ def test_counted_and_listed_as_by_trying_all(cycles):
     assert set(listed) == expected
 
 
+@settings(max_examples=100, deadline=None)
+@given(cycles_up_to)
+def test_parts_large_and_small_are_counted_alike(cycles):
+    """Whether few variables are tried in all combinations or joined as tables."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("plyfold.layering.orders.counting._FEW", 3)
+        patch.setattr("plyfold.layering.tables._FEW_VARIABLES", 3)
+        assert count_orders(demanding(cycles), Clock(None)) == len(list(all_solutions(cycles)))
+
+
 def test_orders_in_a_circle_are_named_by_cell_and_sheets():
     problem = demanding([*FANO, (1, 2, -4)], sheets=[(i % 3, 3, 4) for i in range(8)])
     obstruction = solve_orders(problem, Clock(None))
@@ -71,7 +81,6 @@ def test_a_table_that_would_be_too_large_is_not_made(monkeypatch):
     immersion = pf.find_immersion(glued_disk(np.random.default_rng(3), 400))
     assert count_layerings(immersion) == 10355447604451182452428586876928
     monkeypatch.setattr("plyfold.layering.tables._MOST_ROWS", 100)
-    monkeypatch.setattr("plyfold.layering.tables._ROWS_AT_A_TIME", 10)
     unknown = count_layerings(immersion)
     assert isinstance(unknown, Unknown)
     assert unknown.reason == "size"

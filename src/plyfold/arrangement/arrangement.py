@@ -29,7 +29,7 @@ from plyfold.arrangement.planar_map import (
 )
 from plyfold.arrangement.polylines import inner_points, total_winding
 from plyfold.arrangement.theorems import theorems_of
-from plyfold.arrays import Bools, Floats, Fractions, Ints, Numbers, freeze
+from plyfold.arrays import Bools, Floats, Fractions, Ints, Reals, freeze
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GaussCodeError, InputError, PlyfoldError
 from plyfold.graphs import components
@@ -276,7 +276,7 @@ class Arrangement:
         return self.begun is not None and np.array_equal(self._drawn().points, cast("Outline", self.given).points)
 
     @property
-    def exact_points(self) -> Numbers:
+    def exact_points(self) -> Reals:
         """The points of :attr:`outline` exactly: doubles, or :attr:`begun` where these do not tell."""
         return cast("Fractions", self.begun) if self.is_begun else self._drawn().points
 

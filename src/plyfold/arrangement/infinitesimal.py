@@ -18,9 +18,17 @@ import numpy as np
 
 from plyfold.arrangement.crossings import Contacts, Visits
 from plyfold.arrays import Bools, Floats, Fractions, Ints, Signs, Wholes
-from plyfold.predicates import orient, parameter_along_edge, signs_of, whole_numbers
+from plyfold.predicates import exact_parameter, orient, parameter_along_edge, signs_of, whole_numbers
 
-__all__ = ["MovingPoints", "begin_to_move", "begun_crossings", "order_along_edges", "same_outside", "signed_pairs"]
+__all__ = [
+    "MovingPoints",
+    "begin_to_move",
+    "begun_crossings",
+    "begun_visits",
+    "order_along_edges",
+    "same_outside",
+    "signed_pairs",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,6 +149,29 @@ def order_along_edges(motion: MovingPoints, visits: Visits) -> tuple[Bools, Ints
     order = _order(motion, triples)
     in_order[unsure] = order < 0
     return in_order, triples[order == 0]
+
+
+def begun_visits(motion: MovingPoints, crossings: Contacts) -> Visits:
+    """Return the visits to crossings, from :func:`begun_crossings`, in order when points have begun to move."""
+    k = len(crossings.edges)
+    edge, other = crossings.edges.T.ravel(), crossings.edges[:, ::-1].T.ravel()
+    edges = np.stack([edge, motion.next_point[edge], other, motion.next_point[other]], axis=1)
+    ends = motion.places[edges]
+    share = np.array([exact_parameter(*four) for four in ends], dtype=object)
+    order = np.array(sorted(range(2 * k), key=lambda visit: (edge[visit], share[visit])), dtype=np.int64)
+    rank = np.empty_like(order)
+    rank[order] = np.arange(2 * k)
+    start, end = ends[:, 0], ends[:, 1]
+    together = np.flatnonzero((np.diff(edge[order]) == 0) & (share[order][1:] == share[order][:-1]))
+    met = order[np.stack([together, together + 1])]
+    return Visits(
+        edge=edge[order],
+        partner=rank[(order + k) % max(2 * k, 1)],
+        ccw=np.concatenate([crossings.from_right, ~crossings.from_right])[order],
+        point=(start + share[:, None] * (end - start))[order].astype(np.float64),
+        triple=np.stack([edge[met[0]], *other[met]], axis=1),
+        exact_signs=crossings.exact_signs + 2 * k,
+    )
 
 
 def same_outside(motion: MovingPoints, points: Floats) -> bool:

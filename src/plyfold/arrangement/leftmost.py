@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from plyfold.arrays import Ints, Numbers
+from plyfold.arrays import Ints, Reals
 from plyfold.predicates import crossing_bounds, exact_crossings
 
 __all__ = ["leftmost_crossing"]
 
 
-def leftmost_crossing(points: Numbers, edge: Ints, other: Ints) -> int:
+def leftmost_crossing(points: Reals, edge: Ints, other: Ints) -> int:
     """Return which of the places where edges of a closed polyline cross lies leftmost, and lowest of several.
 
     Parameters
@@ -40,18 +40,18 @@ def leftmost_crossing(points: Numbers, edge: Ints, other: Ints) -> int:
     return int(near[0])
 
 
-def _near_left(x: Numbers, edge: Ints, other: Ints) -> Ints:
+def _near_left(x: Reals, edge: Ints, other: Ints) -> Ints:
     """Return the crossings that may be leftmost, as far as the ends of their edges tell."""
     (left, right), (other_left, other_right) = _sides(x, edge), _sides(x, other)
     return np.flatnonzero(np.maximum(left, other_left) <= np.minimum(right, other_right).min())
 
 
-def _sides(x: Numbers, edge: Ints) -> tuple[Numbers, Numbers]:
+def _sides(x: Reals, edge: Ints) -> tuple[Reals, Reals]:
     start, end = x[edge], x[(edge + 1) % len(x)]
     return np.minimum(start, end), np.maximum(start, end)
 
 
-def _least(ends: Numbers, axis: int) -> Ints:
+def _least(ends: Reals, axis: int) -> Ints:
     """Return the crossings whose coordinate is least, one or several; ``ends`` of their edges has shape (4, m, 2)."""
     least = np.arange(ends.shape[1])
     if ends.dtype != object:

@@ -8,7 +8,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrays import Floats, Ints, Numbers
+from plyfold.arrays import Floats, Ints, Reals
 from plyfold.compiled import called_from_loops
 from plyfold.immersion.corners import feet
 from plyfold.mesh.refine import drawn_outline
@@ -37,7 +37,7 @@ class SweepPlan(NamedTuple):
     """
 
     points: Floats
-    exact: Numbers
+    exact: Reals
     following: Ints
     n_vertices: int
     bridges: Ints
@@ -79,13 +79,13 @@ def sweep_plan(arrangement: Arrangement, bridges: Ints, tilt: float = TILTS[0]) 
     )
 
 
-def _ends_of_bridges(start: Numbers, end: Floats) -> Numbers:
+def _ends_of_bridges(start: Reals, end: Floats) -> Reals:
     """Return where bridges end, or other places on the same level: they run to the left, however short they are."""
     x, y = start.T
     return np.column_stack([end[:, 0] if start.dtype != object else x - 1, y])
 
 
-def _leave_above(points: Numbers, next_point: Ints, edge: Ints, tilt: float) -> Ints:
+def _leave_above(points: Reals, next_point: Ints, edge: Ints, tilt: float) -> Ints:
     """Tell whether what leaves edges to the right is above them on the line: they fall as the line comes along them."""
     start, end = points[edge], points[next_point[edge]]
     along = cross_sign(start, end, np.zeros(2), np.array([-tilt, 1.0]))

@@ -18,13 +18,13 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.noding import Strands, exact_ranks, strands_of
-from plyfold.arrays import Bools, Complexes, Floats, Ints, Numbers, freeze
+from plyfold.arrays import Bools, Complexes, Floats, Ints, Reals, freeze
 from plyfold.errors import PrecisionError
 from plyfold.mesh.begun import drawings_of
 from plyfold.mesh.refine import NodedCurve, borders_passed, is_moved, unit_square
 from plyfold.outline.curve import Outline
 
-__all__ = ["Strips", "cells_left", "loop_left", "noded_strips", "strips_of", "turns_unseen"]
+__all__ = ["Strips", "as_numbers", "cells_left", "loop_left", "noded_strips", "strips_of", "turns_unseen"]
 
 # Where on a part strands are compared, as shares of its length: at the first one where all are apart.
 _SHARES = (0.4375, 0.59375, 0.296875, 0.71875, 0.515625)
@@ -147,8 +147,8 @@ def loop_left(arrangement: Arrangement, places: Floats, faces: Ints, loop: Ints)
     The mesh lies over the given points; where the outline touches itself in a cusp, it may have less turns left.
     """
     given = _drawn(arrangement.given)
-    corners = loop[np.isin(_numbers(places[loop]), _numbers(given.points))]
-    is_cusp = np.isin(_numbers(places[corners]), _numbers(given.points[np.concatenate(given.cusps) > 0]))
+    corners = loop[np.isin(as_numbers(places[loop]), as_numbers(given.points))]
+    is_cusp = np.isin(as_numbers(places[corners]), as_numbers(given.points[np.concatenate(given.cusps) > 0]))
     return places[corners], np.where(is_cusp, turns_unseen(places, faces)[corners], 0)
 
 
@@ -157,7 +157,7 @@ def turns_unseen(places: Floats, faces: Ints) -> Ints:
 
     Copies of a triangle of the drawing follow each other, and there are so many more of the same at the vertex.
     """
-    corners = _numbers(places)[faces]
+    corners = as_numbers(places)[faces]
     copied = np.append(0, np.cumsum((corners[1:] != corners[:-1]).any(axis=1)))
     key, times = np.unique(faces.ravel() * (copied[-1] + 1) + np.repeat(copied, 3), return_counts=True)
     turns = np.zeros(len(places), dtype=np.int64)
@@ -165,7 +165,7 @@ def turns_unseen(places: Floats, faces: Ints) -> Ints:
     return turns
 
 
-def _numbers(points: Floats) -> Complexes:
+def as_numbers(points: Floats) -> Complexes:
     """Return points as complex numbers, which are compared faster than rows."""
     return np.ascontiguousarray(points).view(np.complex128).ravel()
 
@@ -289,7 +289,7 @@ def _heights(arrangement: Arrangement, places: _Places) -> Ints:
     return exact_ranks(value - error, value + error, exact)
 
 
-def _along_and_across(ends: Numbers, axis: Ints) -> Numbers:
+def _along_and_across(ends: Reals, axis: Ints) -> Reals:
     """Return the coordinates of both ends of edges along some axes, and then their other ones, shape (4, m)."""
     rows = np.arange(len(axis))
     return np.concatenate([ends[:, rows, axis], ends[:, rows, 1 - axis]])

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
 from plyfold.clock import Clock
 from plyfold.offers.greedy import Caps, is_within, numbers_allow, rerouted_by
@@ -36,17 +37,81 @@ def needed(
     kept = list(moves) if has_lenses else _outermost(plan, moves)
     turns = {} if has_lenses or plan.drawn.n_loops > 1 else _turns_of_lobes(plan, kept)
     stretch = len(kept)
+    made = _made(plan, kept)
     while stretch > 1:
         stretch = -(-stretch // 2)
         for start in range(0, len(kept), stretch)[::-1]:
             clock.check()
-            fewer = kept[:start] + kept[start + stretch :]
-            if not _turn_alike(turns, kept[start : start + stretch], plan):
+            end = min(start + stretch, len(kept))
+            if not _turn_alike(turns, kept[start:end], plan) or made.are_needed(start, end):
                 continue
+            fewer = kept[:start] + kept[end:]
             left = rerouted_by(plan, fewer)
             if left is not None and numbers_allow(left) and is_within(left, caps) and is_enough(left):
-                kept = fewer
+                kept, made = fewer, _made(plan, fewer)
     return kept
+
+
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """Some moves that were made one after the other.
+
+    Parameters
+    ----------
+    winding : list of int
+        In the end.
+    n_positive, n_negative : int
+        How many cells have such a winding number.
+    times : sequence of mapping from cell to int
+        By how much each move changed winding numbers.
+    touched : sequence of set of int
+        The borders at which each changed what moves there would do, or whether they can be done.
+    last_at : mapping from border to int
+        The last move along each border.
+    """
+
+    winding: list[int]
+    n_positive: int
+    n_negative: int
+    times: Sequence[Mapping[int, int]]
+    touched: Sequence[set[int]]
+    last_at: Mapping[int, int]
+
+    def are_needed(self, start: int, end: int) -> bool:
+        """Tell whether without some of the moves there surely are cells of both signs."""
+        if any(self.last_at.get(border, -1) >= end for at in range(start, end) for border in self.touched[at]):
+            return False  # Later moves would do something else.
+        fewer: dict[int, int] = {}
+        for at in range(start, end):
+            for cell, more in self.times[at].items():
+                fewer[cell] = fewer.get(cell, self.winding[cell]) - more
+        before = [self.winding[cell] for cell in fewer]
+        n_positive = self.n_positive - _count_positive(before) + _count_positive(fewer.values())
+        n_negative = self.n_negative - _count_negative(before) + _count_negative(fewer.values())
+        return n_positive > 0 and n_negative > 0
+
+
+def _count_positive(numbers: Iterable[int]) -> int:
+    return sum(number > 0 for number in numbers)
+
+
+def _count_negative(numbers: Iterable[int]) -> int:
+    return sum(number < 0 for number in numbers)
+
+
+def _made(plan: Plan, moves: Sequence[Move]) -> _Made:
+    left = Rerouted.of(plan)
+    times, touched = [], []
+    last_at: dict[int, int] = {}
+    for at, move in enumerate(moves):
+        effect = left.effect(move)
+        places = [border for run in move.runs for border in plan.places(run)]
+        last_at |= dict.fromkeys(places, at)
+        ended = move.visits if move.is_lens else left.visits_in(move.runs[0])
+        touched.append({*places, *(plan.border_before[visit] for visit in ended)})
+        times.append(effect.times)
+        left.make(move, effect)
+    return _Made(left.winding, _count_positive(left.winding), _count_negative(left.winding), times, touched, last_at)
 
 
 def _outermost(plan: Plan, moves: Sequence[Move]) -> list[Move]:

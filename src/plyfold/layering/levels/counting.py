@@ -14,7 +14,7 @@ import numpy as np
 
 from plyfold.clock import Clock
 from plyfold.layering.levels.equations import LevelEquations
-from plyfold.layering.tables import Table, count_solutions
+from plyfold.layering.tables import Relation, Table, count_solutions
 
 __all__ = ["count_level_solutions"]
 
@@ -76,4 +76,4 @@ def _table(equations: LevelEquations, borders: list[int], possible: Iterable[tup
         if all(levels[i] == levels[j] for i, j in same):
             row = tuple(levels[i] for i in kept)
             ways[row] = ways.get(row, 0) + 1
-    return Table(tuple(borders[i] for i in kept), ways)
+    return Table(tuple(borders[i] for i in kept), Relation(tuple(ways), tuple(ways.values())))

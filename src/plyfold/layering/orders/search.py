@@ -20,6 +20,7 @@ from typing import Literal, TypeAlias, cast
 
 import numpy as np
 
+from plyfold.arrangement.places import place_in_cell
 from plyfold.arrays import Ints, freeze
 from plyfold.clock import NO_LIMIT, Clock, Progress
 from plyfold.errors import InputError, TimeLimitError
@@ -304,12 +305,21 @@ class OrderProblem:
         """Return the literals that are true if the second sheets lie above the first."""
         return np.asarray(self.literal[pair_of(self.immersion, self.graph.first_pair, lower, upper)])
 
+    @cached_property
+    def _component(self) -> Ints:
+        """The number of the component of each variable: of those that constraints tie together."""
+        variable = np.abs(self.triples) - 1
+        return components(self.n_variables, *np.concatenate([variable[:, :2], variable[:, 1:]]).T)
+
+    @property
+    def parts(self) -> Ints:
+        """The component of each constraint."""
+        return np.asarray(self._component[np.abs(self.triples[:, 0]) - 1])
+
     def components(self) -> list[list[int]]:
         """Return the variables that constraints tie together, and those that are free each alone, in order."""
-        variable = np.abs(self.triples) - 1
-        ends = np.concatenate([variable[:, :2], variable[:, 1:]])
         groups: dict[int, list[int]] = {}
-        for number, label in enumerate(components(self.n_variables, *ends.T).tolist(), 1):
+        for number, label in enumerate(self._component.tolist(), 1):
             groups.setdefault(label, []).append(number)
         return list(groups.values())
 
@@ -365,7 +375,7 @@ def places_of_cells(immersion: Immersion, cells: Iterable[int]) -> tuple[tuple[f
     """Return a point in each of the cells, in order of appearance; none if there is no drawing."""
     if immersion.arrangement.outline is None:
         return ()
-    return tuple(immersion.arrangement.cell_point(cell) for cell in dict.fromkeys(cells))
+    return tuple(place_in_cell(immersion.arrangement, cell) for cell in dict.fromkeys(cells))
 
 
 def _problem(immersion: Immersion, graph: PairGraph, clock: Clock) -> OrderProblem:
