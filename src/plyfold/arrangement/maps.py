@@ -14,7 +14,7 @@ from plyfold.arrangement.planar_map import (
     reversed_code,
     whitney_turning_number,
 )
-from plyfold.arrays import Bools, Floats, Ints
+from plyfold.arrays import Bools, Floats, Ints, Reals
 from plyfold.predicates import cross_sign
 
 __all__ = [
@@ -106,7 +106,7 @@ def numbered_crossings(partner: Ints) -> Ints:
     return np.where(visit == partner, -1, number[np.minimum(visit, partner)])
 
 
-def outer_dart(points: Floats, visit_edge: Ints) -> int:
+def outer_dart(points: Reals, visit_edge: Ints) -> int:
     """Return a dart with the unbounded cell on its left: at the leftmost vertex, on its convex side."""
     x, y = points.T
     leftmost = np.flatnonzero(x == x.min())
