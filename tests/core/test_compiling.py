@@ -29,7 +29,8 @@ lattice = [rng.integers(-6, 7, (30, 2)).astype(float) for _ in range(20)]
 curves = [random_polygon(rng, 60), ribbon_outline(rng, 200), star_polygon(41, 20), *lattice]
 for curve in curves:
     drawn = pf.arrange(np.asarray(curve, dtype=float))
-    for name, value in sorted(vars(drawn).items()):
+    immersion = pf.find_immersion(drawn)
+    for name, value in (*sorted(vars(drawn).items()), *sorted(vars(immersion).items())):
         digest.update(value.tobytes() if isinstance(value, np.ndarray) else b"")
 print(plyfold.core.WHY_PLAIN or "compiled")
 print(digest.hexdigest())

@@ -15,7 +15,7 @@ from plyfold.arrangement.planar_map import (
     whitney_turning_number,
 )
 from plyfold.arrays import Bools, Floats, Ints
-from plyfold.predicates import cross_sign
+from plyfold.core.signs import exact_sign
 
 __all__ = [
     "CellWalk",
@@ -111,6 +111,7 @@ def outer_dart(points: Floats, visit_edge: Ints) -> int:
     x, y = points.T
     leftmost = np.flatnonzero(x == x.min())
     corner = int(leftmost[y[leftmost].argmin()])
-    before, after = points[corner - 1], points[(corner + 1) % len(points)]
+    here = points[corner].tolist()
+    before, after = points[corner - 1].tolist(), points[(corner + 1) % len(points)].tolist()
     border = (int(np.searchsorted(visit_edge, corner)) - 1) % max(len(visit_edge), 1)
-    return 2 * border + int(cross_sign(before, points[corner], points[corner], after) > 0)
+    return 2 * border + int(exact_sign(*before, *here, *here, *after) > 0)
