@@ -19,7 +19,7 @@ from plyfold.offers.areas import Measure
 from plyfold.offers.changes import Change, Changes
 from plyfold.offers.rerouted import Move, Plan, Rerouted, Run
 
-__all__ = ["Aim", "Caps", "flips", "is_within", "made_until", "numbers_allow", "rerouted_by", "wholes"]
+__all__ = ["Aim", "Caps", "flips", "is_within", "made_until", "may_bound", "numbers_allow", "rerouted_by", "wholes"]
 
 _T = TypeVar("_T")
 
@@ -54,11 +54,15 @@ class Aim(NamedTuple):
 
 def numbers_allow(left: Rerouted) -> bool:
     """Tell whether numbers alone do not show that what is left bounds no disk; of several loops, no surface."""
-    least, most = min(left.winding), max(left.winding)
-    if left.plan.drawn.n_loops > 1:
-        return least == 0 or most == 0
-    cusps = int(left.plan.drawn.cusp_index.sum())
-    return (least == 0 and left.turning == 1) or (most == 0 and left.turning + 2 * cusps == -1)
+    return may_bound(left.plan, max(left.winding) > 0, min(left.winding) < 0, left.turning)
+
+
+def may_bound(plan: Plan, has_positive: bool, has_negative: bool, turning: int) -> bool:
+    """Tell the same, given whether there are cells of either sign, and how often the outline turns."""
+    if plan.drawn.n_loops > 1:
+        return not (has_positive and has_negative)
+    cusps = int(plan.drawn.cusp_index.sum())
+    return (not has_negative and turning == 1) or (not has_positive and turning + 2 * cusps == -1)
 
 
 def flips(winding: list[int], times: Mapping[int, int]) -> dict[int, int]:
