@@ -455,7 +455,10 @@ def _in_standard_form(cycles: Ints, sheets: Ints) -> tuple[Ints, Ints]:
 
 
 def _each_once(parts: list[tuple[Ints, Ints]]) -> tuple[Ints, Ints]:
-    """Put constraints in order, leaving out repeated ones; of these the first one stays."""
+    """Put constraints in order, leaving out repeated ones; of these the first one stays.
+
+    The order is that of their literals, so it belongs to the drawing, as these do, and not to how cells are numbered.
+    """
     cycles, sheets = (np.concatenate(columns) for columns in zip(*parts, strict=True))
     order = _in_order(cycles)
     repeats = np.zeros(len(order), dtype=bool)
