@@ -3,6 +3,7 @@ PYTHON ?= python3
 VENV   ?= .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
+CORE   := $(wildcard src/plyfold/core/*.py src/plyfold/core/*.pxd tools/build_core.py tools/headers/*)
 DEMO   ?= examples/ramp.svg
 
 .PHONY: demo test test-busy test-slow nightly browser lint pictures benchmark benchmark-docs clean
@@ -20,6 +21,7 @@ demo: $(READY)  ## Lift an example: out/ gets a GLB, a 3D page and a picture of 
 test: $(READY) lint  ## Style, types, and every test but the slow ones
 	@$(MAKE) --no-print-directory browser 2>/dev/null || echo "The tests of the pages are skipped."
 	$(BIN)/python -m pytest -n 2
+	PLYFOLD_PURE=1 $(BIN)/python -m pytest -n 2 tests/core tests/arrangement/test_crossings.py
 
 test-busy: $(READY)  ## The same beside eight busy processes: no test depends on how fast the machine is
 	$(BIN)/python tools/busy.py 8 make --no-print-directory test
@@ -62,7 +64,7 @@ benchmark-docs: $(READY)  ## The same, written into docs/benchmarks.md, and surf
 	$(BIN)/python benchmarks/run.py --docs $(OPTIONS)
 	$(BIN)/python benchmarks/surfaces.py --docs
 
-$(READY): pyproject.toml
+$(READY): pyproject.toml $(CORE)
 	@if command -v uv >/dev/null 2>&1; then \
 	    uv venv --quiet --allow-existing --python "$(PYTHON)" $(VENV) && uv pip install --quiet --python $(BIN)/python -e ".[test]"; \
 	else \

@@ -1,23 +1,28 @@
 """Outlines with cusps and with several loops, beside plain curves: ``python benchmarks/outlines.py``.
 
 Cusps: a chain of limaçons, each with a cusp on its inner loop; the same chain with every cusp drawn out as a curl; and
-a ribbon with as many vertices. Loops: many ribbons side by side, and one ribbon; rings inside rings, and one spiral
-whose strands lie as close. Prints milliseconds of the processor, the least of some runs, also for each vertex and
-crossing compared with the ribbon.
+a coiled ribbon with as many vertices and crossings. Loops: many ribbons side by side, and the same ones joined to one
+loop by narrow bridges; rings inside rings, and one spiral whose strands lie as close. Prints milliseconds of the
+processor, the least of some runs in which all outlines take turns: also for each vertex and crossing compared with a
+wandering ribbon, and compared with the plain curve beside which an outline stands. numba is imported first, if it is
+there.
 """
 
 from __future__ import annotations
 
 import argparse
+import importlib.util
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
-from families import ribbon_disk
+from families import loops, on_grid, ribbon_disk, turned
 
 import plyfold as pf
-from plyfold.gallery import chain
+from plyfold.gallery import chain, ribbon
 
 Points = npt.NDArray[np.float64]
 
@@ -26,7 +31,10 @@ STAGES: dict[str, Callable[[pf.Arrangement], object]] = {
     "immersion": pf.find_immersion,
     "embedding": pf.find_embedding,
 }
+PEERS = [("cusps", "curls"), ("cusps", "coil"), ("loops", "joined"), ("rings", "spiral")]
 CURL_STEPS = 9
+# The width of a bridge between two loops, in edges.
+BRIDGE = 1e-3
 
 
 def limacon(vertices: int) -> Points:
@@ -66,14 +74,45 @@ def curl(coming: Points, leaving: Points, size: float) -> Points:
     return np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
 
 
-def side_by_side(count: int, vertices: int) -> pf.Outline:
-    """Return ribbons that do not touch each other."""
+def coil(vertices: int, crossings: int) -> pf.Curve:
+    """Return a ribbon that coils as often as so many crossings need."""
+    line = loops(crossings / 4, vertices // 2)
+    return pf.Curve(on_grid(turned(ribbon(line, 0.8), np.random.default_rng(0))))
+
+
+def side_by_side(count: int, vertices: int) -> list[Points]:
+    """Return ribbons that do not touch each other, in columns, up and down in turn."""
     ribbons = [ribbon_disk(vertices // count, seed) for seed in range(count)]
     width = max(np.ptp(points, axis=0).max() for points in ribbons) * 1.1
     side = int(np.ceil(np.sqrt(count)))
-    return pf.Outline(
-        [points - points.min(axis=0) + width * np.array(divmod(i, side)) for i, points in enumerate(ribbons)]
-    )
+    places = [(column, side - 1 - row if column % 2 else row) for column in range(side) for row in range(side)]
+    return [
+        points - points.min(axis=0) + width * np.array(place) for points, place in zip(ribbons, places, strict=False)
+    ]
+
+
+def joined(ribbons: Sequence[Points]) -> pf.Curve:
+    """Return ribbons joined to one loop, each to the next by a narrow bridge between corners that face each other."""
+    whole = ribbons[-1]
+    for one, other in list(pairwise(ribbons))[::-1]:
+        here, there = facing_corners(one, other)
+        whole = np.concatenate([opened(one, here), opened(whole, there)])
+    return pf.Curve(whole)
+
+
+def facing_corners(one: Points, other: Points) -> tuple[Points, Points]:
+    """Return the outermost corners of two outlines in the direction from one to the other."""
+    way = other.mean(axis=0) - one.mean(axis=0)
+    axis = int(np.abs(way).argmax())
+    towards = np.sign(way[axis])
+    return one[(towards * one[:, axis]).argmax()], other[(towards * other[:, axis]).argmin()]
+
+
+def opened(points: Points, corner: Points) -> Points:
+    """Return a closed curve as one that is open at a corner, where it begins and ends."""
+    points = np.roll(points, -np.flatnonzero((points == corner).all(axis=1))[0], axis=0)
+    start, end = corner + BRIDGE * (points[[1, -1]] - corner)
+    return np.concatenate([[start], points[1:], [end]])
 
 
 def rings(count: int, vertices: int) -> pf.Outline:
@@ -91,45 +130,60 @@ def spiral(turns: int, vertices: int) -> pf.Curve:
     return pf.Curve(np.concatenate([radius[:, None] * direction, (radius[::-1, None] - 1) * direction[::-1]]))
 
 
-def cases(vertices: int) -> Iterator[tuple[str, pf.Outline]]:
-    """Yield outlines of about so many vertices."""
+def cases(vertices: int) -> dict[str, pf.Outline]:
+    """Return outlines of about so many vertices."""
     cusped = cusped_chain(max(vertices // 100, 1), 100)
-    yield "ribbon", pf.Curve(ribbon_disk(vertices))
-    yield "cusps", cusped
-    yield "curls", drawn_out(cusped)
-    yield "loops", side_by_side(max(vertices // 1000, 2), vertices)
-    yield "rings", rings(max(vertices // 500, 1), vertices)
-    yield "spiral", spiral(max(vertices // 500, 1), vertices)
+    ribbons = side_by_side(max(vertices // 1000, 2), vertices)
+    return {
+        "ribbon": pf.Curve(ribbon_disk(vertices)),
+        "cusps": cusped,
+        "curls": drawn_out(cusped),
+        "coil": coil(len(cusped), len(cusped) // 100),
+        "loops": pf.Outline(ribbons),
+        "joined": joined(ribbons),
+        "rings": rings(max(vertices // 500, 1), vertices),
+        "spiral": spiral(max(vertices // 500, 1), vertices),
+    }
 
 
-def least(action: Callable[[], object], runs: int) -> float:
-    """Return the milliseconds of the processor that an action takes at least."""
-    took = []
-    for _ in range(runs):
-        began = time.process_time()
-        action()
-        took.append(time.process_time() - began)
-    return 1000 * min(took)
+def least(actions: Sequence[Callable[[], object]], runs: int) -> list[float]:
+    """Return the milliseconds of the processor that each of some actions takes at least, of runs in turn."""
+    took = np.empty((runs, len(actions)))
+    for run in took:
+        for number, action in enumerate(actions):
+            began = time.process_time()
+            action()
+            run[number] = time.process_time() - began
+    return [1000 * float(best) for best in took.min(axis=0)]
 
 
 def lines(sizes: list[int], runs: int) -> Iterator[str]:
-    """Yield a line for each outline."""
-    yield f"{'outline':8} {'n':>7} {'k':>7} " + " ".join(f"{stage:>16}" for stage in STAGES)
+    """Yield tables: a line for each outline, and one for each outline beside its peer."""
     for vertices in sizes:
-        ribbon: dict[str, float] = {}
-        for name, outline in cases(vertices):
-            arranged = pf.arrange(outline)
-            size = len(outline) + arranged.n_crossings
-            cells = []
-            for stage, action in STAGES.items():
-                took = least(lambda act=action, given=arranged: act(given), runs)
-                each = took / size
-                ribbon.setdefault(stage, each)
-                cells.append(f"{took:9.2f} ({each / ribbon[stage]:4.2f})")
-            yield f"{name:8} {len(outline):7} {arranged.n_crossings:7} " + " ".join(cells)
+        arranged = {name: pf.arrange(outline) for name, outline in cases(vertices).items()}
+        more = runs * max(1, 10_000 // vertices)
+        took = {
+            stage: dict(zip(arranged, least([partial(act, given) for given in arranged.values()], more), strict=True))
+            for stage, act in STAGES.items()
+        }
+        yield from table(arranged, took)
     patch = cusped_chain(10, 40)
-    decided, lifted = least(lambda: pf.bounds_disk(patch), 5 * runs), least(lambda: pf.lift(patch), runs)
+    decided, lifted = *least([lambda: pf.bounds_disk(patch)], 10 * runs), *least([lambda: pf.lift(patch)], 2 * runs)
     yield f"a patch of {len(patch)} points with 10 cusps: decided in {decided:.2f} ms, lifted in {lifted:.2f} ms"
+
+
+def table(arranged: dict[str, pf.Arrangement], took: dict[str, dict[str, float]]) -> Iterator[str]:
+    """Yield what outlines took, in milliseconds, and compared with each other."""
+    size = {name: len(given.numbers) + given.n_crossings for name, given in arranged.items()}
+    yield f"{'outline':14} {'n':>7} {'k':>7} " + " ".join(f"{stage:>16}" for stage in took)
+    for name, given in arranged.items():
+        each = ((times[name], times[name] / size[name] * size["ribbon"] / times["ribbon"]) for times in took.values())
+        cells = " ".join(f"{time:9.2f} ({ratio:4.2f})" for time, ratio in each)
+        yield f"{name:14} {len(given.numbers):7} {given.n_crossings:7} {cells}"
+    for name, peer in PEERS:
+        ratios = " ".join(f"{times[name] / times[peer]:16.2f}" for times in took.values())
+        yield f"{name + ' / ' + peer:14} {'':15} {ratios}"
+    yield ""
 
 
 def main() -> None:
@@ -138,6 +192,8 @@ def main() -> None:
     parser.add_argument("--vertices", type=int, nargs="+", default=[1000, 10000, 100000])
     parser.add_argument("--runs", type=int, default=3)
     options = parser.parse_args()
+    if importlib.util.find_spec("numba"):
+        importlib.import_module("numba")
     for line in lines(options.vertices, options.runs):
         print(line, flush=True)
 

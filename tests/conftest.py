@@ -7,7 +7,10 @@ import pytest
 from plyfold import compiled
 
 PROGRAMS = ("chromium", "chromium-browser", "google-chrome")
-WITHOUT_A_GRAPHICS_CARD = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+WITHOUT_A_GRAPHICS_CARD = [
+    *["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    "--disable-gpu-compositing",  # else each move of the pointer paints the whole page by the slow software for 3D
+]
 
 
 @pytest.fixture(scope="session")

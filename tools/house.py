@@ -27,6 +27,7 @@ ORDER = [
     ["obstruction"],
     ["options", "clock", "compiled", "colours", "ragged", "graphs", "loading", "memory", "mistaken", "certify"],
     ["predicates", "halfedges", "matrices", "sat"],
+    ["core"],
     ["outline"],
     ["io"],
     ["arrangement"],
@@ -79,7 +80,6 @@ _SMALL = "small drawings are arranged and decided before it is imported, or with
 _STAGE = "its import is the stage that loads libraries, in which no other one's seconds are"
 # Libraries that functions import when they are called: (file, library): the reason.
 LATE = {
-    ("plyfold.arrangement.crossings", "shapely"): _SMALL,
     ("plyfold.arrangement.nesting", "shapely"): _SMALL,
     ("plyfold.arrangement.noding", "shapely"): _SMALL,
     ("plyfold.arrangement.polylines", "shapely"): _SMALL,

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrays import Bools, Floats, Signs, Wholes
+from plyfold.arrays import Bools, Floats, Ints, Signs, Wholes
 from plyfold.compiled import called_from_loops
 
 __all__ = [
@@ -41,6 +41,8 @@ Place: TypeAlias = tuple[Fraction, Fraction]
 _ORIENT_ERROR = 6.7e-16
 # Below this size a product of two differences may have underflowed, and the bound above does not hold.
 _UNDERFLOW = 1e-290
+# Products of smaller directions are too near to that to tell much.
+_TINY_PRODUCT = 1e-250
 # Between these sizes nothing in Dekker's product of two doubles under- or overflows.
 _SMALL_PRODUCT, _LARGE_PRODUCT = 1e-250, 1e250
 _SPLITTER = 2**27 + 1
@@ -199,10 +201,19 @@ def parameter_along_edge(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Fl
     with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
         ab, cd, ac = b - a, d - c, c - a
         (above, above_size), (below, below_size) = _crossed(ac, cd), _crossed(ab, cd)
+        if len(tiny := np.flatnonzero(below_size < _TINY_PRODUCT)):
+            along, across = _exponents(ab[tiny]), _exponents(cd[tiny])
+            ab, cd, ac = np.ldexp(ab[tiny], along), np.ldexp(cd[tiny], across), np.ldexp(ac[tiny], along)
+            (above[tiny], above_size[tiny]), (below[tiny], below_size[tiny]) = _crossed(ac, cd), _crossed(ab, cd)
         error = _PARAMETER_ERROR * (above_size + 2 * below_size) / np.abs(below)
         parameter = np.minimum(np.maximum(above / below, 0.0), 1.0)
     known = np.isfinite(error) & np.isfinite(parameter)
     return np.where(known, parameter, 0.5), np.where(known, error, np.inf)
+
+
+def _exponents(directions: Floats) -> Ints:
+    """Return the powers of two that make directions, shape (m, 2), as long as one or so."""
+    return np.asarray(-np.frexp(np.abs(directions).max(axis=1, keepdims=True))[1], dtype=np.int64)
 
 
 def _crossed(one: Floats, other: Floats) -> tuple[Floats, Floats]:

@@ -8,9 +8,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.noding import node_outline
-from plyfold.arrays import Ints
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import TimeLimitError
 from plyfold.immersion.immersion import Immersion, Piece
 from plyfold.immersion.obstructions import may_bound_disk
@@ -23,10 +25,14 @@ from plyfold.offers.cusps import SuggestedCusps
 from plyfold.offers.offers import offers
 from plyfold.offers.repair import Repaired, percent
 from plyfold.outline.curve import Outline
+from plyfold.predicates import orient
 
 __all__ = [
     "A_DISK",
     "Words",
+    "contacts_of",
+    "crossings_as_given",
+    "cut_in_words",
     "describe",
     "given_windings",
     "in_words",
@@ -44,11 +50,11 @@ A_DISK = "a disk of cloth"
 """What one curve without cusps bounds, if it bounds a surface without handles."""
 
 _SECONDS_FOR_OFFERS = 0.5
-# What does what is offered.
+# What does what is offered, given how commands name the drawing.
 _COMMANDS = {
-    "repair": "plyfold repair FILE -o OUT",
-    "cusps": "--cusps auto",
-    "fill": "plyfold split FILE --fill nonzero -o OUT",
+    "repair": "plyfold repair {} -o OUT",
+    "cusps": "plyfold check {} --cusps auto",
+    "fill": "plyfold split {} --fill nonzero -o OUT",
 }
 _SHOWN_REPAIRS = _SHOWN_CUSPS = _SHOWN_PLACES = 5
 _LONGEST_NUMBER = 12
@@ -130,6 +136,17 @@ def surface_in_words(pieces: Sequence[Piece]) -> str:
     return f"{len(pieces)} pieces of cloth: {listed}"
 
 
+def cut_in_words(pieces: Sequence[Piece]) -> str:
+    """Say what is left of a surface that is cut where it touches itself.
+
+    Examples
+    --------
+    >>> cut_in_words([Piece((0,), 1), Piece((1,), 1)]), cut_in_words([])
+    ('2 pieces of cloth: 2 disks', 'nothing is left')
+    """
+    return surface_in_words(pieces) if pieces else "nothing is left"
+
+
 def _kind_of_piece(piece: Piece) -> tuple[str, str]:
     """Return what a piece is, and what it has besides."""
     holes, handles = len(piece.loops) - 1, piece.genus
@@ -172,7 +189,7 @@ def in_words(count: int) -> str:
     return f"about {leading:.2f} · 10^{exponent}"
 
 
-def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[str, Any]:
+def verdict(arrangement: Arrangement, time_limit: float | None = None, drawing: str = "FILE") -> dict[str, Any]:
     """Return everything that is known of an outline as plain data, ready for JSON.
 
     Parameters
@@ -181,17 +198,22 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
     time_limit : float, optional
         Seconds for the search for a layering, and, where the outline cannot be that of a disk alone, for each of the
         other questions; when they are over, ``layerable``, ``immersible`` or ``immersions`` is None: unknown.
+    drawing : str, optional
+        What stands for the drawing in the commands that are offered.
 
     Returns
     -------
     dict
-        ``points``, ``loops``, ``cusps`` (of each: ``loop``, ``point``, ``index``, ``where``), ``crossings``, ``cells``
-        (number of cells by winding number), ``turning_number``, ``reversed``, ``repairs``, ``immersible``,
-        ``immersions``; for a surface also ``surface`` (in words), ``touches`` (where it touches itself; no places if
-        the outline bounds one that does not), ``pieces``, ``euler_characteristic``, ``sheets``, ``layerable``, and, for
-        a disk, ``examined`` (immersions), otherwise ``reason``, ``sentence`` and ``where``; and for a drawing
-        ``offers``, what can be done: each has a ``kind``, ``"repair"``, ``"cusps"`` or ``"fill"``, a ``sentence`` and a
-        ``command``, and the first two what they change and the ``surface`` that it would bound.
+        ``points``, ``loops``, ``cusps`` (of each: ``loop``, ``point``, ``index``, ``where``), ``crossings`` (of edges,
+        inside both), ``contacts`` (places of points on foreign edges or points), ``crossings_moved_apart`` (with those
+        that are made where contacts are moved apart), ``cells`` (number of cells by winding number),
+        ``turning_number``, ``reversed``, ``repairs``, ``immersible``, ``immersions``; for a surface also ``surface``
+        (in words), ``touches`` (where it touches itself; no places if the outline bounds one that does not), ``pieces``
+        and ``euler_characteristic`` (of the first, cut where it touches itself), ``sheets`` (over all cells),
+        ``layerable``, and if so ``levels``, and, for a disk, ``examined`` (immersions), otherwise ``reason``,
+        ``sentence`` and ``where``; and for a drawing ``offers``, what can be done: each has a ``kind``, ``"repair"``,
+        ``"cusps"`` or ``"fill"``, a ``sentence`` and a ``command``, and the first two what they change and the
+        ``surface`` that it would bound.
 
     Examples
     --------
@@ -202,13 +224,15 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
     >>> verdict(arrange([[(0, 0), (9, 0), (0, 9)], [(1, 1), (1, 3), (3, 1)]]))["surface"]
     'a ring of cloth'
     """
-    outline = arrangement.outline
+    outline, windings = arrangement.outline, given_windings(arrangement)
     figures: dict[str, Any] = {
         "points": 0 if outline is None else len(outline),
         "loops": arrangement.n_loops,
         "cusps": _cusps(outline),
-        "crossings": arrangement.n_crossings,
-        "cells": dict(sorted(Counter(given_windings(arrangement).tolist()).items())),
+        "crossings": crossings_as_given(arrangement),
+        "contacts": contacts_of(arrangement),
+        "crossings_moved_apart": arrangement.n_crossings,
+        "cells": dict(sorted(Counter(windings.tolist()).items())),
         "turning_number": arrangement.turning_number,
         "reversed": arrangement.reversed,
         "repairs": _repairs(outline),
@@ -218,17 +242,19 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None) -> dict[s
     if isinstance(found, Unknown):
         return figures | {"immersible": None, "immersions": None}
     if isinstance(found, Obstruction):
-        return figures | {"immersible": False, "immersions": 0} | _obstructed(found) | _offers(arrangement)
+        return figures | {"immersible": False, "immersions": 0} | _obstructed(found) | _offers(arrangement, drawing)
     count = count_immersions(arrangement, time_limit=limit)
     figures |= {"immersible": True, "immersions": None if isinstance(count, Unknown) else count}
-    figures |= _surface(found)
-    return figures | (_layerable if may_bound_disk(arrangement) else _embeddable)(arrangement, time_limit)
+    figures |= _surface(found) | {"sheets": int(windings.sum())}
+    figures |= (_layerable if may_bound_disk(arrangement) else _embeddable)(arrangement, time_limit)
+    return figures | ({"levels": int(windings.max())} if figures["layerable"] else {})
 
 
 def given_windings(arrangement: Arrangement) -> Ints:
     """Return the winding number of each cell that was drawn, the unbounded one first.
 
-    Where points in contact were moved apart, those are the cells of the points as given.
+    Where points in contact were moved apart, those are the cells of the points as given, as :func:`~plyfold.coverage`
+    has them: strands that are run to and fro do not part cells.
 
     Examples
     --------
@@ -236,19 +262,64 @@ def given_windings(arrangement: Arrangement) -> Ints:
     >>> given_windings(arrange([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)])).tolist()
     [0, 1, 1]
     """
-    given = arrangement.given
-    return arrangement.winding if given is None or given is arrangement.outline else node_outline(given).winding
+    given = _given_otherwise(arrangement)
+    return arrangement.winding if given is None else node_outline(given).winding
 
 
-def _offers(arrangement: Arrangement) -> dict[str, Any]:
+def _given_otherwise(arrangement: Arrangement) -> Outline | None:
+    """Return the outline as given if points in contact were moved apart."""
+    return None if arrangement.given is arrangement.outline else arrangement.given
+
+
+def crossings_as_given(arrangement: Arrangement) -> int:
+    """Return how often two edges of an outline cross inside both, where the points were given.
+
+    Examples
+    --------
+    >>> from plyfold import arrange
+    >>> eight_through_a_vertex = arrange([(0, 0), (1, 1), (2, 2), (2, 0), (0, 2)])
+    >>> crossings_as_given(eight_through_a_vertex), eight_through_a_vertex.n_crossings
+    (0, 1)
+    """
+    given = _given_otherwise(arrangement)
+    if given is None:
+        return arrangement.n_crossings
+    first = arrangement.crossing_visits[arrangement.ccw[arrangement.crossing_visits]]
+    one, other = (_ends(given, arrangement.visit_edge[visits]) for visits in (first, arrangement.partner[first]))
+    return int(np.count_nonzero(_on_both_sides(*one, *other) & _on_both_sides(*other, *one)))
+
+
+def _ends(outline: Outline, edge: Ints) -> tuple[Floats, Floats]:
+    return outline.points[edge], outline.points[outline.next_point[edge]]
+
+
+def _on_both_sides(a: Floats, b: Floats, p: Floats, q: Floats) -> Bools:
+    """Tell whether p and q lie off the line through a and b, on different sides."""
+    return np.asarray(orient(a, b, p) * orient(a, b, q) < 0)
+
+
+def contacts_of(arrangement: Arrangement) -> list[list[float]]:
+    """Return the places of points that lie on other edges or on each other, each once, from left to right.
+
+    Examples
+    --------
+    >>> from plyfold import arrange
+    >>> contacts_of(arrange([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)]))
+    [[1.0, 1.0]]
+    """
+    given = _given_otherwise(arrangement)
+    return [] if given is None else np.unique(given.points[arrangement.contacts], axis=0).tolist()
+
+
+def _offers(arrangement: Arrangement, drawing: str) -> dict[str, Any]:
     """Return what can be done about an outline that bounds no surface; of a code, nothing is said."""
     if arrangement.outline is None:
         return {}
     found = offers(arrangement, _SECONDS_FOR_OFFERS)
     listed = [] if found.repaired is None else [_repair_offer(found.repaired)]
     listed += [] if found.cusps is None else [_cusps_offer(found.cusps)]
-    fill = {"kind": "fill", "sentence": "what it paints can be cut into polygons", "command": _COMMANDS["fill"]}
-    return {"offers": [*listed, fill]}
+    listed.append({"kind": "fill", "sentence": "what it paints can be cut into polygons"})
+    return {"offers": [offer | {"command": _COMMANDS[offer["kind"]].format(drawing)} for offer in listed]}
 
 
 def repair_in_words(found: Repaired) -> str:
@@ -281,7 +352,6 @@ def _repair_offer(found: Repaired) -> dict[str, Any]:
     return {
         "kind": "repair",
         "sentence": repair_in_words(found),
-        "command": _COMMANDS["repair"],
         "surface": _repaired_surface(found),
         "changes": changes,
         "region_change": found.region_change,
@@ -308,7 +378,7 @@ def _cusps_offer(found: SuggestedCusps) -> dict[str, Any]:
     marks = [CuspMark(loop, point, turns) for (loop, point), turns in found.cusps.items()]
     cusps = _described_cusps(found.outline, marks)
     sentence = offer_in_words([*found.cusps.values()], surface, _listed_cusps(cusps))
-    return {"kind": "cusps", "sentence": sentence, "command": _COMMANDS["cusps"], "cusps": cusps, "surface": surface}
+    return {"kind": "cusps", "sentence": sentence, "cusps": cusps, "surface": surface}
 
 
 def _surface(immersion: Immersion) -> dict[str, Any]:
@@ -317,11 +387,10 @@ def _surface(immersion: Immersion) -> dict[str, Any]:
         for piece in immersion.pieces
     ]
     return {
-        "surface": surface_in_words(immersion.pieces),
+        "surface": surface_in_words(immersion.uncut_pieces),
         "touches": touches_of(immersion),
         "pieces": pieces,
         "euler_characteristic": immersion.euler_characteristic,
-        "sheets": immersion.n_sheets,
     }
 
 
@@ -367,7 +436,7 @@ def _layerable(arrangement: Arrangement, time_limit: float | None) -> dict[str, 
         return {"layerable": None}
     if isinstance(found, Obstruction):
         return {"layerable": False, "examined": examined} | _obstructed(found)
-    return {"layerable": True, "examined": examined, "levels": int(found.level.max())}
+    return {"layerable": True, "examined": examined}
 
 
 def _embeddable(arrangement: Arrangement, time_limit: float | None) -> dict[str, Any]:
@@ -377,7 +446,7 @@ def _embeddable(arrangement: Arrangement, time_limit: float | None) -> dict[str,
         return {"layerable": None}
     if isinstance(found, Obstruction):
         return {"layerable": False} | _obstructed(found)
-    return {"layerable": True, "levels": int(found.level.max())}
+    return {"layerable": True}
 
 
 def describe(figures: dict[str, Any]) -> str:
@@ -396,17 +465,25 @@ def _rows(figures: dict[str, Any]) -> dict[str, str]:
         "points": f"{figures['points']:,}",
         "loops": f"{figures['loops']:,}" if figures["loops"] > 1 else "",
         "crossings": f"{figures['crossings']:,}",
+        "in contact at": _listed_places(figures["contacts"]),
+        "crossings when moved apart": f"{figures['crossings_moved_apart']:,}" if figures["contacts"] else "",
         "cells by winding number": cells,
         "turning number": f"{figures['turning_number']}{turned}",
         "cusps": _listed_cusps(figures["cusps"]),
-        "Euler characteristic": str(figures.get("euler_characteristic", "")),
+        "Euler characteristic": "" if figures.get("touches") else str(figures.get("euler_characteristic", "")),
         "immersions": "unknown" if figures["immersions"] is None else f"{figures['immersions']:,}",
         "touches itself at": _listed_places(figures["touches"]) if figures["immersible"] else "",
+        "cut there": _cut(figures) if figures["immersible"] and figures["touches"] else "",
         "layering": _layering_sentence(figures) if figures["immersible"] else "",
     }
     if rows["Euler characteristic"] == "1" and not rows["loops"]:
         rows["Euler characteristic"] = ""
     return {name: value for name, value in rows.items() if value}
+
+
+def _cut(figures: dict[str, Any]) -> str:
+    pieces = [Piece(tuple(piece["loops"]), piece["euler_characteristic"]) for piece in figures["pieces"]]
+    return f"{cut_in_words(pieces)}; Euler characteristic {figures['euler_characteristic']}"
 
 
 def _listed_places(places: list[list[float]]) -> str:

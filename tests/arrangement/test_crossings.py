@@ -1,7 +1,5 @@
 """Contacts and visits against plain fractions: crowded lattices, near misses, all scales, all sizes of portions."""
 
-import importlib
-
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
@@ -11,9 +9,9 @@ import plyfold as pf
 from plyfold.arrangement.crossings import find_contacts, order_visits
 from plyfold.errors import CurveError, GeneralPositionError
 from reference import crossings as reference
+from reference import loops as loops_reference
 from reference.random_curves import random_polygon, ribbon_outline, star_polygon
 
-crossings = importlib.import_module("plyfold.arrangement.crossings")
 SCALES = [1.0, 1e8, 1e-8, 1e149, 1e-149]
 
 
@@ -60,12 +58,10 @@ def test_contacts_on_lattices(seed, size, vertices):
     assert_contacts_are_right(points)
 
 
-@pytest.mark.parametrize("size", [1, 2, 3, 16])
-def test_contacts_with_other_groups(monkeypatch, size):
-    monkeypatch.setattr(crossings, "_GROUP", size)
-    monkeypatch.setattr(crossings, "_LOOKUPS", size)
-    for seed in range(12):
-        assert_contacts_are_right(lattice_polygon(seed, 4, 26))
+@pytest.mark.parametrize("vertices", [*range(5, 20), 31, 32, 33, 34, 65, 129])
+def test_contacts_at_the_borders_of_groups(vertices):
+    for seed in range(4):
+        assert_contacts_are_right(lattice_polygon(seed, vertices, vertices))
 
 
 @settings(max_examples=100, deadline=None)
@@ -133,20 +129,6 @@ def fields(drawn):
     return {name: value for name, value in vars(drawn).items() if isinstance(value, np.ndarray)}
 
 
-@pytest.mark.parametrize("family", FAMILIES)
-@pytest.mark.parametrize(
-    ("name", "sizes"),
-    [("_GROUP", (1, 2, 3, 100)), ("_CROWD", (0, 10**9)), ("_PORTION", (1, 2, 3)), ("_LOOKUPS", (1, 2, 3))],
-)
-def test_sizes_of_groups_and_portions_change_nothing(monkeypatch, family, name, sizes):
-    points = FAMILIES[family](np.random.default_rng(4))
-    expected = fields(pf.arrange(points, general_position="raise"))
-    for size in sizes:
-        monkeypatch.setattr(crossings, name, size)
-        found = fields(pf.arrange(points, general_position="raise"))
-        assert all(np.array_equal(found[field], value) for field, value in expected.items())
-
-
 def rotated(drawn, visits):
     """The code with its first ``visits`` visits put last."""
     n = len(drawn.partner)
@@ -179,3 +161,26 @@ def test_the_other_direction_gives_the_same_code(seed):
     assert np.array_equal(back.visit_edge, drawn.visit_edge)
     assert np.array_equal(back.curve.points, there)
     np.testing.assert_allclose(back.crossings, drawn.crossings, rtol=1e-9, atol=1e-6)
+
+
+def steady_loop(rng, vertices):
+    """A thin loop that begins in the middle of its long side, which runs steadily up to the right."""
+    there = np.cumsum(rng.uniform(0.1, 1.0, (vertices, 2)), axis=0) * 9 / vertices
+    back = there[-2:0:-1] + np.array([0.1, -0.1])
+    loop = np.concatenate([there, back[:: max(1, len(back) // 3)]])
+    begin = vertices // 2
+    return np.roll(loop, -begin, axis=0) - loop[begin] + rng.uniform(-2, 2) + rng.uniform(-0.3, 0.3, 2)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 2**32), st.lists(st.integers(3, 40), min_size=2, max_size=4))
+def test_contacts_of_loops_that_follow_each_other(seed, vertices):
+    """The strands of loops, one after the other, run the same way and cross: they are not one strand."""
+    rng = np.random.default_rng(seed)
+    polygons = [steady_loop(rng, count) for count in vertices]
+    first = np.cumsum([0, *map(len, polygons)])
+    found = find_contacts(np.concatenate(polygons), first_point=first)
+    meetings = loops_reference.meetings([reference.exact(points) for points in polygons])
+    numbered = [[first[place.loop] + place.edge for place in pair] for pair in meetings]
+    assert sorted(found.edges.tolist()) == sorted(map(sorted, numbered))
+    assert len(found.touches) == 0

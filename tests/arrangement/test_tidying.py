@@ -97,6 +97,34 @@ def test_a_curve_is_never_simplified_away():
     assert len(twice.simplified(100)) >= 3
 
 
+def test_several_loops_are_tidied_one_by_one():
+    inner = pf.Curve(0.2 * trembling_limacon()[::-1] + (1, 0), cusps={3: 1})
+    outline = pf.Outline([trembling_limacon(), inner])
+    for tidied in (lambda drawn: drawn.simplified(0.05), lambda drawn: drawn.smoothed(4)):
+        each = [tidied(curve) for curve in outline.curves]
+        together = tidied(outline)
+        assert [loop.tolist() for loop in together.loops] == [curve.points.tolist() for curve in each]
+        assert [index.tolist() for index in together.cusps] == [curve.cusps[0].tolist() for curve in each]
+        assert together.cusps[1].sum() == 1
+    for call in (lambda: outline.simplified(0.05, keep_code=True), lambda: outline.smoothed(keep_code=True)):
+        with pytest.raises(InputError, match="keeps the code of one loop, and this outline has 2"):
+            call()
+    alone = pf.Outline([trembling_limacon()])
+    assert (
+        alone.smoothed(2, keep_code=True).points.tolist() == alone.curves[0].smoothed(2, keep_code=True).points.tolist()
+    )
+
+
+def test_smoothing_ends_where_nothing_moves_any_more():
+    """Between two cusps, the other points end up evenly on the way from one to the other."""
+    curve = pf.Curve([(0, 0), (8, 0), (8, 8), (0, 8), (-9, 3)], cusps={0: 1, 2: 1, 3: 1})
+    fixed = curve.smoothed(9_999)
+    assert fixed.points.tolist() == fixed.smoothed(1).points.tolist()
+    assert np.allclose(fixed.points, [(0, 0), (4, 4), (8, 8), (0, 8), (0, 4)])
+    with pytest.raises(InputError, match="rounds must be a whole number from 1 to 10,000"):
+        curve.smoothed(10**6)
+
+
 def test_options_that_are_none_are_refused():
     curve = pf.Curve([(0, 0), (4, 0), (0, 4)])
     for call in (lambda: curve.simplified(-1), lambda: curve.simplified("much"), lambda: curve.smoothed(0)):

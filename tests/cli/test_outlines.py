@@ -154,7 +154,8 @@ def test_cusps_that_are_none(cusp, limacon, capsys):
 def test_cusps_are_offered_and_taken(limacon, tmp_path, capsys):
     assert main(["check", limacon]) == 1
     said = capsys.readouterr().out
-    assert "\n  1 turn is too many: with a cusp 0:7 at (1, -1), it is a disk of cloth: --cusps auto\n" in said
+    offered = f"with a cusp 0:7 at (1, -1), it is a disk of cloth: plyfold check {limacon} --cusps auto"
+    assert f"\n  1 turn is too many: {offered}\n" in said
     main(["check", limacon, "--json"])
     [found] = lines(capsys)
     (offer,) = [offer for offer in found["offers"] if offer["kind"] == "cusps"]

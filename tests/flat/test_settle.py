@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import plyfold as pf
 from plyfold.certify import check_pieces
 from plyfold.errors import CurveError, GeneralPositionError, InputError, NotImmersibleError
-from plyfold.flat.settle import Settled, cuts_of, settle, settled_triangles
+from plyfold.flat.settle import Settled, settle, settled_triangles
 from plyfold.mesh.refine import given_outline
 from reference import random_curves
 from reference.certificates import is_immersed_disk
@@ -89,14 +89,14 @@ def check_refined(points, share):
 def test_two_triangles_that_meet_in_a_point():
     assert check(PINCH) == 2
     assert sorted(polygon.area for polygon in check_polygons(PINCH)) == [1, 1]
-    assert cuts_of(pf.find_immersion(PINCH)).tolist() == [[1, 1]]
+    assert list(map(list, pf.find_immersion(PINCH).touches)) == [[1, 1]]
     assert [frozenset(face) for face in pf.triangulate(PINCH).tolist()] == [{0, 4, 5}, {1, 2, 3}]
 
 
 def test_a_neck_drops_out():
     assert check(NECK) == 2
     assert sorted(polygon.area for polygon in check_polygons(NECK)) == [1, 1]
-    assert cuts_of(pf.find_immersion(NECK)).tolist() == [[1, 1], [2, 1]]
+    assert list(map(list, pf.find_immersion(NECK).touches)) == [[1, 1], [2, 1]]
 
 
 @pytest.mark.parametrize("lower", [[], [1.5], [1.25, 1.5], [1.125, 1.25, 1.75]])
@@ -110,7 +110,7 @@ def test_a_neck_with_vertices(lower, upper):
 def test_a_cut_walked_twice_is_no_neck():
     """The surface lies on both sides of it: nothing is cut."""
     assert check(KEYHOLE) == 1
-    assert cuts_of(pf.find_immersion(KEYHOLE)).shape == (0, 2)
+    assert pf.find_immersion(KEYHOLE).touches == ()
     assert sum(polygon.area for polygon in check_polygons(KEYHOLE)) == 62
 
 
@@ -122,7 +122,7 @@ def test_a_point_inside_an_edge():
         frozenset({(2, 0), (4, 0), (4, 2), (3, 2)}),
     }
     assert len(pf.triangulate(TOUCHED_EDGE)) == 4
-    assert cuts_of(pf.find_immersion(TOUCHED_EDGE)).tolist() == [[2, 0]]
+    assert list(map(list, pf.find_immersion(TOUCHED_EDGE).touches)) == [[2, 0]]
     places, fine = pf.triangulate(TOUCHED_EDGE, refine=0.25)
     assert places[7].tolist() == [2, 0]
     assert len(pieces_of(fine.tolist())) == 2
@@ -135,7 +135,7 @@ def test_many_points_inside_an_edge(turn):
     comb = [(0, 0), (8, 0), (8, 2), (7, 2), (6, 0), (5, 2), (4, 0), (3, 2), (2, 0), (1, 2), (0, 2), (-1, 1)]
     there = [(c * x - s * y, s * x + c * y) for x, y in comb]
     assert check(there) == 4
-    assert len(cuts_of(pf.find_immersion(there))) == 3
+    assert len(pf.find_immersion(there).touches) == 3
     settled = settled_triangles(pf.find_immersion(there))
     assert settled.point[settled.inside].tolist() == [8, 6, 4]
     with_spike = [*there[:3], (9 * c - 3 * s, 9 * s + 3 * c), *there[2:]]
@@ -152,7 +152,7 @@ def test_many_pieces_at_one_point():
         for place in (hub, one, other)
     ]
     assert check(fan) == 6
-    assert cuts_of(pf.find_immersion(fan)).tolist() == [[0, 0]]
+    assert list(map(list, pf.find_immersion(fan).touches)) == [[0, 0]]
     assert len(check_polygons(fan)) == 6
 
 

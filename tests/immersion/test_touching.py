@@ -8,8 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
+from plyfold.arrangement import unless
 from plyfold.arrangement.arrangement import ways_apart
+from plyfold.arrangement.general_position import InContact, without_contacts
 from plyfold.errors import CurveError
+from plyfold.immersion.obstructions import touches_as_no_disk
 from reference import contacts as reference
 from reference.contacts import Answer, may_bound, random_touching, without_spikes
 from reference.crossings import base_visit, exact
@@ -125,6 +128,33 @@ def test_cusps_in_contact_stay():
     assert answer(outline) == expected_of(loops, cusps)
 
 
+# The surface winds twice round the origin, from one side of a slit to the other.
+CUSP_AT_A_TIP = [(0, 0), (3, 0), (3, 3), (-3, 3), (-3, -3), (5, -3), (5, 5), (-5, 5), (-5, -5), (4, -5), (4, 0)]
+
+
+def test_cusps_at_tips_have_an_angle_of_a_full_turn_that_one_sees():
+    turns = [1] + [0] * 10
+    assert reference.count_strict([exact(CUSP_AT_A_TIP)], [turns]) == 1
+    for position in reference.positions(CUSP_AT_A_TIP):
+        outline = pf.Curve(position, cusps=turns)
+        assert pf.bounds_disk(outline)
+        assert pf.bounds_disk(outline, touching=False)
+        assert pf.find_immersion(outline).touches == ()
+    once_too_often = pf.Curve(CUSP_AT_A_TIP, cusps=[2, *turns[1:]])
+    assert not pf.bounds_disk(once_too_often)
+
+
+def test_a_cusp_at_a_tip_stays_where_its_edge_moves():
+    """The other end of the edge moves, in the one direction in which it stays on a third edge; so that moves, too."""
+    loops, cusps = [[(2, 0), (2, 3), (2, 4), (1, 2), (3, 4), (2, 2)], [(0, 2), (0, 3), (3, 3)]], {(0, 0): 1}
+    marks = [[1, 0, 0, 0, 0, 0], [0, 0, 0]]
+    assert in_the_direction_that_may_bound([exact(loop) for loop in loops], marks) is None
+    arranged = pf.arrange(pf.Outline(loops, cusps))
+    arranged.check()
+    assert arranged.outline.points[0].tolist() == [2, 0]
+    assert not pf.find_immersion(arranged)
+
+
 def with_cusps(seed):
     """A polygon with cusps at different places, and the same for the reference; None if two lie at one place."""
     polygon, index = reference.random_touching_with_cusps(np.random.default_rng(seed), 1 + (seed % 4 == 0), most=8)
@@ -148,6 +178,61 @@ def test_cusps_on_each_other_give_way():
     directed = in_the_direction_that_may_bound(loops, cusps)
     some = any(reference.moves_that_bound(np.random.default_rng(0), directed[0], 60, directed[1]))
     assert pf.bounds_disk(pf.Curve(polygon, cusps=index)) == some
+
+
+# Two cusps in one place, each beside the other on the same surface: whichever moves, and whereto, there is room for it.
+CUSPS_BESIDE_EACH_OTHER = [
+    ([(1, 2), (2, 0), (2, 3), (0, 1), (2, 1), (1, 2), (1, 0), (3, 2)], [1, 0, 0, 0, 0, 1, 0, 0]),
+    ([(2, 1), (0, 2), (2, 0), (2, 2), (1, 1), (2, 1), (1, 2), (2, 0)], [1, 0, 0, 0, 0, 1, 0, 0]),
+]
+
+
+@pytest.mark.parametrize(("polygon", "index"), CUSPS_BESIDE_EACH_OTHER)
+def test_cusps_beside_each_other_touch(polygon, index):
+    """Moves inward make a disk, but there is none in the strict sense."""
+    assert reference.count_strict([exact(polygon)], [index]) == 0
+    for position in reference.positions(polygon):
+        curve = pf.Curve(position, cusps=index)
+        assert pf.bounds_disk(curve)
+        assert not pf.bounds_disk(curve, touching=False)
+        assert pf.find_immersion(curve).touches
+
+
+# ---- what the given points tell --------------------------------------------------------------------------------------
+
+
+def known_before_moves(outline):
+    """Whether the given points show that an outline is no disk; None if it does not touch itself."""
+    found = without_contacts(pf.Outline([outline]) if isinstance(outline, list) else outline, "perturb")
+    return touches_as_no_disk(found) if isinstance(found, InContact) else None
+
+
+def test_a_no_before_points_move_is_one_after_moves():
+    """However they move: by the definition of limits and of strict disks, and by all outward and inward ways."""
+    known = []
+    for seed in range(120):
+        polygon = random_touching(np.random.default_rng(seed), most=8)
+        expected = reference.answer(polygon)
+        known.append(expected and known_before_moves(polygon))
+        assert not known[-1] or expected == (0, 0)
+    for curve, loops in filter(None, map(with_cusps, range(60))):
+        known.append(known_before_moves(curve))
+        assert not known[-1] or expected_of(*loops) == (0, 0)
+    for mirrored in reference.positions(CUSP_AT_A_TIP):
+        assert not known_before_moves(pf.Curve(mirrored, cusps=[1] + [0] * 10))
+    assert known.count(True) > 20
+    assert known.count(False) > 20
+
+
+def test_no_point_moves_where_the_given_ones_tell(monkeypatch):
+    """However crowded they are."""
+    monkeypatch.setattr(unless, "moved_apart", None)
+    crowded = [np.random.default_rng(seed).integers(0, 8, (100, 2)) for seed in range(3)]
+    both_signs = [(0, 0), (1, -1), (2, 0), (3, 1), (5, -1), (6, 0), (5, 1), (3, -1), (1, 1)]  # turns once
+    assert pf.arrange(both_signs).turning_number == 1
+    for points in (*crowded, SQUARE * 2, both_signs):
+        for touching in (True, False):
+            assert not pf.bounds_disk(points, touching=touching)
 
 
 # ---- the answer belongs to the drawing -------------------------------------------------------------------------------

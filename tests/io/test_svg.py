@@ -24,13 +24,17 @@ def path(data, attributes=""):
 
 def distance(points, curve):
     """The farthest of the given points from the closed polyline."""
-    ring = shapely.LinearRing(curve.points)
-    return shapely.distance(shapely.points(points), ring).max()
+    return _farthest(points, curve.points)
 
 
 def farthest_vertex(curve, points):
     """The farthest vertex of the curve from a dense polyline."""
-    return shapely.distance(shapely.points(curve.points), shapely.LinearRing(points)).max()
+    return _farthest(curve.points, points)
+
+
+def _farthest(points, corners):
+    edges = shapely.STRtree(shapely.linestrings(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)))
+    return edges.query_nearest(shapely.points(points), return_distance=True, all_matches=False)[1].max()
 
 
 def cubic(controls, t):

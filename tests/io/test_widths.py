@@ -70,6 +70,47 @@ def test_heights_are_kept_for_lines_and_left_out_of_outlines(name, tmp_path):
     assert ribbon.heights.max() == 2
 
 
+NO_HEIGHT = "all heights left out, for this point has none"
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "place"),
+    [
+        ("a.wkt", "LINESTRING Z (0 0 1, 9 0 NaN, 9 9 3, 3 -5 2)", (9, 0)),
+        ("a.wkt", "MULTILINESTRING Z ((0 0 1, 9 0 2), (0 5 NaN, 9 5 NaN))", (0, 5)),
+        (
+            "a.wkt",
+            "GEOMETRYCOLLECTION Z (LINESTRING Z (0 0 1, 9 0 2), POLYGON Z ((20 5 1, 9 5 1, 9 7 1, 20 5 1)))",
+            (20, 5),
+        ),
+        ("a.csv", "0 0 1\n9 0 2\n9 9 nan", (9, 9)),
+        ("a.geojson", '{"type": "LineString", "coordinates": [[0, 0, 1], [9, 0, 2], [9, 9]]}', (9, 9)),
+    ],
+)
+def test_where_a_height_is_missing_all_are_left_out_and_it_is_said(name, content, place, tmp_path):
+    outline, ribbon = read_contents(written(tmp_path, name, content), wide=Wide(1.0)).outline_and_ribbon()
+    assert ribbon is None
+    assert [repair.where for repair in outline.repairs if repair.kind == NO_HEIGHT] == [place]
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [("a.wkt", "LINESTRING Z (0 0 1, 9 0 inf, 9 9 3)"), ("a.csv", "0 0 1\n9 0 -inf\n9 9 3")],
+)
+def test_infinite_heights_are_errors(name, content, tmp_path):
+    with pytest.raises(InputError, match=r"height of point 1 is not finite, at \(9, 0\)"):
+        read_contents(written(tmp_path, name, content), wide=Wide(1.0)).outline_and_ribbon()
+
+
+@pytest.mark.parametrize(("said", "tips"), [("", 0), ("5", 1), ("1.5", 0), ("0.5", 0), ("many", 0)])
+def test_mitres_are_as_long_as_the_svg_lets_them(said, tips, tmp_path):
+    """At this bend the mitre is 4.4 widths long; the format's limit is 4, and limits below 1 are none."""
+    limit = f'stroke-miterlimit="{said}"' if said else ""
+    text = f'<svg><g {limit}><path d="M0 0H30L1 13.5" fill="none" stroke="red" stroke-width="2"/></g></svg>'
+    outline = pf.read(written(tmp_path, "mitre.svg", text), width="auto")
+    assert (outline.points[:, 0] > 31).sum() == tips
+
+
 def test_a_line_that_ends_where_it_starts_is_a_ring(tmp_path):
     square = [(0, 0), (9, 0), (9, 9), (0, 9), (0, 0)]
     ring = [loop.tolist() for loop in pf.ribbon(square, 2).loops]
@@ -175,7 +216,9 @@ def test_tracks_and_routes_with_heights(tmp_path):
         assert ribbon.heights.max() == 402
         assert pf.bounds_disk(ribbon.outline)
     some = [(*points[0][:2], None), *points[1:]]
-    assert read_contents(written(tmp_path, "b.gpx", gpx(some)), wide=Wide(9.0)).outline_and_ribbon()[1] is None
+    outline, ribbon = read_contents(written(tmp_path, "b.gpx", gpx(some)), wide=Wide(9.0)).outline_and_ribbon()
+    assert ribbon is None
+    assert [repair.kind for repair in outline.repairs if "all" in repair.kind] == [NO_HEIGHT]
 
 
 def test_without_a_width_a_track_is_a_stroke(tmp_path):

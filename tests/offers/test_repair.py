@@ -27,17 +27,31 @@ def test_strokes_as_by_definition(seed):
     agree(stroke(np.random.default_rng(seed), 5), (0.01, 0.2))
 
 
-@pytest.mark.parametrize("seed", range(60))
-def test_strokes_become_disks(seed):
+@pytest.mark.parametrize("batch", range(10))
+def test_a_thousand_strokes_become_disks(batch):
+    n_changed = 0
+    for seed in range(100 * batch, 100 * batch + 100):
+        rng = np.random.default_rng(seed)
+        polygon = stroke(rng, int(rng.integers(2, 6)))
+        found = pf.repair(polygon, 0.01, 0.5)
+        if not found:
+            # The end of the stroke lies within its beginning, or there is no small repair at all.
+            assert found.reason == "repair"
+            continue
+        check_promises(polygon, found, (0.01, 0.5))
+        assert is_disk_by_reference(found.outline)
+        n_changed += bool(found.changes)
+    assert n_changed > 40
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_longer_strokes_become_disks(seed):
     rng = np.random.default_rng(seed)
-    polygon = stroke(rng, int(rng.integers(3, 25)))
+    polygon = stroke(rng, int(rng.integers(8, 25)))
     found = pf.repair(polygon, 0.01, 0.5)
     if found:
         check_promises(polygon, found, (0.01, 0.5))
         assert is_disk_by_reference(found.outline) in (True, None)
-    else:
-        # The end of the stroke lies within its beginning, or there is no small repair at all.
-        assert found.reason == "repair"
 
 
 @pytest.mark.parametrize("seed", range(25))
@@ -118,6 +132,23 @@ def test_bow_ties_are_refused():
     assert "50% of the region" in str(found)
     check_promises(EIGHT, pf.repair(EIGHT, 0.5, 0.5), (0.5, 0.5))
     assert not pf.repair(EIGHT, np.nextafter(0.5, 0), 0.5)
+
+
+def test_what_exceeds_the_caps_least_is_named_and_what_changes_less_of_one_kind():
+    # A triangle with a loop at each corner. Turning its middle round changes all layers, and less of the region.
+    tips = [(-4, 0), (104, 0), (102.5, -4), (47.5, 84), (52.5, 84), (-2.5, -4)]
+    found = pf.repair(tips, 0.001)
+    assert found.value == {"region": pytest.approx(26 / 4026), "layers": pytest.approx(26 / 4026)}
+    assert "with 3 loops left out, which changes 0.646% of the region and 0.646% of the layers, or" in str(found)
+    assert "1 loop left out and 1 lens undone, which changes 0.199% of the region and 199% of the layers" in str(found)
+    assert len(found.where) == 3
+    assert pf.repair(tips, found.value["region"] * (1 + 1e-9), found.value["layers"] * (1 + 1e-9))
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_what_would_do_is_as_by_definition(seed):
+    rng = np.random.default_rng(seed)
+    agree(random_polygon(rng, int(rng.integers(4, 8))), (0.02, 0.05))
 
 
 def test_spikes_are_reported():

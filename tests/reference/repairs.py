@@ -248,7 +248,9 @@ def is_within(drawn: Drawing, caps: tuple[float, float], curve: Curve) -> bool:
     return all(cap == inf or part <= Fraction(cap) for part, cap in zip(parts_changed(drawn, curve), caps, strict=True))
 
 
-def greedy(drawn: Drawing, caps: tuple[float, float], all_lenses: bool) -> list[Move] | None:
+def greedy(
+    drawn: Drawing, caps: tuple[float, float], all_lenses: bool, layers_first: bool = False
+) -> list[Move] | None:
     """The smallest moves within the caps, until there is a disk."""
     curve = whole_curve(drawn)
     chosen: list[Move] = []
@@ -260,7 +262,7 @@ def greedy(drawn: Drawing, caps: tuple[float, float], all_lenses: bool) -> list[
                 possible.append(one)
         if not possible:
             return None
-        best = min(possible)
+        best = min(possible, key=lambda one: (one.layers, *one) if layers_first else one)
         curve = best.curve
         chosen.append(best.move)
     return chosen
@@ -301,13 +303,23 @@ def lies_in(drawn: Drawing, lobe: Move, other: Move) -> bool:
     return all((visit - first) % size <= (last - first) % size for visit in lobe.runs[0])
 
 
+def beyond(drawn: Drawing, layers_first: bool) -> Outcome | None:
+    """The moves that make a disk, whatever they change."""
+    chosen = greedy(drawn, (inf, inf), False, layers_first)
+    return None if chosen is None else outcome(drawn, needed(drawn, (inf, inf), chosen))
+
+
+def outcome(drawn: Drawing, kept: list[Move]) -> Outcome:
+    """Moves with what they change in all."""
+    curve = after_all(drawn, kept)
+    assert curve is not None
+    return Outcome(kept, *parts_changed(drawn, curve))
+
+
 def repair(drawn: Drawing, caps: tuple[float, float]) -> Outcome | None:
     """The moves that make a disk within the caps: without lenses of strands in one direction, if that will do."""
     for all_lenses in (False, True):
         chosen = greedy(drawn, caps, all_lenses)
         if chosen is not None:
-            kept = needed(drawn, caps, chosen)
-            curve = after_all(drawn, kept)
-            assert curve is not None
-            return Outcome(kept, *parts_changed(drawn, curve))
+            return outcome(drawn, needed(drawn, caps, chosen))
     return None

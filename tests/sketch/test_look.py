@@ -258,6 +258,7 @@ def test_a_disk_that_touches_itself_is_a_verdict_of_its_own():
     assert answer["verdict"]["immersible"]
     assert answer["verdict"]["headline"] == "A disk of cloth that touches itself"
     assert answer["verdict"]["touches"] == answer["contacts"] == [[2, 2]]
+    assert answer["verdict"]["cut"] == "2 pieces of cloth: 2 disks"
     assert points_of(answer) == PINCHED
     assert answer["cells_by_winding"] == [[1, 2]]
 
@@ -265,7 +266,7 @@ def test_a_disk_that_touches_itself_is_a_verdict_of_its_own():
 def test_contacts_where_the_surface_does_not_touch_itself_are_named_and_make_no_cells():
     answer = asked(KEYHOLE)
     assert answer["verdict"]["headline"] == "A disk of cloth"
-    assert answer["verdict"]["touches"] == []
+    assert (answer["verdict"]["touches"], answer["verdict"]["cut"]) == ([], None)
     assert answer["contacts"] == [[0, 3], [2, 3]]
     assert answer["cells_by_winding"] == [[0, 1], [1, 1]]
     assert points_of(answer) == KEYHOLE
@@ -277,6 +278,13 @@ def test_contacts_of_an_outline_that_bounds_nothing_are_named():
     bow_tie = asked([[0, 0], [4, 4], [4, 0], [0, 4], [0, 2], [-1, 1], [0, 2]])
     assert not bow_tie["verdict"]["immersible"]
     assert bow_tie["verdict"]["touches"] == []
+
+
+def test_crossings_of_edges_are_told_from_those_that_moving_apart_makes():
+    through_a_vertex = asked([[0, 0], [1, 1], [2, 2], [2, 0], [0, 2]])
+    assert (through_a_vertex["crossings_as_given"], len(through_a_vertex["crossings"])) == (0, 1)
+    apart = asked([[0, 0], [2, 2], [2, 0], [0, 2]])
+    assert (apart["crossings_as_given"], len(apart["crossings"])) == (1, 1)
 
 
 def test_spikes_are_taken_out_and_told():

@@ -154,6 +154,10 @@ def test_offers_are_seen_before_they_are_taken_and_undone_like_anything_else(ske
     sketch.wait_for_selector("[data-action=showPieces]:enabled")
     sketch.keyboard.press("Shift+I")
     verdict(sketch, "2 pieces of cloth: 2 disks")
+    sketch.wait_for_selector("#notice [data-action=undo]")
+    sketch.keyboard.press("Control+z")
+    assert sketch.locator("#notice").is_hidden()
+    assert saved(sketch)["strokes"] == drawn["strokes"]
 
 
 def test_a_pen_stroke_becomes_a_ribbon_as_wide_as_the_slider_says(sketch):

@@ -186,6 +186,8 @@ def test_an_outline_that_touches_itself_is_told_in_words_by_sign_and_by_a_mark(s
     assert points[1] == points[4]
     pinch = ", ".join(f"{x:.6g}".replace("-", "−") for x in points[1])
     assert figure(sketch, "touches itself at") == f"({pinch})"
+    assert figure(sketch, "cut there") == "2 pieces of cloth: 2 disks"
+    assert [figure(sketch, name) for name in ("crossings", "crossings when moved apart", "levels")] == ["0", "0", "1"]
     assert figure(sketch, "notes").startswith("points in contact at one place")
     settled(sketch)
     assert sketch.locator("#surface.empty").count() == 0

@@ -12,12 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrangement.drawn import DrawnMap, drawn_map
-from plyfold.arrangement.general_position import (
-    in_general_position,
-    number_of_ways,
-    separated,
-    touching_points,
-)
+from plyfold.arrangement.general_position import in_general_position, number_of_ways, separated, touching_points
 from plyfold.arrangement.leftmost import leftmost_crossing
 from plyfold.arrangement.maps import (
     CellWalk,
@@ -187,7 +182,8 @@ class Arrangement:
         return arranged
 
     @classmethod
-    def _of_drawing(cls, found: DrawnMap) -> Arrangement:
+    def of_drawing(cls, found: DrawnMap) -> Arrangement:
+        """Return the arrangement of the map that an outline draws."""
         return cls._of_map(found.drawn, found.walked, found.turning, found.outline, **found.more)
 
     @classmethod
@@ -559,7 +555,7 @@ def watched_arrangement(curve: OutlineLike, general_position: Literal["perturb",
     if are_several(curve) and len(several := cast("Sequence[CurveLike]", curve)) == 1:
         return watched_arrangement(several[0], general_position, watch)
     placed = in_general_position(as_outline(curve), general_position, watch)
-    return Arrangement._of_drawing(drawn_map(placed, watch))
+    return Arrangement.of_drawing(drawn_map(placed, watch))
 
 
 def ways_apart(arranged: Arrangement, inward: bool = False) -> Iterator[Arrangement]:
@@ -588,7 +584,7 @@ def ways_apart(arranged: Arrangement, inward: bool = False) -> Iterator[Arrangem
     for way in range(0 if inward else 1, number_of_ways(arranged.given)):
         placed = separated(arranged.given, -1 if inward else 1, way=way)
         placed = replace(placed, numbers=arranged.numbers, turned_round=arranged.reversed)
-        yield Arrangement._of_drawing(drawn_map(placed, UNWATCHED))
+        yield Arrangement.of_drawing(drawn_map(placed, UNWATCHED))
 
 
 def require_one_loop(arranged: Arrangement, what: str = "this") -> None:

@@ -8,12 +8,13 @@ made small enough for doubles to show the very same. Vertices that touch as cusp
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from plyfold.arrangement.crossings import Contacts, Visits
-from plyfold.arrangement.crowded_cusps import crowded_cusps, lie_inside
+from plyfold.arrangement.crowded_cusps import crowded_cusps, cusps_that_stay, lie_inside, stay_inside
 from plyfold.arrangement.infinitesimal import (
     MovingPoints,
     begin_to_move,
@@ -24,7 +25,7 @@ from plyfold.arrangement.infinitesimal import (
 )
 from plyfold.arrangement.meetings import JoinedLoops, joined_loops, meetings, visits_along
 from plyfold.arrangement.nesting import nest, same_nest
-from plyfold.arrangement.noding import node_outline
+from plyfold.arrangement.noding import Noding, node_outline
 from plyfold.arrangement.outward import are_moved, outward_vectors, winds_backward
 from plyfold.arrangement.spikes import tips, without_spikes
 from plyfold.arrays import Floats, Ints
@@ -32,7 +33,16 @@ from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GeneralPositionError, InputError
 from plyfold.outline.curve import Outline, Repair, backward_numbers, outline_of_points
 
-__all__ = ["GeneralPosition", "in_general_position", "number_of_ways", "separated", "touching_points"]
+__all__ = [
+    "GeneralPosition",
+    "InContact",
+    "in_general_position",
+    "moved_apart",
+    "number_of_ways",
+    "separated",
+    "touching_points",
+    "without_contacts",
+]
 
 # Sizes of moves as fractions of the drawing's: smaller ones where strands crowd.
 _STEPS = [2.0**-exponent for exponent in range(20, 49, 4)]
@@ -69,6 +79,29 @@ class GeneralPosition:
     turned_round: bool | None
 
 
+@dataclass(frozen=True, eq=False)
+class InContact:
+    """An outline that touches itself or has spikes.
+
+    Parameters
+    ----------
+    outline : Outline
+    left : Outline
+        What is left of it without its spikes; the same one if it has none.
+    kept : (points,) int
+        The numbers of those points.
+    """
+
+    outline: Outline
+    left: Outline
+    kept: Ints
+
+    @cached_property
+    def noding(self) -> Noding:
+        """The exact noding of what is left."""
+        return node_outline(self.left)
+
+
 def in_general_position(
     outline: Outline, policy: Literal["perturb", "raise"], watch: Watch = UNWATCHED
 ) -> GeneralPosition:
@@ -98,6 +131,14 @@ def in_general_position(
     """
     if policy not in ("perturb", "raise"):
         raise InputError(f'general_position must be "perturb" or "raise", not {policy!r}')
+    found = without_contacts(outline, policy, watch)
+    return found if isinstance(found, GeneralPosition) else moved_apart(found, watch)
+
+
+def without_contacts(
+    outline: Outline, policy: Literal["perturb", "raise"], watch: Watch = UNWATCHED
+) -> GeneralPosition | InContact:
+    """Return an outline that is in general position as it is, or what there is to know before points of it move."""
     joined = _joined(outline)
     contacts = meetings(joined, watch)
     if policy == "raise" or len(contacts.touches) == 0:
@@ -106,11 +147,17 @@ def in_general_position(
             return GeneralPosition(outline, outline, np.arange(len(outline)), joined, visits, None)
         if policy == "raise":
             raise _not_general(outline, contacts, visits)
-    left, kept = without_spikes(outline)
-    if left is outline:
-        return _directed(outline, watch)
-    rest = in_general_position(left, policy, watch)
-    return replace(rest, numbers=kept[rest.numbers])
+    return InContact(outline, *without_spikes(outline))
+
+
+def moved_apart(found: InContact, watch: Watch = UNWATCHED) -> GeneralPosition:
+    """Return an outline in contact with its touching strands moved apart."""
+    if found.left is not found.outline:
+        rest = without_contacts(found.left, "perturb", watch)
+        if isinstance(rest, GeneralPosition):
+            return replace(rest, numbers=found.kept)
+    placed = _directed(found, watch)
+    return replace(placed, numbers=found.kept[placed.numbers])
 
 
 def _not_general(outline: Outline, contacts: Contacts, visits: Visits) -> GeneralPositionError:
@@ -135,10 +182,10 @@ def _places(outline: Outline, contacts: Contacts, visits: Visits) -> list[tuple[
     return [(float(x), float(y)) for x, y in places]
 
 
-def _directed(outline: Outline, watch: Watch) -> GeneralPosition:
+def _directed(found: InContact, watch: Watch) -> GeneralPosition:
     """Turn an outline round if its surface lies on the right, and move its points outward."""
-    turned_round = winds_backward(outline, node_outline(outline))
-    if not turned_round:
+    outline = found.left
+    if not winds_backward(outline, found.noding):
         return separated(outline, 1, watch)
     numbers = backward_numbers(outline.first_point)
     parts = (
@@ -190,7 +237,9 @@ def separated(given: Outline, sense: int, watch: Watch = UNWATCHED, way: int = 0
 
     Notes
     -----
-    Where three edges meet inside all of them, whichever way they part will do; so their ends move, too.
+    Where three edges meet inside all of them, their ends move in the same way. Whichever way they part, there are the
+    same immersions. But only if all of them, or all but two, move outward, all sheets there have a cell in common, so
+    that they lie over it in one order, as they must over the single point.
     """
     touching = _Touching(given, meetings(_joined(given), watch), sense, watch)
     stays, moves = _points_to_move(given, touching.contacts, way)
@@ -219,13 +268,14 @@ def _points_to_move(given: Outline, contacts: Contacts, way: int) -> tuple[Ints,
     All other points in contact move, and the ends of edges on which cusps lie: then these edges move outward, too.
     """
     vertex, edge = contacts.touches.T
-    is_cusp = np.concatenate(given.cusps) > 0
-    touching = np.unique(vertex)
-    stays = touching[is_cusp[touching]]
-    edges = edge[is_cusp[vertex] & lie_inside(given, contacts)]
-    points = np.setdiff1d(np.concatenate([touching, edges, given.next_point[edges]]), stays)
+    stays = cusps_that_stay(given, contacts)
     crowded = crowded_cusps(given, contacts)
-    return stays, _Moves(points, crowded.points, crowded.way(way))
+    edges = edge[stays[vertex] & lie_inside(given, contacts)]
+    if len(crowded.points):
+        # Edges of cusps that give way may go inward; so all others move outward that meet there.
+        edges = np.union1d(edges, visits_along(_joined(given), contacts).triple)
+    points = np.setdiff1d(np.concatenate([vertex, edges, given.next_point[edges]]), np.flatnonzero(stays))
+    return np.flatnonzero(stays), _Moves(points, crowded.points, crowded.way(way))
 
 
 def _moved(touching: _Touching, moves: _Moves, scatter: int) -> GeneralPosition | Ints:
@@ -241,6 +291,8 @@ def _moved(touching: _Touching, moves: _Moves, scatter: int) -> GeneralPosition 
         points[moves.others] += step * moves.vectors
         if not are_moved(given, moves.points, points[moves.points], sense).all():
             continue
+        if not stay_inside(given, touching.contacts, points, moves.others, sense):
+            continue
         found = _shown(touching, points)
         if isinstance(found, GeneralPosition) or len(found):
             return found
@@ -252,7 +304,7 @@ def _shown(touching: _Touching, points: Floats) -> GeneralPosition | Ints:
 
     Else the edges that stay together, however little they move.
     """
-    given, contacts, _, watch = touching
+    given, contacts, sense, watch = touching
     motion = begin_to_move(given.points, points, given.next_point)
     wanted, undecided = signed_crossings(motion, contacts)
     joined = joined_loops(points, given.first_point)
@@ -266,8 +318,9 @@ def _shown(touching: _Touching, points: Floats) -> GeneralPosition | Ints:
     if len(together) or not (right and _lie_alike(motion, joined, visits)):
         return np.unique(together)
     repairs = *given.repairs, *_moves(given.points, points)
-    # A cusp at a tip has an angle of 360° that one sees; strands that move outward there leave next to none.
-    cusps = np.concatenate(given.cusps) + (tips(given) if given.has_cusps else 0)
+    # A cusp at a tip has an angle of 360° that one sees; strands that move outward there leave next to none, and those
+    # that move inward next to all of it.
+    cusps = np.concatenate(given.cusps) + (tips(given) if given.has_cusps and sense > 0 else 0)
     outline = outline_of_points(points, given.loop_of_point, cusps, given.rows, repairs)
     return GeneralPosition(outline, given, np.arange(len(given)), joined, visits, False)
 

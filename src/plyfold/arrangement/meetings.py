@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -29,55 +30,47 @@ class JoinedLoops:
         The first point of the loop for the copies of it, and each other point itself.
     is_jump : (n,) bool
         True where the edge that starts at a point is a jump.
+    first_point : (loops + 1,) int
+        The first point of each loop in the outline, and last the number of its points.
     """
 
     points: Floats
     loop: Ints
     vertex: Ints
     is_jump: Bools
+    first_point: Ints
 
     @property
     def is_one_loop(self) -> bool:
         """Whether there are no jumps."""
         return int(self.loop[-1]) == 0
 
+    @cached_property
+    def vertices(self) -> Floats:
+        """The points of the outline, without the copies, shape (points, 2)."""
+        return self.points if self.is_one_loop else self.points.take(np.flatnonzero(~self.is_jump), axis=0)
+
 
 def joined_loops(points: Floats, first_point: Ints) -> JoinedLoops:
     """Return loops as one polyline; loop l has the points ``first_point[l]:first_point[l + 1]``."""
     if len(first_point) == 2:
         n = len(points)
-        return JoinedLoops(points, np.zeros(n, dtype=np.int64), np.arange(n), np.zeros(n, dtype=bool))
+        return JoinedLoops(points, np.zeros(n, dtype=np.int64), np.arange(n), np.zeros(n, dtype=bool), first_point)
     lengths = np.diff(first_point) + 1
-    last = np.cumsum(lengths) - 1
-    vertex = np.arange(int(lengths.sum()))
+    last = lengths.cumsum() - 1
+    vertex = np.arange(int(last[-1]) + 1)
     vertex[last] -= lengths - 1
-    loop = np.repeat(np.arange(len(lengths)), lengths)
-    return JoinedLoops(points[vertex - loop], loop, vertex, is_jump=np.isin(np.arange(len(vertex)), last))
+    loop = np.arange(len(lengths)).repeat(lengths)
+    is_jump = np.zeros(len(vertex), dtype=bool)
+    is_jump[last] = True
+    return JoinedLoops(points.take(vertex - loop, axis=0), loop, vertex, is_jump, first_point)
 
 
 def meetings(joined: JoinedLoops, watch: Watch = UNWATCHED) -> Contacts:
     """Return the pairs of edges of an outline that cross, and the vertices that lie on foreign edges."""
-    if joined.is_one_loop:
-        return find_contacts(joined.points, watch)
-    found = find_contacts(joined.points, watch, np.flatnonzero(joined.is_jump))
-    edges = found.edges - joined.loop[found.edges]
-    return replace(found, edges=edges, touches=_own_touches_left_out(joined, found.touches))
-
-
-def _own_touches_left_out(joined: JoinedLoops, touches: Ints) -> Ints:
-    """Leave out the touches of jumps, and those of edges that share the point with which a loop begins and ends."""
-    vertex, edge = joined.vertex[touches[:, 0]], touches[:, 1]
-    following = joined.vertex[(edge + 1) % len(joined.vertex)]
-    kept = ~joined.is_jump[edge] & (vertex != edge) & (vertex != following)
-    rows = np.stack([vertex[kept], edge[kept]], axis=1)
-    return np.unique(rows - joined.loop[rows], axis=0)
+    return find_contacts(joined.vertices, watch, joined.first_point)
 
 
 def visits_along(joined: JoinedLoops, contacts: Contacts) -> Visits:
     """Return the visits of an outline to its crossings, in order along one loop after the other."""
-    if joined.is_one_loop:
-        return order_visits(joined.points, contacts)
-    number = np.flatnonzero(~joined.is_jump)
-    visits = order_visits(joined.points, replace(contacts, edges=number[contacts.edges]))
-    loop = joined.loop
-    return replace(visits, edge=visits.edge - loop[visits.edge], triple=visits.triple - loop[visits.triple])
+    return order_visits(joined.vertices, contacts, joined.first_point)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plyfold.arrangement.crossings import Visits, edge_ends
+from plyfold.arrangement.crossings import Visits
 from plyfold.arrangement.marks import AT_VERTEX, Mark
 from plyfold.arrangement.meetings import JoinedLoops
 from plyfold.arrays import Bools, Floats, Ints, Wholes
@@ -33,6 +33,8 @@ _EDGES_IN_BOX = 8
 # Rays that meet nothing are made so many times longer; this many are looked at together.
 _LONGER = 4
 _RAYS = 1024
+# So few pairs of rays and edges are looked at without boxes.
+_ALL_PAIRS = 2**17
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,12 +140,9 @@ class _Plan:
         """The heights of the points, or numbers in the same order."""
         return self.joined.points[:, 1] if self.exact is None else _ranks(self.exact[:, 1])
 
-    @cached_property
-    def ends(self) -> Floats:
-        """Start and end of each edge; jumps go nowhere."""
-        ends = edge_ends(self.joined.points)
-        ends[self.joined.is_jump, 1] = ends[self.joined.is_jump, 0]
-        return ends
+    def ends(self, edge: Ints) -> Floats:
+        """Return start and end of some edges."""
+        return self.joined.points[np.stack([edge, edge + 1], axis=1)]
 
     @cached_property
     def first_border(self) -> Ints:
@@ -182,14 +181,17 @@ class _Boxes:
         """Return the boxes of all edges at some heights; no box holds edges of two loops."""
         from shapely import STRtree, linestrings
 
-        first = np.flatnonzero(count_each(np.bincount(plan.joined.loop)) % _EDGES_IN_BOX == 0)
-        start, end = plan.ends.swapaxes(0, 1)
-        low = np.minimum.reduceat(np.minimum(start, end), first)
-        high = np.maximum.reduceat(np.maximum(start, end), first)
+        n_edges = plan.joined.first_point[1:] - plan.joined.first_point[:-1]
+        boxes = -(-n_edges // _EDGES_IN_BOX)
+        place = _EDGES_IN_BOX * count_each(boxes)
+        first = np.repeat(starts_of(n_edges + 1), boxes) + place
+        size = np.minimum(np.repeat(n_edges, boxes) - place, _EDGES_IN_BOX)
+        low, high = _extremes(plan.joined.points[:, 1], first, size)
         order = np.sort(heights)
-        kept = np.searchsorted(order, low[:, 1]) < np.searchsorted(order, high[:, 1], side="right")
-        tree = STRtree(linestrings(np.stack([low[kept], high[kept]], axis=1)))
-        return cls(tree, first[kept], np.diff(first, append=len(plan.ends))[kept])
+        kept = np.searchsorted(order, low) < np.searchsorted(order, high, side="right")
+        left, right = _extremes(plan.joined.points[:, 0], first, size)
+        corners = np.stack([left, low, right, high], axis=1)[kept]
+        return cls(STRtree(linestrings(corners.reshape(-1, 2, 2))), first[kept], size[kept])
 
     def near(self, start: Floats, end: Floats, height: Floats) -> tuple[Ints, Ints]:
         """Return the edges in all boxes that level rays meet: (place among the rays, edge) of each."""
@@ -199,6 +201,15 @@ class _Boxes:
         ray, box = self.tree.query(linestrings(rays))
         size = self.size[box]
         return np.repeat(ray, size), np.repeat(self.first[box], size) + count_each(size)
+
+
+def _extremes(values: Floats, first: Ints, size: Ints) -> tuple[Floats, Floats]:
+    """Return the least and the largest value at the ends of so many edges from each first one on."""
+    end = values[first + size]
+    return (
+        np.minimum(np.minimum.reduceat(values, first), end),
+        np.maximum(np.maximum.reduceat(values, first), end),
+    )
 
 
 def _corners(plan: _Plan) -> Ints:
@@ -247,7 +258,7 @@ def _feet_on_edges(plan: _Plan, edge: Ints, passed: Ints, corner: Ints, number: 
     Later ones, which come from further right, are higher if the vertices have one height: they pass above.
     """
     height, loop = plan.joined.points[corner, 1], plan.joined.loop[edge]
-    (start, _), (end, _) = plan.ends[edge].transpose(1, 2, 0)
+    (start, _), (end, _) = plan.ends(edge).transpose(1, 2, 0)
     x = start + _shares(plan, edge, corner) * (end - start)
     upward = np.where(plan.is_upward(edge), 1, -1)
     columns = (edge - loop, upward * plan.height[corner], upward * (2 + number), passed, loop, x, height)
@@ -270,6 +281,8 @@ def _met_on_the_left(plan: _Plan, corner: Ints, watch: Watch) -> Ints:
     vertices and no crossings. They are short at first: most meet something soon.
     """
     x, y = plan.joined.points.T
+    if len(corner) * len(x) <= _ALL_PAIRS:
+        return _first_met(plan, corner, *_all_at_heights(plan, corner))[0]
     boxes = _Boxes.at(plan, y[corner])
     leftmost, rightmost = float(x.min()), float(x.max())
     met = np.full(len(corner), -1)
@@ -284,27 +297,40 @@ def _met_on_the_left(plan: _Plan, corner: Ints, watch: Watch) -> Ints:
         for start in range(0, len(waiting), _RAYS):
             watch.step()
             some = slice(start, start + _RAYS)
-            met[waiting[some]], is_near = _first_met(plan, boxes, corner[waiting[some]], end[some])
-            is_known[some] |= is_near
+            here = corner[waiting[some]]
+            met[waiting[some]], nearest = _first_met(plan, here, *_near_at_heights(plan, boxes, here, end[some]))
+            is_known[some] |= nearest >= end[some]
         waiting = waiting[~is_known]
     return met
 
 
-def _first_met(plan: _Plan, boxes: _Boxes, corner: Ints, end: Floats) -> tuple[Ints, Bools]:
-    """Return the edge that each ray meets first, −1 for none, of those in the boxes on its way to an end.
+def _all_at_heights(plan: _Plan, corner: Ints) -> tuple[Ints, Ints]:
+    """Return all edges that pass heights of vertices: (place among these, edge) of each."""
+    is_low = plan.height <= plan.height[corner, None]
+    ray, edge = (is_low[:, :-1] != is_low[:, 1:]).nonzero()
+    return ray, edge
 
-    And for which rays that is before the end, so that no others matter.
-    """
+
+def _near_at_heights(plan: _Plan, boxes: _Boxes, corner: Ints, end: Floats) -> tuple[Ints, Ints]:
+    """Return those in the boxes on the way from vertices to ends on their left."""
     x, height = plan.joined.points[corner].T
     ray, edge = boxes.near(end, x, height)
-    others = (plan.group[edge] != plan.group[corner[ray]]) & ~plan.joined.is_jump[edge]
-    ray, edge = ray[others], edge[others]
     level = plan.height[corner[ray]]
     met = (plan.height[edge] <= level) != (plan.height[edge + 1] <= level)
-    ray, edge = ray[met], edge[met]
+    return ray[met], edge[met]
+
+
+def _first_met(plan: _Plan, corner: Ints, ray: Ints, edge: Ints) -> tuple[Ints, Floats]:
+    """Return the edge that each ray meets first, −1 for none, of some that pass its height; and where, about.
+
+    It is not further to the left than that place, which is −∞ if the ray met nothing.
+    """
+    others = (plan.group[edge] != plan.group[corner[ray]]) & ~plan.joined.is_jump[edge]
+    ray, edge = ray[others], edge[others]
     if plan.exact is not None:
-        return _exactly_first(plan, corner, ray, edge, np.arange(len(corner))), np.ones(len(corner), dtype=bool)
-    place, error = _rounded_places(plan.ends[edge], height[ray])
+        return _exactly_first(plan, corner, ray, edge, np.arange(len(corner))), np.full(len(corner), np.inf)
+    x, height = plan.joined.points[corner].T
+    place, error = _rounded_places(plan.ends(edge), height[ray])
     surely = place + error < x[ray]
     least = np.full(len(corner), -np.inf)
     np.maximum.at(least, ray[surely], (place - error)[surely])
@@ -314,7 +340,7 @@ def _first_met(plan: _Plan, boxes: _Boxes, corner: Ints, end: Floats) -> tuple[I
     is_open[ray[~surely]] = True
     first = _exactly_first(plan, corner, ray, edge, np.flatnonzero(is_open))
     first[ray[~is_open[ray]]] = edge[~is_open[ray]]
-    return first, least >= end
+    return first, least
 
 
 def _rounded_places(ends: Floats, height: Floats) -> tuple[Floats, Floats]:

@@ -7,13 +7,12 @@ boundaries of cells are the orbits of *turn left at every crossing*.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrays import Bools, Ints
-from plyfold.compiled import run_loop
+from plyfold.core.buffers import flat
+from plyfold.core.cells import walk_cells
 from plyfold.errors import GaussCodeError
 from plyfold.graphs import components
 from plyfold.ragged import count_each, starts_of
@@ -128,49 +127,9 @@ def cell_boundaries(following: Ints, outer: int) -> tuple[Ints, Ints]:
     -----
     O(darts).
     """
-    walked, darts, start = np.zeros((3, len(following)), dtype=np.int64)
-    room = _Cells(darts, start, counted=np.zeros(1, dtype=np.int64))
-    cells = run_loop(_walked, len(following), (_Map(following, np.array([outer]), walked),), room)
-    return np.append(cells.start[: cells.counted[0]], len(following)), cells.darts
-
-
-class _Map(NamedTuple):
-    """The dart after each dart, one of the unbounded cell, and which have been walked."""
-
-    following: Ints
-    outer: Ints
-    walked: Ints
-
-
-class _Cells(NamedTuple):
-    """The darts cell by cell, where each cell starts, and the number of cells."""
-
-    darts: Ints
-    start: Ints
-    counted: Ints
-
-
-def _walked(given: tuple[_Map], cells: _Cells) -> int:
-    """Walk round every cell from its lowest dart, round the unbounded one first; return how many there are."""
-    following, walked, outer = given[0].following, given[0].walked, given[0].outer[0]
-    darts, start = cells.darts, cells.start
-    lowest, dart = outer, following[outer]
-    while dart != outer:
-        lowest = min(lowest, dart)
-        dart = following[dart]
-    size = count = 0
-    for place in range(-1, len(following)):
-        dart = lowest if place < 0 else place
-        if walked[dart] == 0:
-            start[count] = size
-            count += 1
-            while walked[dart] == 0:
-                walked[dart] = 1
-                darts[size] = dart
-                size += 1
-                dart = following[dart]
-    cells.counted[0] = count
-    return count
+    darts, start = np.empty((2, len(following)), dtype=np.int64)
+    cells = walk_cells(flat(following), outer, flat(darts), flat(start), flat(np.full(len(following), -1)))
+    return np.append(start[:cells], len(following)), darts
 
 
 def joined_cells(cycle_start: Ints, cycle_darts: Ints, same_cell: Ints) -> tuple[Ints, Ints]:

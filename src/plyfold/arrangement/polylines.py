@@ -8,6 +8,7 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.predicates import orient
+from plyfold.ragged import next_in_rows, previous_in_rows
 
 __all__ = ["inner_points", "polygon_turning_number", "polygon_turning_numbers", "total_winding", "winding_number"]
 
@@ -28,16 +29,16 @@ def polygon_turning_number(points: Floats) -> int:
 
 def polygon_turning_numbers(points: Floats, first: Ints) -> tuple[int, ...]:
     """Return the turning numbers of several closed polylines; polyline l has points ``first[l]:first[l + 1]``."""
-    following = np.arange(1, len(points) + 1)
-    following[first[1:] - 1] = first[:-1]
-    previous = np.empty_like(following)
-    previous[following] = np.arange(len(points))
-    turn = orient(points[previous], points, points[following])
-    step = points[following] - points
-    upper = (step[:, 1] > 0) | ((step[:, 1] == 0) & (step[:, 0] > 0))
-    upper_before = upper[previous]
-    passed = ((turn > 0) & ~upper_before & upper).astype(np.int64) - ((turn < 0) & upper_before & ~upper)
-    return tuple(np.add.reduceat(passed, first[:-1]).tolist())
+    following, previous = next_in_rows(first), previous_in_rows(first)
+    x, y = points.T
+    next_x, next_y = x.take(following), y.take(following)
+    upper = (next_y > y) | ((next_y == y) & (next_x > x))
+    # The direction passes that of the x axis, or the opposite one, at few points.
+    place = np.flatnonzero(upper != upper.take(previous))
+    turn = orient(points[previous[place]], points[place], points[following[place]])
+    passed = np.where(upper[place], turn > 0, -(turn < 0).astype(np.int64))
+    since_start = np.append(0, passed.cumsum())[np.searchsorted(place, first)]
+    return tuple((since_start[1:] - since_start[:-1]).tolist())
 
 
 def winding_number(points: Floats, place: tuple[float, float]) -> int | None:

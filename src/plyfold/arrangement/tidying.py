@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Callable
 
 import numpy as np
 
@@ -10,12 +11,26 @@ from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import InputError
 from plyfold.options import refuse_unless_count, refuse_unless_flag, refuse_unless_number
-from plyfold.outline.curve import Curve
+from plyfold.outline.curve import Curve, Outline
 
-__all__ = ["simplified", "smoothed"]
+__all__ = ["each_tidied", "simplified", "smoothed"]
 
 # A point that still changes the code after its move was halved so often stays where it is.
 _MOST_HALVINGS = 8
+
+# More rounds of smoothing are refused: they would take long, and of most curves hardly more than a point is left.
+_MOST_ROUNDS = 10_000
+
+
+def each_tidied(outline: Outline, keep_code: bool, tidied: Callable[[Curve], Curve]) -> Outline:
+    """Return an outline all of whose loops have been tidied; of several, no code can be kept."""
+    refuse_unless_flag("keep_code", keep_code)
+    if outline.n_loops == 1:
+        return tidied(outline.curves[0])
+    if keep_code:
+        hint = "leave keep_code out, or take each of outline.curves by itself"
+        raise InputError(f"keep_code keeps the code of one loop, and this outline has {outline.n_loops}", hint=hint)
+    return Outline([tidied(curve) for curve in outline.curves], repairs=outline.repairs)
 
 
 def simplified(curve: Curve, tolerance: float, keep_code: bool) -> Curve:
@@ -117,12 +132,15 @@ def _crossed(arranged: Arrangement, stretch: Ints) -> dict[int, list[tuple[int, 
 
 def smoothed(curve: Curve, rounds: int, keep_code: bool) -> Curve:
     """Return a curve whose points have moved, see :meth:`Curve.smoothed <plyfold.Curve.smoothed>`."""
-    refuse_unless_count("rounds", rounds)
+    refuse_unless_count("rounds", rounds, most=_MOST_ROUNDS)
     refuse_unless_flag("keep_code", keep_code)
     fixed = curve.cusps[0] > 0
     goal = curve.points.copy()
     for _ in range(rounds):
-        goal[~fixed] = ((np.roll(goal, 1, axis=0) + 2 * goal + np.roll(goal, -1, axis=0)) / 4)[~fixed]
+        before = goal
+        goal = np.where(fixed[:, None], goal, (np.roll(goal, 1, axis=0) + 2 * goal + np.roll(goal, -1, axis=0)) / 4)
+        if np.array_equal(goal, before):
+            break
     if not keep_code:
         return Curve(goal, curve.repairs, curve.cusps[0])
     return _moved(curve, goal)

@@ -87,7 +87,7 @@ class ExactPlaces:
         ends = np.stack([vertex[unsure] for vertex in (a, b, c, d)], axis=1)
         # The signs of what lies on one edge are 0 as they are.
         apart = ~self._on_one_edge(ends)
-        signs[unsure[apart]] = [self._exact_cross_sign(four) for four in ends[apart].tolist()]
+        signs[unsure[apart]] = self._exact_cross_signs(ends[apart])
         return signs, np.asarray(~sure)
 
     def step_sign(self, a: Ints, b: Ints, axis: Ints) -> Signs:
@@ -126,17 +126,21 @@ class ExactPlaces:
         known = edges[:, 0] >= 0
         return np.asarray((shared[0] & known[:, 0]) | (shared[1] & known[:, 1]))
 
-    def _exact_cross_sign(self, vertices: list[int]) -> int:
-        """Return the sign of a cross product in whole numbers, each place times its denominator."""
-        (ax, ay, a), (bx, by, b), (cx, cy, c), (dx, dy, d) = map(self._whole, vertices)
-        return _sign((bx * a - ax * b) * (dy * c - cy * d) - (by * a - ay * b) * (dx * c - cx * d))
+    def _exact_cross_signs(self, vertices: Ints) -> Signs:
+        """Return the signs of cross products, shape (m, 4), in whole numbers: each place times its denominator."""
+        places, number = np.unique(vertices, return_inverse=True)
+        whole = np.array([self._whole(place) for place in places.tolist()], dtype=object).reshape(-1, 3)
+        (ax, ay, a), (bx, by, b), (cx, cy, c), (dx, dy, d) = whole[number.reshape(-1, 4)].transpose(1, 2, 0)
+        cross = (bx * a - ax * b) * (dy * c - cy * d) - (by * a - ay * b) * (dx * c - cx * d)
+        return np.asarray((cross > 0).astype(np.int8) - (cross < 0))
 
     def _whole(self, vertex: int) -> tuple[int, int, int]:
         """Return a place as two whole numbers and what they are to be divided by; found once for each vertex."""
         if vertex not in self._known:
-            x, y = self.exact(vertex)
-            below = lcm(x.denominator, y.denominator)
-            self._known[vertex] = int(x * below), int(y * below), below
+            x, y = self.near[vertex].tolist() if self.off[vertex] == 0 else self.exact(vertex)
+            (across, of_x), (up, of_y) = x.as_integer_ratio(), y.as_integer_ratio()
+            below = lcm(of_x, of_y)
+            self._known[vertex] = across * (below // of_x), up * (below // of_y), below
         return self._known[vertex]
 
     @cached_property

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 import json
 
 from plyfold import __version__
@@ -119,6 +120,15 @@ def _complain(options: argparse.Namespace, error: Exception, code: int) -> int:
     return code
 
 
+class _Version(argparse.Action):
+    """Say which version this is, and whether its hot loops are compiled."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        why_plain = importlib.import_module("plyfold.core").WHY_PLAIN
+        print(f"plyfold {__version__} ({f'plain: {why_plain}' if why_plain else 'compiled'})")
+        parser.exit()
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="plyfold",
@@ -126,7 +136,7 @@ def _parser() -> argparse.ArgumentParser:
         epilog=_GUIDE,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("--version", action="version", version=f"plyfold {__version__}")
+    parser.add_argument("--version", action=_Version, nargs=0, help="show program's version number and exit")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for add in _COMMANDS:
         add(commands)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 from typing import TYPE_CHECKING
 
 from plyfold.cli.progress import Stopwatch
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from plyfold.io.reading import Contents
     from plyfold.outline.curve import Outline
 
-__all__ = ["add_drawing_options", "read_file", "read_outline"]
+__all__ = ["add_drawing_options", "named_drawing", "read_file", "read_outline"]
 
 
 def add_drawing_options(command: argparse.ArgumentParser) -> None:
@@ -78,6 +79,28 @@ def _cusp(text: str) -> CuspMark:
         return parse_cusp(text)
     except FileFormatError as error:
         raise argparse.ArgumentTypeError(f"{error.message}: {error.hint}") from None
+
+
+def named_drawing(options: argparse.Namespace) -> str:
+    """Return how a command line names the drawing, quoted for the shell where that is needed.
+
+    Examples
+    --------
+    >>> parser = argparse.ArgumentParser()
+    >>> add_drawing_options(parser)
+    >>> named_drawing(parser.parse_args(["my loop.svg", "--index", "2", "--cusp", "12"]))
+    "'my loop.svg' --index 2 --cusp 0:12"
+    """
+    from plyfold.io.cusp_notation import written_cusp
+
+    path = f"./{options.file}" if options.file.startswith("-") and options.file != "-" else options.file
+    words = [path]
+    for name in ("id", "index", "tolerance", "width", "join", "cap"):
+        value = options.shape.get("index", options.index) if name == "index" else getattr(options, name)
+        words += [] if value is None else [f"--{name}", str(value)]
+    words += ["--uv"] * options.uv
+    words += [word for mark in options.cusp for word in ("--cusp", written_cusp(mark))]
+    return shlex.join(words)
 
 
 def read_outline(options: argparse.Namespace, watch: Stopwatch) -> Outline:

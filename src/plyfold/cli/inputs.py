@@ -71,10 +71,15 @@ def add_time_limit(command: argparse.ArgumentParser, of: str = "the search for a
 
 
 def _seconds(text: str) -> float:
-    seconds = float(text)
-    if not seconds >= 0:
-        raise argparse.ArgumentTypeError(f"{text} is not a number of seconds from 0 on")
-    return seconds
+    return _from_zero_on(text, f"{text} is not a number of seconds from 0 on")
+
+
+def _from_zero_on(text: str, wrong: str) -> float:
+    """Read a number from 0 on; say what is wrong if it is none."""
+    with suppress(ValueError):
+        if (number := float(text)) >= 0:
+            return number
+    raise argparse.ArgumentTypeError(wrong)
 
 
 def add_repair(command: argparse.ArgumentParser, is_option: bool = True) -> None:
@@ -86,14 +91,12 @@ def add_repair(command: argparse.ArgumentParser, is_option: bool = True) -> None
     command.add_argument(
         "--allow",
         type=_part,
-        default=0.01,
         metavar="P",
         help="the part of the region that it may change (default: 1%%)",
     )
     command.add_argument(
         "--allow-layers",
         type=_part,
-        default=0.2,
         metavar="P",
         help="the part of all that lies in layers, each counted, that it may change (default: 20%%)",
     )
@@ -107,10 +110,13 @@ def _part(text: str) -> float:
     >>> _part("2%"), _part("0.02")
     (0.02, 0.02)
     """
-    number = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
-    if not number >= 0:
-        raise argparse.ArgumentTypeError(f"{text} is no part of a whole, such as 1% or 0.01")
-    return number
+    number = _from_zero_on(text.removesuffix("%"), f"{text} is no part of a whole, such as 1% or 0.01")
+    return number / 100 if text.endswith("%") else number
+
+
+def _caps(options: argparse.Namespace) -> dict[str, float | None]:
+    """Return the parts that a repair may change, as far as they are given."""
+    return {name: getattr(options, name, None) for name in ("allow", "allow_layers")}
 
 
 def repaired(outline: Outline, options: argparse.Namespace, watch: Stopwatch, clock: Clock) -> Repaired:
@@ -119,7 +125,8 @@ def repaired(outline: Outline, options: argparse.Namespace, watch: Stopwatch, cl
 
     load_libraries(FOR_CROSSINGS, watch)
     watch("repairing")
-    found = repair(outline, options.allow, options.allow_layers, clock.left)
+    caps = {name: part for name, part in _caps(options).items() if part is not None}
+    found = repair(outline, **caps, time_limit=clock.left)
     if isinstance(found, Repaired):
         return found
     if isinstance(found, Obstruction):
@@ -129,8 +136,11 @@ def repaired(outline: Outline, options: argparse.Namespace, watch: Stopwatch, cl
 
 def read_drawing(options: argparse.Namespace, watch: Stopwatch, clock: Clock | None = None) -> Outline:
     """Return the outline that is named, repaired if that is asked for; then say so."""
+    is_repaired = getattr(options, "repair", False)
+    if not is_repaired and any(part is not None for part in _caps(options).values()):
+        raise InputError("--allow and --allow-layers say what --repair may change", hint="add --repair")
     outline = read_outline(options, watch)
-    if not getattr(options, "repair", False):
+    if not is_repaired:
         return outline
     found = repaired(outline, options, watch, clock or Clock(None))
     watch.stop()

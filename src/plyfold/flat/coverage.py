@@ -16,9 +16,10 @@ from plyfold.arrangement.outward import winds_backward
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import GeneralPositionError, PrecisionError
 from plyfold.flat.regions import refuse_invalid, regions, signed_areas
-from plyfold.mesh.refine import chain_of, drawn_outline
+from plyfold.mesh.refine import chain_of, drawn_outline, given_outline
 from plyfold.outline.curve import Outline
 from plyfold.outline.given import OutlineLike, as_outline
+from plyfold.outline.points import refuse_tiny
 from plyfold.ragged import count_each, previous_in_rows
 
 if TYPE_CHECKING:
@@ -73,7 +74,7 @@ def coverage(curve: OutlineLike) -> list[Covered]:
     Raises
     ------
     PrecisionError
-        If rounding its crossings makes the drawing cross itself ever more.
+        If rounding its crossings makes the drawing cross itself ever more, or it is so small that areas have no double.
 
     Notes
     -----
@@ -98,7 +99,9 @@ def coverage(curve: OutlineLike) -> list[Covered]:
 
 def directed_coverage(curve: OutlineLike) -> tuple[list[Covered], bool]:
     """Return the same as :func:`coverage`, and whether the winding numbers are those of the curve turned round."""
-    drawn = curve if isinstance(curve, Arrangement) else _in_general_position(as_outline(curve))
+    given = curve if isinstance(curve, Arrangement) else as_outline(curve)
+    refuse_tiny((given_outline(given) if isinstance(given, Arrangement) else given).points, "polygons")
+    drawn = given if isinstance(given, Arrangement) else _in_general_position(given)
     if isinstance(drawn, Arrangement):
         with suppress(PrecisionError):
             return _cells_of_arrangement(drawn), drawn.reversed

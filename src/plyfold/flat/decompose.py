@@ -21,6 +21,7 @@ from plyfold.halfedges import ends_of, glued_pairs
 from plyfold.immersion.immersion import Immersion
 from plyfold.mesh.refine import drawn_outline, given_outline
 from plyfold.outline.given import OutlineLike, as_outline
+from plyfold.outline.points import refuse_tiny
 from plyfold.predicates import orient
 
 if TYPE_CHECKING:
@@ -75,7 +76,8 @@ def decompose(
     NotImmersibleError
         If the outline bounds no immersed surface; ``error.obstruction`` says why.
     PrecisionError
-        If :func:`triangulate` cannot make its triangles; it names the place.
+        If :func:`triangulate` cannot make its triangles, or the drawing is so small that areas have no double; it names
+        the place.
     InputError
         If the immersion is one of another outline, or two sides of triangles join the same two cusps; or if ``signed``
         is asked of an immersion.
@@ -108,7 +110,9 @@ def decompose(
 
 def _pieces_of_immersion(chosen: Immersion) -> list[Polygon]:
     """Return the polygons of an immersed surface."""
-    drawn, settled = chosen.arrangement, settled_by_points(chosen)
+    drawn = chosen.arrangement
+    refuse_tiny(given_outline(drawn).points, "polygons")
+    settled = settled_by_points(chosen)
     points = given_outline(drawn).points[settled.point]
     # Round triangles overlap fewer others than long ones.
     faces = delaunay_triangles(points, settled.faces)

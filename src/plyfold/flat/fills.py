@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from fractions import Fraction
 from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -15,7 +16,7 @@ from plyfold.errors import InputError
 from plyfold.flat.regions import regions
 from plyfold.outline.curve import Outline
 from plyfold.outline.given import OutlineLike, as_outline
-from plyfold.outline.points import as_points
+from plyfold.outline.points import as_points, refuse_tiny
 from plyfold.predicates import orient
 from plyfold.ragged import count_each
 
@@ -60,7 +61,7 @@ def fill(outline: OutlineLike, rule: FillRule = "nonzero", *, at_least: int | No
     InputError
         If there is no such rule, or ``at_least`` is no whole number from 1 on.
     PrecisionError
-        If rounding its crossings makes the drawing cross itself ever more.
+        If rounding its crossings makes the drawing cross itself ever more, or it is so small that areas have no double.
 
     Notes
     -----
@@ -76,6 +77,7 @@ def fill(outline: OutlineLike, rule: FillRule = "nonzero", *, at_least: int | No
     True
     """
     outline, painted = as_outline(outline), _painted(rule, at_least)
+    refuse_tiny(outline.points, "polygons")
     found = regions(node_outline(outline), lambda winding: painted(winding).astype(np.int64))
     return shapely.MultiPolygon([region.polygon for region in found])
 
@@ -236,7 +238,7 @@ def _checked_transform(transform: Iterable[float]) -> list[float]:
     if len(numbers) != 6 or not np.isfinite(numbers).all():
         raise InputError("a transform has six finite numbers", hint="(1, 0, 0, 0, 1, 0) leaves pixels as they are")
     a, b, _, d, e, _ = numbers
-    if a * e == b * d:
+    if Fraction(a) * Fraction(e) == Fraction(b) * Fraction(d):
         raise InputError("the transform flattens the pixels: its determinant is 0")
     return numbers
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,7 @@ from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import PrecisionError
 from plyfold.flat.regions import regions
 from plyfold.outline.curve import Outline
+from plyfold.outline.points import refuse_tiny
 
 if TYPE_CHECKING:
     from shapely import Polygon
@@ -22,6 +24,8 @@ __all__ = ["signed_layers"]
 
 # Triangles of a polygon fill it but for roundings of this share of its area.
 _AREA_ERROR = 1e-9
+# Numbers between 2 to the power of this and its inverse have a fourth power, with room for sums.
+_EXPONENTS = 240
 
 
 def signed_layers(outline: Outline) -> tuple[list[Polygon], list[Polygon]]:
@@ -39,6 +43,7 @@ def signed_layers(outline: Outline) -> tuple[list[Polygon], list[Polygon]]:
     >>> [[part.area for part in parts] for parts in signed_layers(eight)]
     [[1.0], [1.0]]
     """
+    refuse_tiny(outline.points, "polygons")
     noding = node_outline(outline)
     return _layers(noding, 1), _layers(noding, -1)
 
@@ -47,11 +52,23 @@ def _layers(noding: Noding, sign: int) -> list[Polygon]:
     """Return pieces of all places with winding number 1 or more, 2 or more, and so on, times a sign."""
     most = int((sign * noding.winding).max())
     found = (regions(noding, partial(_is_in_layer, sign, number)) for number in range(1, most + 1))
-    return [piece for layer in found for region in layer for piece in _without_holes(region.polygon)]
+    return [piece for layer in found for region in layer for piece in _simple_pieces(region.polygon)]
 
 
 def _is_in_layer(sign: int, number: int, winding: Ints) -> Ints:
     return (sign * winding >= number).astype(np.int64)
+
+
+def _simple_pieces(polygon: Polygon) -> list[Polygon]:
+    """Cut a polygon into simple ones, in a unit in which its size has a fourth power, as the library takes it."""
+    exponent = math.frexp(max(map(abs, polygon.bounds)))[1]
+    if -_EXPONENTS < exponent < _EXPONENTS:
+        return _without_holes(polygon)
+    return [_times_power(exponent, piece) for piece in _without_holes(_times_power(-exponent, polygon))]
+
+
+def _times_power(exponent: int, polygon: Polygon) -> Polygon:
+    return shapely.transform(polygon, lambda places: np.ldexp(places, exponent))
 
 
 def _without_holes(polygon: Polygon) -> list[Polygon]:

@@ -27,12 +27,12 @@ from plyfold.errors import InputError, PlyfoldError
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.graphs import components
 from plyfold.halfedges import before, ends_of, following, twins_of
-from plyfold.immersion.immersion import Immersion
+from plyfold.immersion.immersion import Immersion, Piece
 from plyfold.mesh.refine import given_outline, is_moved
 from plyfold.outline.curve import Outline
 from plyfold.predicates import Coordinates, as_coordinates, orient, turn
 
-__all__ = ["Settled", "cuts_of", "settle", "settled_by_points", "settled_triangles"]
+__all__ = ["Settled", "settle", "settled_by_points", "settled_triangles", "what_is_left"]
 
 
 class Settled(NamedTuple):
@@ -106,19 +106,36 @@ def settled_by_points(immersion: Immersion) -> Settled:
     return settled
 
 
-def cuts_of(immersion: Immersion) -> Floats:
-    """Return the places at which an immersed surface has no width on the points as given, shape (c, 2).
+def what_is_left(immersion: Immersion) -> tuple[tuple[tuple[float, float], ...], tuple[Piece, ...]]:
+    """Return where an immersed surface is cut on the points as given, as it has no width there, and its pieces then.
 
-    They are places of points of the outline, in order along it: where two parts of the boundary have come together, in
-    a pinch or along a neck.
+    The places are those of points of the outline, in order along it: where two parts of the boundary have come
+    together, in a pinch or along a neck. Pieces and their loops are in the order of their first corners.
 
     Examples
     --------
     >>> from plyfold import find_immersion
-    >>> cuts_of(find_immersion([(0, 0), (1, 1), (2, 0), (2, 2), (1, 1), (0, 2)])).tolist()
-    [[1.0, 1.0]]
+    >>> places, pieces = what_is_left(find_immersion([(0, 0), (1, 1), (2, 0), (2, 2), (1, 1), (0, 2)]))
+    >>> places, len(pieces)
+    (((1.0, 1.0),), 2)
     """
-    return given_outline(immersion.arrangement).points[settled_triangles(immersion).cuts]
+    settled = settled_triangles(immersion)
+    cuts = given_outline(immersion.arrangement).points[settled.cuts].tolist()
+    return tuple((x, y) for x, y in cuts), _pieces(settled)
+
+
+def _pieces(settled: Settled) -> tuple[Piece, ...]:
+    """Count pieces of which each corner is on the boundary once: with b corners and t triangles, 2χ is b − t."""
+    start, end = ends_of(settled.faces)
+    on_boundary = twins_of(settled.faces) < 0
+    loop_of = components(len(settled.point), start[on_boundary], end[on_boundary])
+    piece_of = components(len(settled.point), start, end)
+    twice_euler = np.bincount(piece_of) - np.bincount(piece_of[settled.faces[:, 0]])
+    first_corner = np.unique(loop_of, return_index=True)[1]
+    loops: list[list[int]] = [[] for _ in twice_euler]
+    for loop, piece in enumerate(piece_of[first_corner].tolist()):
+        loops[piece].append(loop)
+    return tuple(map(Piece, map(tuple, loops), (twice_euler // 2).tolist()))
 
 
 def _refuse_double_sides(given: Outline, settled: Settled) -> None:

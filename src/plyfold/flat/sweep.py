@@ -150,7 +150,7 @@ def sweep_triangles(immersion: Immersion) -> Ints:
     [[0, 2, 3], [0, 1, 2]]
     """
     given = given_outline(immersion.arrangement).points
-    triangles = len(given) - 2 * immersion.euler_characteristic
+    triangles = len(given) - 2 * immersion.arrangement.euler_characteristic
     if not is_moved(immersion.arrangement):
         faces = _swept_triangles(immersion, TILTS[0])
         if len(faces) == triangles:
@@ -180,7 +180,7 @@ def _swept_triangles(immersion: Immersion, tilt: float) -> Ints:
         given_places = as_coordinates(given_outline(immersion.arrangement).points)
     given = (places, given_places, drawing, *_room(n, starts, turns, len(plan.bridges)))
     # Room for one more: if there were more, that would be seen.
-    room = empty_triangles(n - 2 * immersion.euler_characteristic + 1)
+    room = empty_triangles(n - 2 * immersion.arrangement.euler_characteristic + 1)
     output = run_loop(_swept, len(drawing.order), given, room)
     return output.faces[: output.counts[TRIANGLES]]
 

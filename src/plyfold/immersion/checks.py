@@ -41,12 +41,13 @@ def conditions(immersion: Immersion) -> Iterator[tuple[str, bool]]:
         yield "the gluings agree at the feet of bridges", _agree_at_feet(immersion, rows)
     if arrangement.cusp_index.any():
         yield "the sheets wind round every cusp as often as its index says", _wind_round_cusps(immersion, rows)
-    by_loops = {piece.loops: piece.euler_characteristic for piece in immersion.pieces}
+    by_loops = {piece.loops: piece.euler_characteristic for piece in immersion.uncut_pieces}
     yield "every piece has the Euler characteristic that its curves turn", by_loops == _euler_by_loops(immersion)
     yield (
         "no number of handles is negative or half a number",
         all(
-            piece.genus >= 0 and (len(piece.loops) + piece.euler_characteristic) % 2 == 0 for piece in immersion.pieces
+            piece.genus >= 0 and (len(piece.loops) + piece.euler_characteristic) % 2 == 0
+            for piece in immersion.uncut_pieces
         ),
     )
 

@@ -8,6 +8,7 @@ from itertools import count
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrangement.places import places_of_visits
 from plyfold.arrays import Ints
 from plyfold.clock import NO_LIMIT, Clock
 from plyfold.immersion.corners import feet
@@ -34,7 +35,7 @@ def no_gluing(arranged: Arrangement, clock: Clock = NO_LIMIT) -> Obstruction:
     search_map = search_map_of(arranged)
     seams = outline_seams(search_map.map)
     visits = sorted({*_visits(search_map, _contradicting(seams, clock)).tolist()})
-    where = tuple((x, y) for x, y in arranged.visit_point[visits].tolist()) if arranged.outline else ()
+    where = places_of_visits(arranged, visits)
     sentence = f"No immersion: {_in_words(arranged, visits)} contradict each other."
     return Obstruction("no gluing", sentence, where, tuple(visits), arranged)
 

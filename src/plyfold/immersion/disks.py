@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrangement.places import place_in_cell, places_of_visits
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.immersion.curls import draw_out_cusps
 from plyfold.immersion.dual_tree import DualTree, grow_dual_tree
@@ -89,10 +90,10 @@ def _places(arranged: Arrangement, cells: list[int], links: tuple[int, ...]) -> 
     """Return a point in each cell, and for those inside curls the cusp."""
     if arranged.outline is None:
         return ()
-    cusps = arranged.visit_point[arranged.start_visit[list(links)]].tolist()
+    cusps = places_of_visits(arranged, arranged.start_visit[list(links)].tolist())
     return tuple(
-        arranged.cell_point(cell) if cell < arranged.n_cells else (x, y)
-        for cell, (x, y) in zip(cells, cusps, strict=True)
+        place_in_cell(arranged, cell) if cell < arranged.n_cells else cusp
+        for cell, cusp in zip(cells, cusps, strict=True)
     )
 
 

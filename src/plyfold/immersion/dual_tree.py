@@ -16,18 +16,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
-from plyfold.compiled import called_from_loops, run_loop
-from plyfold.graphs import end_of_path, representative
+from plyfold.core.buffers import all_flat
+from plyfold.core.cells import join_lakes
+from plyfold.graphs import end_of_path
 
 __all__ = ["DualTree", "around_cells", "grow_dual_tree", "grow_tree"]
-
-called_from_loops(representative)
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,40 +161,15 @@ def _join_lakes(arrangement: Arrangement, pit: Ints) -> list[tuple[int, int, int
     left, right = arrangement.left_cell, arrangement.right_cell
     between = np.flatnonzero(pit[left] != pit[right])
     rising = between[np.argsort(arrangement.winding[left[between]], kind="stable")]
-    lakes = _Shores(pit[left[rising]], pit[right[rising]], np.arange(arrangement.n_cells))
-    kept = run_loop(_join, len(rising), (lakes,), _Joins(np.zeros(len(rising), dtype=np.int64))).joins
-    saddles = rising[np.flatnonzero(kept)]
+    joins, joined = np.zeros(len(rising), dtype=np.int64), np.arange(arrangement.n_cells)
+    join_lakes(*all_flat(pit[left[rising]], pit[right[rising]], joined, joins))
+    saddles = rising[np.flatnonzero(joins)]
     columns = (saddles, left[saddles], right[saddles], pit[left[saddles]], pit[right[saddles]])
     shores: dict[int, list[tuple[int, int, int, int]]] = {}
     for border, cell, other, lake, other_lake in zip(*(column.tolist() for column in columns), strict=True):
         shores.setdefault(lake, []).append((border, cell, other, other_lake))
         shores.setdefault(other_lake, []).append((border, other, cell, lake))
     return list(_from_root(shores, int(pit[0])))
-
-
-class _Shores(NamedTuple):
-    """The lakes on both sides of some borders; and a lake that each lake has been joined to, at first itself."""
-
-    lake: Ints
-    other: Ints
-    joined: Ints
-
-
-class _Joins(NamedTuple):
-    """1 for each border that joins two lakes, else 0."""
-
-    joins: Ints
-
-
-def _join(given: tuple[_Shores], results: _Joins) -> int:
-    """Join the lakes on both sides of each border, one after another, unless they are joined already (Kruskal)."""
-    lake, other, joined = given[0]
-    for border in range(len(lake)):
-        here, there = representative(joined, lake[border]), representative(joined, other[border])
-        if here != there:
-            joined[here] = there
-            results.joins[border] = 1
-    return len(lake)
 
 
 def _from_root(shores: dict[int, list[tuple[int, int, int, int]]], root: int) -> Iterator[tuple[int, int, int]]:

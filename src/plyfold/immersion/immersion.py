@@ -65,7 +65,7 @@ class Piece:
     Parameters
     ----------
     loops : tuple of int
-        The curves that are its boundary.
+        The curves that are its boundary; of a surface that was cut where it touches itself, the loops of what is left.
     euler_characteristic : int
         The sum of their turning numbers, less the indices of their cusps.
     """
@@ -148,8 +148,8 @@ class Immersion:
 
     @property
     def euler_characteristic(self) -> int:
-        """The sum of the turning numbers of all curves, less the indices of their cusps: there are no branch points."""
-        return self.arrangement.euler_characteristic
+        """That of all :attr:`pieces` together: how often their boundaries turn, less the indices of their cusps."""
+        return sum(piece.euler_characteristic for piece in self.pieces)
 
     @property
     def genus(self) -> int:
@@ -158,12 +158,35 @@ class Immersion:
 
     @property
     def is_disk(self) -> bool:
-        """Whether the surface is a disk: bounded by one curve, with Euler characteristic 1."""
+        """Whether the surface is a disk, perhaps one that touches itself: one curve, with Euler characteristic 1."""
         return self.arrangement.n_loops == 1 == self.arrangement.euler_characteristic
 
-    @cached_property
+    @property
     def pieces(self) -> tuple[Piece, ...]:
-        """The connected pieces, in the order of their first curves; each curve bounds one of them. Cost: O(Σ w)."""
+        """The connected pieces, in the order of their first loops: those of meshes and triangles.
+
+        A surface that touches itself is cut there, and its loops are those of what is left, in the order in which the
+        outline comes to them; otherwise they are the curves. Cost: that of :func:`~plyfold.triangulate` where the
+        outline has contacts, and O(Σ w) without.
+
+        Examples
+        --------
+        >>> from plyfold import find_immersion
+        >>> two_triangles = find_immersion([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)])
+        >>> two_triangles.pieces
+        (Piece(loops=(0,), euler_characteristic=1), Piece(loops=(1,), euler_characteristic=1))
+        >>> two_triangles.uncut_pieces, two_triangles.is_disk
+        ((Piece(loops=(0,), euler_characteristic=1),), True)
+        """
+        return self._left[1]
+
+    @cached_property
+    def uncut_pieces(self) -> tuple[Piece, ...]:
+        """The connected pieces before the surface is cut where it touches itself; each curve bounds one of them.
+
+        In the order of their first curves. What these are together is what the outline bounds, if only as a limit.
+        Cost: O(Σ w).
+        """
         turns = loop_characteristics(self.arrangement)
         loops_of: dict[int, list[int]] = {}
         for loop, piece in enumerate(self.piece_of_loop.tolist()):
@@ -183,7 +206,7 @@ class Immersion:
         """The number of the connected piece that each sheet belongs to."""
         return components(self.n_sheets, *self.gluing[:, 1:].T)
 
-    @cached_property
+    @property
     def touches(self) -> tuple[tuple[float, float], ...]:
         """Where the surface touches itself, for it has no width there; none mostly.
 
@@ -195,11 +218,17 @@ class Immersion:
         >>> find_immersion([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)]).touches
         ((1.0, 1.0),)
         """
-        if self.arrangement.given is self.arrangement.outline:
-            return ()
-        from plyfold.flat.settle import cuts_of
+        return self._left[0]
 
-        return tuple(dict.fromkeys((x, y) for x, y in cuts_of(self).tolist()))
+    @cached_property
+    def _left(self) -> tuple[tuple[tuple[float, float], ...], tuple[Piece, ...]]:
+        """Where the surface is cut, and the pieces that are left."""
+        if self.arrangement.given is self.arrangement.outline:
+            return (), self.uncut_pieces
+        from plyfold.flat.settle import what_is_left
+
+        touches, pieces = what_is_left(self)
+        return touches, pieces if touches else self.uncut_pieces
 
     def disk_layout(self) -> tuple[Group, ...]:
         """Return the disk layout: the borders of the disk, grouped by the sheet they lie on (§2.2 of [MGR11]_).

@@ -5,6 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, require_one_loop
+from plyfold.arrangement.general_position import InContact
+from plyfold.arrangement.places import place_in_cell, places_of_visits
+from plyfold.arrangement.polylines import polygon_turning_number
+from plyfold.arrangement.spikes import tips
 from plyfold.arrays import Ints
 from plyfold.errors import InputError
 from plyfold.graphs import components
@@ -21,6 +25,7 @@ __all__ = [
     "may_bound_disk",
     "negative_winding",
     "require_curve_without_cusps",
+    "touches_as_no_disk",
     "visible_obstruction",
 ]
 
@@ -42,6 +47,21 @@ def may_bound_disk(arranged: Arrangement) -> bool:
 def is_visibly_no_disk(arranged: Arrangement) -> bool:
     """Tell whether numbers alone show that an outline bounds no disk, without looking for the place."""
     return not may_bound_disk(arranged) or bool(arranged.winding.min() < 0) or len(_impossible_cusps(arranged)) > 0
+
+
+def touches_as_no_disk(found: InContact) -> bool:
+    """Tell whether the given points of an outline in contact show that it bounds no disk, however little they move.
+
+    A loop without spikes turns by less than half a turn at each point. So its directions change little in small moves,
+    and it turns as often as before; for a disk, once and the turns that are too many at its cusps, or as often
+    backward. And inside each face of the given points there is a place round which it goes on winding as it does.
+    """
+    outline = found.left
+    if outline.n_loops > 1 or tips(outline).any():
+        return outline.n_loops > 1
+    if abs(polygon_turning_number(outline.points)) != 1 + int(outline.cusps[0].sum()):
+        return True
+    return bool(found.noding.winding.min() < 0 < found.noding.winding.max())
 
 
 def visible_obstruction(arranged: Arrangement, connected: bool = False) -> Obstruction | None:
@@ -72,7 +92,7 @@ def impossible_cusp(arranged: Arrangement) -> Obstruction | None:
     border = int(arranged.border_after[visit])
     sheets, needed = int(arranged.winding[arranged.left_cell[border]]), int(arranged.cusp_index[visit]) + 1
     place = f"point {int(arranged.visit_edge[visit])}" if arranged.outline else f"the start of border {border}"
-    where = tuple((x, y) for x, y in arranged.visit_point[[visit]].tolist()) if arranged.outline else ()
+    where = places_of_visits(arranged, [visit])
     sentence = (
         f"No cusp of index {needed - 1} can be at {place}: it needs {needed} sheets on its left, and there "
         f"{'is' if sheets == 1 else 'are'} {sheets}."
@@ -140,5 +160,5 @@ def negative_winding(arranged: Arrangement) -> Obstruction | None:
         return None
     who = "curve winds" if arranged.n_loops == 1 else "curves wind"
     sentence = f"The {who} {winding} times around a cell, and cloth cannot cover it a negative number of times."
-    where = (arranged.cell_point(lowest),) if arranged.outline else ()
+    where = (place_in_cell(arranged, lowest),) if arranged.outline else ()
     return Obstruction("negative winding", sentence, where, winding, arranged)

@@ -14,6 +14,7 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.lobes import lobe_turning_numbers
+from plyfold.arrangement.places import places_of_visits
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.graphs import spanning_tree
 
@@ -81,7 +82,7 @@ def place_of_turning(drawn: Arrangement) -> tuple[tuple[float, float], ...]:
     if drawn.n_loops > 1 or drawn.outline is None or not drawn.n_crossings:
         return ()
     chosen = next(_lobes_to_leave_out(drawn), None)
-    return _places_of(drawn, [lobe.first for lobe in chosen] if chosen else [_nearer_to_once(drawn)])
+    return places_of_visits(drawn, [lobe.first for lobe in chosen] if chosen else [_nearer_to_once(drawn)])
 
 
 def _nearer_to_once(drawn: Arrangement) -> int:
@@ -93,11 +94,6 @@ def _nearer_to_once(drawn: Arrangement) -> int:
         if len(nearer):
             return int(lobes.first[nearer[0]])
     raise AssertionError("a closed curve has a simple lobe at one of its crossings")
-
-
-def _places_of(drawn: Arrangement, visits: list[int]) -> tuple[tuple[float, float], ...]:
-    """Return where the crossings are at some visits."""
-    return tuple((x, y) for x, y in drawn.crossings[drawn.crossing_of_visit[visits]].tolist())
 
 
 def _is_inside(drawn: Arrangement, lobe: _Lobe) -> Bools:

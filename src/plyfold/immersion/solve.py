@@ -7,17 +7,25 @@ outline is asked for the gluings of its sheets.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from itertools import islice
 from typing import Any, overload
 
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, arrange, watched_arrangement, ways_apart
+from plyfold.arrangement.general_position import number_of_ways
+from plyfold.arrangement.unless import arrangement_unless
 from plyfold.clock import UNWATCHED, Clock, Watch
 from plyfold.errors import InputError, TimeLimitError
 from plyfold.immersion.contradiction import no_gluing
 from plyfold.immersion.disks import count_disks, find_disks, list_disks, no_grouping, nth_disk
 from plyfold.immersion.immersion import Immersion
-from plyfold.immersion.obstructions import is_visibly_no_disk, may_bound_disk, visible_obstruction
+from plyfold.immersion.obstructions import (
+    is_visibly_no_disk,
+    may_bound_disk,
+    touches_as_no_disk,
+    visible_obstruction,
+)
 from plyfold.immersion.outlines import count_surfaces, find_surfaces, list_surfaces, nth_surface, random_surface
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.outline.given import OutlineLike
@@ -34,6 +42,9 @@ __all__ = [
     "sample_immersion",
     "watched_immersions",
 ]
+
+# So many immersions are looked at one by one.
+_FEW = 5
 
 
 @overload
@@ -224,7 +235,8 @@ def bounds_disk(curve: OutlineLike, touching: bool = True) -> bool:
     -------
     bool
         Exact. False for several curves, and for one that bounds a disk with handles. See :func:`find_immersion` for the
-        reason and the cost.
+        reason and the cost. A "no" about a curve that touches itself comes before its points move, where its turning
+        or winding numbers tell.
 
     Examples
     --------
@@ -234,7 +246,12 @@ def bounds_disk(curve: OutlineLike, touching: bool = True) -> bool:
     >>> bounds_disk(two_triangles), bounds_disk(two_triangles, touching=False)
     (True, False)
     """
-    return any(map(_bounds_disk, ways_apart(arrange(curve), inward=not touching)))
+    arranged = arrangement_unless(curve, touches_as_no_disk)
+    if arranged is None:
+        return False
+    if touching or len(arranged.contacts) == 0:
+        return any(map(_bounds_disk, ways_apart(arranged)))
+    return may_bound_disk(arranged) and bounds_strictly(arranged)
 
 
 def _bounds_disk(arranged: Arrangement) -> bool:
@@ -242,8 +259,23 @@ def _bounds_disk(arranged: Arrangement) -> bool:
 
 
 def bounds_strictly(arranged: Arrangement) -> bool:
-    """Tell whether the outline as given bounds a surface in the strict sense, which does not touch itself."""
-    return any(_bounds_surface(way, UNWATCHED) for way in ways_apart(arranged, inward=True))
+    """Tell whether the outline as given bounds a surface in the strict sense, which does not touch itself.
+
+    A surface in the strict sense bears any small move, so one of those of the outline moved apart is the same, and
+    touches itself nowhere. Where there are too many to see each, moves inward tell: they can make many crossings. But
+    where cusps lie on each other, the surface may have the one beside the other on whatever side that moves, for it
+    goes all the way round; so there each is seen.
+    """
+    found = (immersion for way in ways_apart(arranged) for immersion in watched_immersions(way, UNWATCHED))
+    moves_tell = arranged.given is None or number_of_ways(arranged.given) == 1
+    seen = islice(found, _FEW) if moves_tell else found
+    n_touching = 0
+    for immersion in seen:
+        if not immersion.touches:
+            return True
+        n_touching += 1
+    undecided = moves_tell and n_touching == _FEW
+    return undecided and any(_bounds_surface(way, UNWATCHED) for way in ways_apart(arranged, inward=True))
 
 
 def in_best_way(arranged: Arrangement, watch: Watch = UNWATCHED) -> Arrangement:

@@ -80,7 +80,7 @@ def shapes_in_gpx(data: bytes) -> list[Shape]:
     -------
     list of Shape
         One for each track or route, named as it is. x points east and y north, from the middle of all points; within
-        200 km of it lengths are right to a thousandth. Lines have heights where all of their points have an ``ele``.
+        200 km of it lengths are right to a thousandth. Heights are those of their ``ele``, NaN at points without one.
 
     Raises
     ------
@@ -188,7 +188,7 @@ def _in_space(points: Floats) -> Floats:
 
 def _shape(tracks: list[Floats], name: str, origin: Floats) -> Shape:
     shape = shape_of_strokes([_plane(track, origin) for track in tracks], name)
-    heights = [None if np.isnan(track[:, 2]).any() else track[:, 2] for track in tracks]
+    heights = [None if np.isnan(track[:, 2]).all() else track[:, 2] for track in tracks]
     lines = tuple(line._replace(heights=z) for line, z in zip(shape.loops, heights, strict=True))
     if not any(z is not None for z in heights):
         return shape

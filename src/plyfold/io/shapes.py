@@ -24,11 +24,15 @@ _FEWEST_ROWS_OF_A_LOOP = 4
 
 
 class StrokeStyle(NamedTuple):
-    """What a file says of the strokes along a line: their width, and how their corners and ends look."""
+    """What a file says of the strokes along a line: their width, and how their corners and ends look.
+
+    The mitre limit is in widths, as :func:`~plyfold.ribbon` takes it and SVG has it, too.
+    """
 
     width: float
     join: JoinStyle
     cap: CapStyle
+    mitre_limit: float = 4.0
 
 
 class Line(NamedTuple):

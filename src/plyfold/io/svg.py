@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pyexpat import ErrorString, ExpatError, ParserCreate
@@ -35,6 +36,7 @@ _LINK = "{http://www.w3.org/1999/xlink}href"
 _TEMPLATES = ("symbol", "marker", "mask")
 _GEOGRAPHIC = ("kml", "gml")
 _JOINS: dict[object, JoinStyle] = {"round": "round", "bevel": "bevel"}
+_MITRE_LIMIT = 4.0  # by default, says the format
 _CAPS: dict[object, CapStyle] = {"round": "round", "square": "square"}
 _SHAPE_HINT = "draw one closed path, polygon, polyline, rect, circle or ellipse"
 
@@ -277,7 +279,16 @@ def _pen(element: Any) -> StrokeStyle | None:
     if not _is_painted(element.stroke) or not width > 0:
         return None
     join, cap = (element.values.get(f"stroke-line{what}") for what in ("join", "cap"))
-    return StrokeStyle(width, _JOINS.get(join, "mitre"), _CAPS.get(cap, "flat"))
+    return StrokeStyle(width, _JOINS.get(join, "mitre"), _CAPS.get(cap, "flat"), _mitre_limit(element))
+
+
+def _mitre_limit(element: Any) -> float:
+    """Return the limit of mitres of a shape; what is no limit, below 1, counts as not given."""
+    try:
+        limit = float(element.values.get("stroke-miterlimit"))
+    except (TypeError, ValueError):
+        return _MITRE_LIMIT
+    return limit if 1 <= limit < math.inf else _MITRE_LIMIT
 
 
 def _is_painted(paint: Any) -> bool:

@@ -11,7 +11,7 @@ from plyfold.arrays import Floats
 from plyfold.errors import FileFormatError, InputError
 from plyfold.io.shapes import Line, Shape, outline_of_shapes
 from plyfold.outline.curve import Outline
-from plyfold.outline.points import as_planar_points
+from plyfold.outline.points import Repair, as_planar_points
 from plyfold.outline.ribbons.line import as_line
 from plyfold.outline.ribbons.ribbon import CapStyle, JoinStyle, Ribbon, ribbon_of_line, style_of
 
@@ -72,9 +72,11 @@ def outline_and_ribbon(shapes: Sequence[Shape], wide: Wide) -> tuple[Outline, Ri
     if not ribbons:
         raise FileFormatError(*_no_line(wide))
     widened = [_with_ribbons(shape, row) for shape, row in zip(shapes, made, strict=True)]
+    lacking = _first_without_height(shapes, made)
+    if lacking is not None and any(_heights(line) is not None for shape in shapes for line in shape.loops):
+        widened[0] = widened[0]._replace(repairs=(*widened[0].repairs, lacking))
     outline = outline_of_shapes(widened)
-    complete = len(ribbons) == sum(map(len, made)) and all(ribbon.heights is not None for ribbon in ribbons)
-    return outline, _together(outline, ribbons) if complete else None
+    return outline, _together(outline, ribbons) if lacking is None else None
 
 
 def _no_line(wide: Wide) -> tuple[str, tuple[()], str]:
@@ -92,17 +94,35 @@ def _ribbon(line: Line, wide: Wide) -> Ribbon | None:
         raise FileFormatError("it has cusps at a line, and a ribbon has other points", hint="leave out the cusps")
     width = pen.width if wide.width == "auto" and pen else wide.width
     style = style_of(wide.join or (pen.join if pen else "round"), wide.cap or (pen.cap if pen else "flat"))
+    if pen:
+        style = style._replace(mitre_limit=pen.mitre_limit)
     return ribbon_of_line(as_line(_with_heights(line), width), style)
 
 
-def _with_heights(line: Line) -> Floats:
-    """Return the points of a line with their heights, if it has some."""
-    points, in_a_column = as_planar_points(line.points)
+def _heights(line: Line) -> Floats | None:
+    """Return the heights of a line, NaN where there is none; None if it has none at all."""
+    _, in_a_column = as_planar_points(line.points)
     heights = np.asarray(line.points)[:, 2] if in_a_column else line.heights
-    if heights is None:
-        return points
-    z = np.asarray(heights, dtype=np.float64)
-    return points if np.isnan(z).any() else np.column_stack([points, z])
+    z = None if heights is None else np.asarray(heights, dtype=np.float64)
+    return None if z is None or np.isnan(z).all() else z
+
+
+def _with_heights(line: Line) -> Floats:
+    """Return the points of a line with their heights, if all of them have some."""
+    points, z = as_planar_points(line.points)[0], _heights(line)
+    return points if z is None or np.isnan(z).any() else np.column_stack([points, z])
+
+
+def _first_without_height(shapes: Sequence[Shape], made: Sequence[Sequence[Ribbon | None]]) -> Repair | None:
+    """Return a record of the first point without a height, if there is one: those of all others are left out, too."""
+    for shape, row in zip(shapes, made, strict=True):
+        for line, ribbon in zip(shape.loops, row, strict=True):
+            if ribbon is None or ribbon.heights is None:
+                z = _heights(line)
+                first = int(np.isnan(z).argmax()) if z is not None and ribbon is not None else 0
+                x, y = as_planar_points(line.points)[0][first].tolist()
+                return Repair("all heights left out, for this point has none", (x, y), 0.0)
+    return None
 
 
 def _with_ribbons(shape: Shape, ribbons: Sequence[Ribbon | None]) -> Shape:
@@ -124,4 +144,10 @@ def _together(outline: Outline, ribbons: Sequence[Ribbon]) -> Ribbon:
     first = np.cumsum([0, *(len(ribbon.outline) for ribbon in ribbons)])
     faces = [ribbon.faces + start for ribbon, start in zip(ribbons, first, strict=False)]
     heights = [ribbon.heights for ribbon in ribbons if ribbon.heights is not None]
-    return Ribbon(outline, np.concatenate(faces), np.concatenate(heights))
+    first_face = np.cumsum([0, *map(len, faces)]).tolist()
+    courses = [
+        course._replace(first=start)
+        for ribbon, start in zip(ribbons, first_face, strict=False)
+        for course in ribbon.courses
+    ]
+    return Ribbon(outline, np.concatenate(faces), np.concatenate(heights), tuple(courses))

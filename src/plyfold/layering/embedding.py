@@ -18,6 +18,7 @@ from functools import partial
 from itertools import islice
 from typing import cast
 
+import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrangement.arrangement import Arrangement, arrange, watched_arrangement
@@ -26,6 +27,7 @@ from plyfold.arrays import Ints
 from plyfold.clock import Clock, Watch
 from plyfold.errors import TimeLimitError
 from plyfold.immersion.obstructions import may_bound_disk, visible_obstruction
+from plyfold.immersion.outlines import find_surfaces, list_surfaces
 from plyfold.immersion.solve import (
     bounds_disk,
     count_immersions,
@@ -57,8 +59,10 @@ from plyfold.outline.given import OutlineLike
 
 __all__ = ["count_embeddings", "embeddings", "find_embedding"]
 
-# Up to so many immersions are gone through one by one.
+# Up to so many immersions are gone through one by one; one of other outlines is, if it takes no more choices.
 _FEW = 100
+# Where no more sheets than this lie over each other, their orders are sooner found than the levels of borders.
+_LOW = 8
 
 _HOW_MANY = "how many embeddings there are"
 
@@ -99,10 +103,11 @@ def find_embedding(
     Notes
     -----
     Exact in both directions. The first immersions of a disk are tried one by one with :func:`~plyfold.find_layering`;
-    if none of them lifts and there are more, and for all other outlines, the levels of all borders are a SAT problem
-    with O(Σ w) variables and clauses, over borders. Whether an embedded disk can be decided in polynomial time is open
-    [EM09]_. A chain of a hundred disks with 5 immersions each, 1,200 crossings, takes about 0.2 s. Surfaces of several
-    pieces are left out one kind after the other where one piece is demanded.
+    if none of them lifts and there are more, the levels of all borders are a SAT problem with O(Σ w) variables and
+    clauses, over borders. So they are for all other outlines, unless an immersion is soon found, and lifts. Whether an
+    embedded disk can be decided in polynomial time is open [EM09]_. A chain of a hundred disks with 5 immersions each,
+    1,200 crossings, takes about 0.2 s. Surfaces of several pieces are left out one kind after the other where one piece
+    is demanded.
 
     References
     ----------
@@ -127,7 +132,7 @@ def find_embedding(
         arranged = in_best_way(watched_arrangement(curve, "perturb", watch), watch)
         if not may_bound_disk(arranged):
             visible = visible_obstruction(arranged, connected)
-            return _from_levels(arranged, clock, connected) if visible is None else visible
+            return _of_outline(arranged, clock, connected) if visible is None else visible
         return _over_immersions(arranged, clock)
     except TimeLimitError:
         return undecided("time limit", "whether there is an embedding", clock)
@@ -148,6 +153,25 @@ def _over_immersions(arranged: Arrangement, clock: Clock) -> Layering | Obstruct
         return _from_levels(arranged, clock, because=f"none of the {_written(number)} immersions lifts; ")
     which = "the only immersion does not lift" if number == 1 else f"none of the {number} immersions lifts"
     return no_levels(arranged, level_clauses(arranged), clock, f"{which}; ")
+
+
+def _of_outline(arranged: Arrangement, clock: Clock, connected: bool) -> Layering | Obstruction | Unknown:
+    """Return an embedding of an outline that bounds more than disks. May raise TimeLimitError."""
+    level = None if connected else _levels_at_hand(arranged, clock)
+    return _from_levels(arranged, clock, connected) if level is None else layering_of_levels(arranged, level)
+
+
+def _levels_at_hand(arranged: Arrangement, clock: Clock) -> Ints | None:
+    """Return the levels of an embedding if it is soon found, over an immersion with few choices; else None."""
+    highest = int(arranged.winding.max())
+    if highest == 1:
+        return np.ones(arranged.n_borders, dtype=np.int64)
+    surfaces = find_surfaces(arranged) if highest <= _LOW else None
+    if surfaces is None or sum(len(part.choices) for part in surfaces.parts) > _FEW:
+        return None
+    first = next(list_surfaces(surfaces, watch=Watch(clock)), None)
+    found = None if first is None else find_layering(first, clock.left)
+    return found.border_level if isinstance(found, Layering) else None
 
 
 def _from_levels(
@@ -171,7 +195,7 @@ def _several_pieces(arranged: Arrangement, clauses: LevelClauses) -> Lacking:
 
 
 def _not_in_one_piece(found: Layering) -> Obstruction:
-    pieces = tuple(piece.loops for piece in found.pieces)
+    pieces = tuple(piece.loops for piece in found.immersion.uncut_pieces)
     sentence = f"No embedding in one piece: those that there are fall into pieces, such as {len(pieces)}."
     return Obstruction("pieces", sentence, (), pieces, found.immersion.arrangement)
 

@@ -71,7 +71,7 @@ class Layering:
 
     @property
     def euler_characteristic(self) -> int:
-        """The sum of the turning numbers of all loops, less the indices of their cusps."""
+        """That of all :attr:`pieces` together."""
         return self.immersion.euler_characteristic
 
     @property
@@ -81,7 +81,7 @@ class Layering:
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
-        """The connected pieces, in the order of their first loops."""
+        """The connected pieces, as :attr:`Immersion.pieces`: those of meshes, cut where the surface touches itself."""
         return self.immersion.pieces
 
     @property

@@ -37,6 +37,7 @@ from plyfold.mesh.refine import (
 )
 from plyfold.mesh.strips import Strips, noded_strips, strips_of
 from plyfold.options import refuse_unless_number
+from plyfold.outline.points import refuse_tiny
 from plyfold.ragged import next_in_rows
 
 if TYPE_CHECKING:
@@ -55,8 +56,6 @@ __all__ = [
 ]
 
 
-# Squares of this size are doubles still.
-_SMALLEST_SIZE = 1e-152
 DEFAULT_TRIANGLES = 4000
 MOST_TRIANGLES = 10_000_000
 # No edge shorter than so many roundings is split: points on it would not lie well enough on a line.
@@ -196,7 +195,7 @@ def triangulate_cells(
     ([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]], np.int64(0))
     """
     watch = watch.begin("triangulating the cells")
-    _refuse_tiny(arrangement)
+    refuse_tiny(given_outline(arrangement).points, "a mesh")
     outline = noded_strips(strips_of(arrangement)) if is_moved(arrangement) else noded_curve(arrangement)
     if triangles:
         size = usual_area(outline, triangles, max_area)
@@ -206,16 +205,6 @@ def triangulate_cells(
                 return _with_good_angles(arrangement, outline, size, finest * outline.rounding, watch)
     plain = _plain(outline, watch)
     return watch.wait_for(lambda: _verified(arrangement, outline, plain), len(plain.triangles))
-
-
-def _refuse_tiny(arrangement: Arrangement) -> None:
-    points = given_outline(arrangement).points
-    if (size := float(np.ptp(points, axis=0).max())) < _SMALLEST_SIZE:
-        raise PrecisionError(
-            f"a drawing of size {size:.3g} is too small for a mesh: areas have no double",
-            where=points[:1],
-            hint=f"scale it up, to at least {_SMALLEST_SIZE:g}",
-        )
 
 
 def refuse_max_area(points: Floats, max_area: float) -> None:

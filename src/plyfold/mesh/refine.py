@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import pythoncdt as cdt
 
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import PlyfoldError, PrecisionError
 from plyfold.halfedges import ends_of, half_edges_from_to
@@ -234,38 +234,36 @@ def _bad_sides(covered: _Covered) -> Floats:
     row = np.arange(len(found))
     ends = np.stack([triangles[row, side], triangles[row, (side + 1) % 3]], axis=1)
     beside = _neighbours_on_curve(covered.library, covered.outline)
-    known = len(covered.outline.points)
-    across = [
-        not _on_one_piece(known, u, v, beside) and _across_sharp_corner(points, u, v, beside) for u, v in ends.tolist()
-    ]
-    return np.asarray(lengths[row, side][~np.array(across)])
+    return np.asarray(lengths[row, side][~_across_sharp_corners(points, ends, beside, len(covered.outline.points))])
 
 
-def _neighbours_on_curve(library: Any, outline: NodedCurve) -> dict[int, set[int]]:
-    """Return the points of curve and crossings at the ends of the pieces on which each vertex lies."""
-    beside: dict[int, set[int]] = {}
-    edges = outline.edges.tolist()
-    for start, end in edges:
-        beside.setdefault(start, set()).add(end)
-        beside.setdefault(end, set()).add(start)
-    for edge, vertex in split_points(library, outline).tolist():
-        beside[vertex] = set(edges[edge])
-    return beside
+def _neighbours_on_curve(library: Any, outline: NodedCurve) -> Ints:
+    """Return sorted rows (vertex, point of curve or crossing): those at the ends of the pieces on which it lies."""
+    edge, added = split_points(library, outline).T
+    there, back = outline.edges, outline.edges[:, ::-1]
+    rows = [there, back, *(np.stack([added, ends], axis=1) for ends in there[edge].T)]
+    return np.unique(np.concatenate(rows), axis=0)
 
 
-def _on_one_piece(known: int, u: int, v: int, beside: dict[int, set[int]]) -> bool:
-    """Tell whether two vertices lie on the same piece of the outline; those from the number ``known`` on are added."""
-    at_u, at_v = beside.get(u, set()), beside.get(v, set())
-    return u in at_v or v in at_u or (min(u, v) >= known and at_u == at_v)
+def _across_sharp_corners(points: Floats, ends: Ints, beside: Ints, known: int) -> Bools:
+    """Tell which pairs of vertices lie on two sides of a sharp corner of the drawing, and not on one piece of it.
 
-
-def _across_sharp_corner(points: Floats, u: int, v: int, beside: dict[int, set[int]]) -> bool:
-    """Tell whether the two vertices lie on the two sides of a sharp corner of the drawing."""
-    for corner in beside.get(u, set()) & beside.get(v, set()):
-        to_u, to_v = points[u] - points[corner], points[v] - points[corner]
-        if to_u @ to_v > _SHARP * np.hypot(*to_u) * np.hypot(*to_v):
-            return True
-    return False
+    Vertices from the number ``known`` on are added.
+    """
+    n = len(points)
+    key = beside[:, 0] * n + beside[:, 1]
+    u, v = ends.T
+    first, last = np.searchsorted(beside[:, 0], [u, u + 1])
+    row = np.repeat(np.arange(len(ends)), last - first)
+    corner = beside[np.repeat(first, last - first) + count_each(last - first), 1]
+    common = np.isin(v[row] * n + corner, key)
+    row, corner = row[common], corner[common]
+    number = np.bincount(row, minlength=len(ends))
+    # Each added vertex has the two ends of its piece beside it.
+    on_one_piece = np.isin(u * n + v, key) | np.isin(v * n + u, key) | ((ends.min(axis=1) >= known) & (number == 2))
+    to_u, to_v = (points[vertex[row]] - points[corner] for vertex in (u, v))
+    sharp = (to_u * to_v).sum(axis=1) > _SHARP * np.hypot(*to_u.T) * np.hypot(*to_v.T)
+    return np.asarray((np.bincount(row[sharp], minlength=len(ends)) > 0) & ~on_one_piece)
 
 
 def split_points(library: Any, outline: NodedCurve) -> Ints:

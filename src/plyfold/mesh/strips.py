@@ -23,7 +23,7 @@ from plyfold.errors import PrecisionError
 from plyfold.mesh.refine import NodedCurve, borders_passed, is_moved, unit_square
 from plyfold.outline.curve import Outline
 
-__all__ = ["Strips", "cells_left", "loop_left", "noded_strips", "strips_of", "turns_unseen"]
+__all__ = ["Strips", "as_numbers", "cells_left", "loop_left", "noded_strips", "strips_of", "turns_unseen"]
 
 # Where on a part strands are compared, as shares of its length: at the first one where all are apart.
 _SHARES = (0.4375, 0.59375, 0.296875, 0.71875, 0.515625)
@@ -136,8 +136,8 @@ def loop_left(arrangement: Arrangement, places: Floats, faces: Ints, loop: Ints)
     The mesh lies over the given points; where the outline touches itself in a cusp, it may have less turns left.
     """
     given = _drawn(arrangement.given)
-    corners = loop[np.isin(_numbers(places[loop]), _numbers(given.points))]
-    is_cusp = np.isin(_numbers(places[corners]), _numbers(given.points[np.concatenate(given.cusps) > 0]))
+    corners = loop[np.isin(as_numbers(places[loop]), as_numbers(given.points))]
+    is_cusp = np.isin(as_numbers(places[corners]), as_numbers(given.points[np.concatenate(given.cusps) > 0]))
     return places[corners], np.where(is_cusp, turns_unseen(places, faces)[corners], 0)
 
 
@@ -146,7 +146,7 @@ def turns_unseen(places: Floats, faces: Ints) -> Ints:
 
     Copies of a triangle of the drawing follow each other, and there are so many more of the same at the vertex.
     """
-    corners = _numbers(places)[faces]
+    corners = as_numbers(places)[faces]
     copied = np.append(0, np.cumsum((corners[1:] != corners[:-1]).any(axis=1)))
     key, times = np.unique(faces.ravel() * (copied[-1] + 1) + np.repeat(copied, 3), return_counts=True)
     turns = np.zeros(len(places), dtype=np.int64)
@@ -154,7 +154,7 @@ def turns_unseen(places: Floats, faces: Ints) -> Ints:
     return turns
 
 
-def _numbers(points: Floats) -> Complexes:
+def as_numbers(points: Floats) -> Complexes:
     """Return points as complex numbers, which are compared faster than rows."""
     return np.ascontiguousarray(points).view(np.complex128).ravel()
 

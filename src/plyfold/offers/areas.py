@@ -5,7 +5,7 @@ Bounds decide nearly always. Where two sums of areas are equal, or too near for 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -15,10 +15,10 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Floats, Ints
 from plyfold.mesh.refine import chain_of, drawn_outline
-from plyfold.predicates import crossing_bounds, exact_crossings
+from plyfold.predicates import crossing_bounds, exact_crossings, whole_numbers
 from plyfold.ragged import next_in_rows
 
-__all__ = ["CellAreas", "Measure", "areas_of", "exact_places"]
+__all__ = ["CellAreas", "Measure", "areas_of"]
 
 _ROUNDING = float(np.finfo(np.float64).eps)
 _UNDERFLOW = float(np.finfo(np.float64).tiny)
@@ -26,7 +26,7 @@ _UNDERFLOW = float(np.finfo(np.float64).tiny)
 
 @dataclass(frozen=True, eq=False)
 class CellAreas:
-    """The area of each cell, rounded, with a bound on its error; the unbounded one has none.
+    """The area of each cell, rounded and in a unit of its own, with a bound on its error; the unbounded one has none.
 
     Parameters
     ----------
@@ -43,6 +43,7 @@ class CellAreas:
     moment: Floats
     _exact: dict[int, Fraction] = field(default_factory=dict)
     _moments: dict[int, Fraction] = field(default_factory=dict)
+    _crossings: dict[int, tuple[Fraction, Fraction]] = field(default_factory=dict)
 
     def exact(self, cell: int) -> Fraction:
         """Return twice the area of a bounded cell, exactly."""
@@ -57,10 +58,35 @@ class CellAreas:
         if border not in self._moments:
             points, following, border_of = self._pieces
             low, high = np.searchsorted(border_of, [border, border + 1])
-            ends = exact_places(self.drawn, np.stack([points[low:high], following[low:high]], axis=1).ravel())
-            pairs = zip(ends[::2], ends[1::2], strict=True)
-            self._moments[border] = sum((x * v - y * u for (x, y), (u, v) in pairs), Fraction(0))
+            self._moments[border] = self._crosses_along(np.append(points[low:high], following[low:high][-1:]))
         return self._moments[border]
+
+    def _crosses_along(self, chain: Ints) -> Fraction:
+        """Return the sum of the cross products of points and the next ones; whole numbers do but beside crossings."""
+        vertices = drawn_outline(self.drawn).points
+        inside = chain[chain < len(vertices)]
+        whole, unit = whole_numbers(vertices[inside])
+        total = ((whole[:-1, 0] * whole[1:, 1]).sum() - (whole[:-1, 1] * whole[1:, 0]).sum()) * unit**2
+        for start, end in zip(chain[:-1].tolist(), chain[1:].tolist(), strict=True):
+            if max(start, end) >= len(vertices):
+                (x, y), (u, v) = self.place(start), self.place(end)
+                total += x * v - y * u
+        return Fraction(total)
+
+    def place(self, number: int) -> tuple[Fraction, Fraction]:
+        """Return a point of the outline, or a crossing, which are numbered after the points, exactly."""
+        vertices = drawn_outline(self.drawn).points
+        if number < len(vertices):
+            x, y = vertices[number].tolist()
+            return Fraction(x), Fraction(y)
+        if number not in self._crossings:
+            ends = self._edges_that_cross[:, [number - len(vertices)]]
+            self._crossings[number] = exact_crossings(ends, 0)[0], exact_crossings(ends, 1)[0]
+        return self._crossings[number]
+
+    @cached_property
+    def _edges_that_cross(self) -> Floats:
+        return _edges_that_cross(self.drawn)
 
     @cached_property
     def _pieces(self) -> tuple[Ints, Ints, Ints]:
@@ -115,23 +141,6 @@ class Measure:
         return sum((count * self.areas.exact(cell) for cell, count in self.times.items()), Fraction(0))
 
 
-def exact_places(drawn: Arrangement, numbers: Ints) -> list[tuple[Fraction, Fraction]]:
-    """Return points of an outline, and crossings, which are numbered after the points, exactly."""
-    outline = drawn_outline(drawn)
-    place = {number: (Fraction(x), Fraction(y)) for number, x, y in _points_among(numbers, outline.points)}
-    crossings = np.unique(numbers[numbers >= len(outline)])
-    if len(crossings):
-        ends = _edges_that_cross(drawn)[:, crossings - len(outline)]
-        found = zip(*(exact_crossings(ends, axis) for axis in (0, 1)), strict=True)
-        place |= dict(zip(crossings.tolist(), found, strict=True))
-    return [place[number] for number in numbers.tolist()]
-
-
-def _points_among(numbers: Ints, points: Floats) -> Iterable[tuple[int, float, float]]:
-    chosen = np.unique(numbers[numbers < len(points)])
-    return zip(chosen.tolist(), *points[chosen].T.tolist(), strict=True)
-
-
 def _edges_that_cross(drawn: Arrangement) -> Floats:
     """Return the ends of the two edges at each crossing, shape (4, k, 2)."""
     outline = drawn_outline(drawn)
@@ -169,7 +178,10 @@ def areas_of(drawn: Arrangement) -> CellAreas:
 
 
 def _places(drawn: Arrangement) -> tuple[Floats, Floats]:
-    """Return all points and crossings, and how far these may be from where they are said to be."""
+    """Return all points and crossings, and how far these may be from where they are said to be.
+
+    The unit is a power of two in which the drawing has size one: so areas of the smallest drawings are doubles, too.
+    """
     outline = drawn_outline(drawn)
     places = np.concatenate([outline.points, drawn.crossings])
     error = np.zeros(len(places))
@@ -177,7 +189,8 @@ def _places(drawn: Arrangement) -> tuple[Floats, Floats]:
         low, high = crossing_bounds(*_edges_that_cross(drawn))
         off = np.maximum(high - drawn.crossings, drawn.crossings - low)
         error[len(outline) :] = off.max(axis=1) + _UNDERFLOW
-    return places, error
+    unit = -int(np.frexp(np.ptp(outline.points, axis=0).max())[1])
+    return np.ldexp(places, unit), np.ldexp(error, unit)
 
 
 def _crosses(places: Floats, error: Floats, start: Ints, end: Ints, centre: Floats) -> tuple[Floats, Floats]:

@@ -1,6 +1,7 @@
 """Small changes of an outline until its numbers allow a surface: always the one that changes the covered region least.
 
-Of several that change it equally, the one that changes least how often it is covered; then the one furthest left.
+Of several that change it equally, the one that changes least how often it is covered; then the one furthest left. If
+that is wanted, how often it is covered counts first.
 """
 
 from __future__ import annotations
@@ -8,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -18,7 +19,9 @@ from plyfold.offers.areas import Measure
 from plyfold.offers.changes import Change, Changes
 from plyfold.offers.rerouted import Move, Plan, Rerouted, Run
 
-__all__ = ["Caps", "flips", "is_within", "made_until", "numbers_allow", "rerouted_by"]
+__all__ = ["Aim", "Caps", "flips", "is_within", "made_until", "may_bound", "numbers_allow", "rerouted_by", "wholes"]
+
+_T = TypeVar("_T")
 
 # Lobes that are too large by less than this part of the cap are looked at all the same.
 _SLACK = 0.5
@@ -31,13 +34,35 @@ class Caps(NamedTuple):
     layers: float
 
 
+class Aim(NamedTuple):
+    """Which moves are made, and which of them first.
+
+    Parameters
+    ----------
+    caps : Caps
+        Moves that would change more, all together, are not made.
+    all_lenses : bool
+        Whether strands in one direction change places, too; else those alone that run against each other.
+    layers_first : bool, optional
+        Whether the smallest moves are those that change winding numbers least; else those that change the region least.
+    """
+
+    caps: Caps
+    all_lenses: bool
+    layers_first: bool = False
+
+
 def numbers_allow(left: Rerouted) -> bool:
     """Tell whether numbers alone do not show that what is left bounds no disk; of several loops, no surface."""
-    least, most = min(left.winding), max(left.winding)
-    if left.plan.drawn.n_loops > 1:
-        return least == 0 or most == 0
-    cusps = int(left.plan.drawn.cusp_index.sum())
-    return (least == 0 and left.turning == 1) or (most == 0 and left.turning + 2 * cusps == -1)
+    return may_bound(left.plan, max(left.winding) > 0, min(left.winding) < 0, left.turning)
+
+
+def may_bound(plan: Plan, has_positive: bool, has_negative: bool, turning: int) -> bool:
+    """Tell the same, given whether there are cells of either sign, and how often the outline turns."""
+    if plan.drawn.n_loops > 1:
+        return not (has_positive and has_negative)
+    cusps = int(plan.drawn.cusp_index.sum())
+    return (not has_negative and turning == 1) or (not has_positive and turning + 2 * cusps == -1)
 
 
 def flips(winding: list[int], times: Mapping[int, int]) -> dict[int, int]:
@@ -51,11 +76,11 @@ def is_within(left: Rerouted, caps: Caps) -> bool:
     more = {cell: now - then for cell, (then, now) in enumerate(zip(given, left.winding, strict=True)) if now != then}
     region = Measure.of(plan.areas, flips(given, more))
     layers = Measure.of(plan.areas, {cell: abs(times) for cell, times in more.items()})
-    whole = _wholes(plan)
+    whole = wholes(plan)
     return _Spent(caps.region, whole[0]).allows(region) and _Spent(caps.layers, whole[1]).allows(layers)
 
 
-def _wholes(plan: Plan) -> tuple[Measure, Measure]:
+def wholes(plan: Plan) -> tuple[Measure, Measure]:
     """Return the covered area, and the areas of all cells, each as often as it is covered."""
     layers = {cell: abs(times) for cell, times in enumerate(plan.drawn.winding.tolist()) if times}
     return Measure.of(plan.areas, dict.fromkeys(layers, 1)), Measure.of(plan.areas, layers)
@@ -71,18 +96,13 @@ def rerouted_by(plan: Plan, moves: Iterable[Move]) -> Rerouted | None:
     return left
 
 
-def made_until(
-    plan: Plan, caps: Caps, all_lenses: bool, is_enough: Callable[[Rerouted], bool], clock: Clock
-) -> list[Move] | None:
+def made_until(plan: Plan, aim: Aim, is_enough: Callable[[Rerouted], bool], clock: Clock) -> list[Move] | None:
     """Return the smallest moves in turn with which an outline is good enough; None if none is left before.
 
     Parameters
     ----------
     plan : Plan
-    caps : Caps
-        Moves that would change more, all together, are not made.
-    all_lenses : bool
-        Whether lenses are undone, too; else loops are left out and no more.
+    aim : Aim
     is_enough : callable
         Asked of an outline whose numbers allow a surface.
     clock : Clock
@@ -96,11 +116,11 @@ def made_until(
     -----
     O(n + k log k) for small loops.
     """
-    search = _Search.of(plan, caps, all_lenses, clock)
+    search = _Search.of(plan, aim, clock)
     moves: list[Move] = []
     while not (numbers_allow(search.left) and is_enough(search.left)):
         clock.check()
-        change = search.changes.smallest(search.left.can_be_done, search.is_allowed)
+        change = search.changes.smallest(search.look_again, search.judge)
         if change is None:
             return None
         search.make(change)
@@ -154,39 +174,44 @@ class _Spent:
         self.error += more.error + np.finfo(np.float64).eps * abs(self.rounded)
 
 
+def _ordered(pair: tuple[_T, _T], layers_first: bool) -> tuple[_T, _T]:
+    """Return what is known of the region and of the layers in the order in which they count."""
+    return pair[::-1] if layers_first else pair
+
+
 @dataclass(eq=False)
 class _Search:
     """The outline on its way, what each move would change, and what has been changed."""
 
     plan: Plan
-    all_lenses: bool
+    aim: Aim
     clock: Clock
     left: Rerouted
     region: _Spent
     layers: _Spent
-    changes: Changes = field(default_factory=Changes)
+    changes: Changes
     # By how much areas between runs may have changed since large lobes were looked at.
     unseen: float = 0.0
 
     @classmethod
-    def of(cls, plan: Plan, caps: Caps, all_lenses: bool, clock: Clock) -> _Search:
-        region, layers = _wholes(plan)
-        search = cls(
-            plan=plan,
-            all_lenses=all_lenses,
-            clock=clock,
-            left=Rerouted.of(plan),
-            region=_Spent(caps.region, region),
-            layers=_Spent(caps.layers, layers),
-        )
+    def of(cls, plan: Plan, aim: Aim, clock: Clock) -> _Search:
+        region, layers = (_Spent(part, whole) for part, whole in zip(aim.caps, wholes(plan), strict=True))
+        changes = Changes(_ordered((region.most_in_one, layers.most_in_one), aim.layers_first))
+        search = cls(plan, aim, clock, Rerouted.of(plan), region, layers, changes)
         search._look_at_lobes()
         search._look_at_lenses(range(len(plan.partner)))
         return search
 
     # ---- what moves would change -------------------------------------------------------------------------------------
 
-    def is_allowed(self, change: Change) -> bool:
-        """Tell whether a change keeps all that is changed, from the drawing on, within the caps."""
+    def judge(self, change: Change) -> bool | None:
+        """Tell whether a change keeps all that is changed, from the drawing on, within the caps.
+
+        None if the move is no longer possible; it is forgotten then.
+        """
+        if not self.left.can_be_done(change.move):
+            self.changes.forget(change.move)
+            return None
         return all(spent.allows(more) for spent, more in self._added(change))
 
     def _added(self, change: Change) -> list[tuple[_Spent, Measure]]:
@@ -208,7 +233,7 @@ class _Search:
         for start, end in self._lobes_up_to(most).tolist():
             self.clock.check()
             lobe = Run(start, end)
-            if self.left.is_live[start] and Move((lobe,)) not in self.changes.of and not self.plan.has_cusp(lobe):
+            if self.left.is_live[start] and Move((lobe,)) not in self.changes and not self.plan.has_cusp(lobe):
                 self._look_at(Move((lobe,)))
 
     def _lobes_up_to(self, most: float) -> Ints:
@@ -231,35 +256,44 @@ class _Search:
     def _look_at_lenses(self, visits: Iterable[int]) -> None:
         for visit in visits:
             for lens in self.left.lenses_at(visit) if self.left.is_live[visit] else ():
-                if lens not in self.changes.of and (self.all_lenses or self.left.runs_back(lens)):
+                if lens not in self.changes and (self.aim.all_lenses or self.left.runs_back(lens)):
                     self._look_at(lens)
 
     def _look_at(self, move: Move) -> None:
         """Find out what a move would change, as far as it is not surely too much."""
         plan, left = self.plan, self.left
-        effect = left.effect(move, self.layers.most_in_one)
-        if move.is_lens and effect.is_all and not left.is_thin(move, effect.inside):
-            return
+        effect = left.effect(move, (self.region.most_in_one, self.layers.most_in_one))
         region = Measure.of(plan.areas, flips(left.winding, effect.times))
         layers = Measure.of(plan.areas, {cell: abs(more) for cell, more in effect.times.items()})
         borders = [dart // 2 for strand in move.runs for dart in left.darts(strand)]
-        may_be_allowed = effect.is_all and region.least <= self.region.most_in_one
-        self.changes.put(Change(plan, move, effect, region, layers, borders), may_be_allowed)
+        is_thin = not move.is_lens or left.is_thin(move, effect.inside)
+        sizes = _ordered((region, layers), self.aim.layers_first)
+        self.changes.put(Change(plan, move, effect, sizes, borders), effect.is_all and is_thin)
+
+    def look_again(self, move: Move) -> None:
+        """Find out what a move would change now, if it still is possible."""
+        self.clock.check()
+        if self.left.can_be_done(move):
+            self._look_at(move)
+        else:
+            self.changes.forget(move)
 
     # ---- making one --------------------------------------------------------------------------------------------------
 
     def make(self, change: Change) -> None:
-        """Make a move, and look again at those that it concerns."""
-        for spent, more in self._added(change):
+        """Make a move, and take in what it may concern."""
+        added = self._added(change)
+        for spent, more in added:
             spent.add(more)
+        if any(more.least < 0 for _, more in added):
+            self.changes.reconsider()
         cells = change.effect.inside
         beside = self.left.make(change.move, change.effect)
-        del self.changes.of[change.move]
-        for other in self.changes.out_of_date(cells, change.borders):
-            self.changes.of.pop(other, None)
-            if self.left.can_be_done(other):
-                self._look_at(other)
+        self.changes.forget(change.move)
+        once = Measure.of(self.plan.areas, dict.fromkeys(cells, 1)).most
+        often = Measure.of(self.plan.areas, {cell: 2 * abs(times) for cell, times in cells.items()}).most
+        self.changes.touch(cells, change.borders, _ordered((once, often), self.aim.layers_first))
         self._look_at_lenses(sorted(beside))
-        self.unseen += Measure.of(self.plan.areas, dict.fromkeys(cells, 2)).most
+        self.unseen += often
         if self.unseen > _SLACK * self.layers.most_in_one:
             self._look_at_lobes()

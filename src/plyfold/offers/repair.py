@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,7 +19,7 @@ from plyfold.errors import CurveError, GeneralPositionError, InputError, TimeLim
 from plyfold.immersion.solve import bounds_disk, find_immersion
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.offers.areas import Measure
-from plyfold.offers.greedy import Caps, flips, made_until
+from plyfold.offers.greedy import Aim, Caps, flips, made_until, wholes
 from plyfold.offers.redrawn import Pen, pen_for, redrawn, traced
 from plyfold.offers.rerouted import Move, Plan, Rerouted, Run, plan_of
 from plyfold.offers.unneeded import needed
@@ -138,8 +141,9 @@ def repair(
     Returns
     -------
     Repaired or Obstruction or Unknown
-        The first one is true. An obstruction has the reason ``"repair"``; its sentence says how much would have to be
-        changed, where that could be found out, and its ``value`` is then ``{"region": …, "layers": …}``.
+        The first one is true. An obstruction has the reason ``"repair"``; its sentence says what would do without
+        caps, where that was found: with small changes of the region, of the layers, or of both. Its ``value`` is then
+        ``{"region": …, "layers": …}`` of what exceeds the caps least; less may do.
 
     Raises
     ------
@@ -257,7 +261,7 @@ def _is_wanted(outline: Outline, clock: Clock) -> bool:
 
 def _found(plan: Plan, caps: Caps, all_lenses: bool, clock: Clock) -> Repaired | None:
     trial = _Trial(plan, clock)
-    made = made_until(plan, caps, all_lenses, trial, clock)
+    made = made_until(plan, Aim(caps, all_lenses), trial, clock)
     if made is None:
         return None
     moves = needed(plan, caps, made, trial, clock)
@@ -275,10 +279,10 @@ def _spikes(given: Outline) -> list[SmallChange]:
 
 def _changes(plan: Plan, pen: Pen, moves: Sequence[Move]) -> tuple[tuple[SmallChange, ...], Rerouted]:
     """Make some moves; return what they changed, and what is left."""
-    left, changes = Rerouted.of(plan), []
+    left, changes, whole = Rerouted.of(plan), [], wholes(plan)
     for move in moves:
         effect = left.effect(move)
-        region, layers = _parts(plan, left.winding, effect.times)
+        region, layers = _parts(plan, whole, left.winding, effect.times)
         strands = tuple(_strand(pen, left, run) for run in move.runs)
         size, where = diagonal(np.concatenate(strands)), min(pen.crossing(visit) for visit in move.visits)
         polygons = traced(pen, left, move, effect)
@@ -295,14 +299,14 @@ def _in_all(plan: Plan, left: Rerouted) -> tuple[float, float]:
     """Return what all moves together changed, as :func:`_parts` does."""
     given = plan.drawn.winding.tolist()
     pairs = enumerate(zip(given, left.winding, strict=True))
-    return _parts(plan, given, {cell: now - then for cell, (then, now) in pairs if now != then})
+    return _parts(plan, wholes(plan), given, {cell: now - then for cell, (then, now) in pairs if now != then})
 
 
-def _parts(plan: Plan, winding: list[int], times: Mapping[int, int]) -> tuple[float, float]:
+def _parts(
+    plan: Plan, whole: tuple[Measure, Measure], winding: list[int], times: Mapping[int, int]
+) -> tuple[float, float]:
     """Return which part of the covered area a change covers or uncovers, and which part of all layers it changes."""
-    given = plan.drawn.winding.tolist()
-    covered = _area(plan, {cell: 1 for cell, number in enumerate(given) if number})
-    layers = _area(plan, {cell: abs(number) for cell, number in enumerate(given) if number})
+    covered, layers = (measure.rounded for measure in whole)
     changed = _area(plan, flips(winding, times)), _area(plan, {cell: abs(more) for cell, more in times.items()})
     return (changed[0] / covered, changed[1] / layers) if covered else (0.0, 0.0)
 
@@ -315,25 +319,62 @@ def _area(plan: Plan, times: Mapping[int, int]) -> float:
 
 
 def _beyond(plan: Plan, caps: Caps, clock: Clock) -> Obstruction:
-    """Return how much would have to be changed, if that is easily found."""
+    """Return how much would have to be changed, as far as that is easily found."""
     what = "a disk" if plan.drawn.n_loops == 1 else "a surface"
     may = f"{percent(caps.region)} of the region and {percent(caps.layers)} of the layers may change"
-    trial = _Trial(plan, clock)
-    made = made_until(plan, _NO_CAPS, False, trial, clock) if plan.drawn.n_crossings <= _MOST_CROSSINGS else None
-    if made is None:
+    ways = sorted(_ways_beyond(plan, clock), key=partial(_excess, caps))
+    if not ways:
         sentence = f"Leaving out loops and undoing lenses does not make it the outline of {what} where {may}."
         return Obstruction("repair", sentence, (), None, plan.drawn)
+    named = ways[:1] + [way for way in ways[1:] if not _is_no_less(way, ways[0])]
+    sentence = f"It would be the outline of {what} with {', or with '.join(map(_in_words, named))}; {may}."
+    where = tuple(change.where for change in ways[0].changes)
+    value = {"region": ways[0].region, "layers": ways[0].layers}
+    return Obstruction("repair", f"{sentence} Less may do, too.", where, value, plan.drawn)
+
+
+class _Way(NamedTuple):
+    """What makes a surface, whatever it changes."""
+
+    changes: tuple[SmallChange, ...]
+    region: float
+    layers: float
+
+
+def _ways_beyond(plan: Plan, clock: Clock) -> list[_Way]:
+    """Return what would do without caps: changing little of the region, and changing little of the layers."""
+    if plan.drawn.n_crossings > _MOST_CROSSINGS:
+        return []
+    with suppress(TimeoutError, TimeLimitError):
+        return [way for layers_first in (False, True) if (way := _way_beyond(plan, clock, layers_first))]
+    return []
+
+
+def _way_beyond(plan: Plan, clock: Clock, layers_first: bool) -> _Way | None:
+    trial = _Trial(plan, clock)
+    made = made_until(plan, Aim(_NO_CAPS, False, layers_first), trial, clock)
+    if made is None:
+        return None
     moves = needed(plan, _NO_CAPS, made, trial, clock)
     assert trial.pen is not None
     changes, left = _changes(plan, trial.pen, moves)
-    region, layers = _in_all(plan, left)
-    done = " and ".join(_counted_changes([change.kind for change in changes]))
-    sentence = (
-        f"It would be the outline of {what} with {done}, which changes {percent(region)} of the region and "
-        f"{percent(layers)} of the layers; {may}."
-    )
-    where = tuple(change.where for change in changes)
-    return Obstruction("repair", sentence, where, {"region": region, "layers": layers}, plan.drawn)
+    return _Way(changes, *_in_all(plan, left))
+
+
+def _excess(caps: Caps, way: _Way) -> tuple[float, float, float]:
+    """Return by what factor a way is beyond the caps, and what it changes."""
+    parts = zip((way.region, way.layers), caps, strict=True)
+    factor = max(part / cap if cap else math.inf if part else 0.0 for part, cap in parts)
+    return factor, way.region, way.layers
+
+
+def _is_no_less(one: _Way, other: _Way) -> bool:
+    return one.region >= other.region and one.layers >= other.layers
+
+
+def _in_words(way: _Way) -> str:
+    done = " and ".join(_counted_changes([change.kind for change in way.changes]))
+    return f"{done}, which changes {percent(way.region)} of the region and {percent(way.layers)} of the layers"
 
 
 def percent(part: float) -> str:

@@ -6,7 +6,7 @@ Nothing is arranged anew: the cells stay those of the drawing, and each move cha
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -14,6 +14,7 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.lobes import quarter_turns
+from plyfold.arrays import Ints
 from plyfold.graphs import spanning_tree
 from plyfold.mesh.refine import borders_at_points, drawn_outline
 from plyfold.offers.areas import CellAreas, Measure, areas_of
@@ -23,6 +24,9 @@ __all__ = ["Effect", "Move", "Plan", "Rerouted", "Run", "plan_of"]
 
 # What is narrower than so many roundings of coordinates.
 _HAIR = 2.0**10
+# Walks through more cells, and a part of all cells, take longer than numbers for all cells at once.
+_FEW_CELLS, _CELLS_AT_ONCE = 16, 256
+_ANY = (float("inf"), float("inf"))
 
 
 class Run(NamedTuple):
@@ -106,6 +110,29 @@ class Plan:
         while border != last:
             border = self.next_border[border]
             yield border
+
+    @cached_property
+    def tour(self) -> tuple[Ints, Ints, Ints]:
+        """A walk into all cells from those before them on ways to the unbounded one, and back out of each.
+
+        The borders passed, whether to their left (1) or to their right (−1), and at which step each cell is entered.
+        """
+        children: list[list[int]] = [[] for _ in self.parent]
+        for cell in range(1, len(self.parent)):
+            children[self.parent[cell]].append(cell)
+        steps, entered, waiting = [], [0] * len(self.parent), [0]
+        while waiting:
+            cell = waiting.pop()
+            if cell < 0:
+                steps.append((self.link[~cell], 1 if self.right[self.link[~cell]] == ~cell else -1))
+                continue
+            entered[cell] = len(steps)
+            steps.append((self.link[cell], 1 if self.left[self.link[cell]] == cell else -1))
+            waiting += [~cell, *children[cell]]
+        # The unbounded cell is entered through no border.
+        steps[0] = (0, 0)
+        border, sign = np.array(steps).T
+        return border, sign, np.array(entered)
 
     def has_cusp(self, run: Run) -> bool:
         """Tell whether a cusp lies on a strand."""
@@ -238,21 +265,20 @@ class Rerouted:
         """Return the darts along a strand."""
         return [dart for place in self.plan.places(strand) for dart in self.path[place]]
 
-    def effect(self, move: Move, most: float = float("inf")) -> Effect:
-        """Return what a move would do to winding numbers; not all of it if the areas concerned add up to more."""
+    def effect(self, move: Move, most: tuple[float, float] = _ANY) -> Effect:
+        """Return what a move would do to winding numbers; not all of it if more would be changed: (region, layers)."""
         if not move.is_lens:
-            times, is_all = _wound(self.plan, self._ways(move.runs[0], -1), most)
+            times, is_all = self._wound(self._ways(move.runs[0], -1), 1, most)
             return Effect(times, times, is_all)
-        if not self.runs_back(move):
-            return Effect({}, *self._between(move, float("inf")))
-        inside, is_all = self._between(move, most)
-        return Effect({cell: 2 * times for cell, times in inside.items()}, inside, is_all)
+        one, other = move.runs
+        # Backward along the first run, round what lies between the two.
+        is_back = self.runs_back(move)
+        ways = self._ways(one, -1) | self._ways(other, -1 if is_back else 1)
+        inside, is_all = self._wound(ways, 2 if is_back else 0, most)
+        return Effect({cell: 2 * times for cell, times in inside.items()} if is_back else {}, inside, is_all)
 
-    def _between(self, lens: Move, most: float) -> _Wound:
-        """Return how often the way round what lies between the runs of a lens, backward along the first, winds."""
-        one, other = lens.runs
-        way = -1 if self.runs_back(lens) else 1
-        return _wound(self.plan, self._ways(one, -1) | self._ways(other, way), most)
+    def _wound(self, ways: Mapping[int, int], factor: int, most: tuple[float, float]) -> _Wound:
+        return _wound(self.plan, ways, _Changed(self.plan, self.winding, factor), most)
 
     def _ways(self, strand: Run, way: int) -> dict[int, int]:
         """Return how often a strand passes borders forward, times ``way``."""
@@ -307,8 +333,12 @@ class Rerouted:
         # What is left turns at the crossing the other way.
         self.quarters[self.plan.border_before[start]] -= corner
         self.turning -= turns // 4
-        visits = [start]
-        while visits[-1] != end:
+        return self.visits_in(lobe)
+
+    def visits_in(self, lobe: Run) -> list[int]:
+        """Return the visits along a lobe, and those of other strands there."""
+        visits = [lobe.start]
+        while visits[-1] != lobe.end:
             visits.append(self.after[visits[-1]])
         return [each for visit in visits for each in {visit, self.plan.partner[visit]}]
 
@@ -334,19 +364,46 @@ class _Wound(NamedTuple):
     is_all: bool
 
 
-def _wound(plan: Plan, ways: Mapping[int, int], most: float = float("inf")) -> _Wound:
+@dataclass(eq=False)
+class _Changed:
+    """How much is surely changed where winding numbers grow by so many for each time that ways go round a cell."""
+
+    plan: Plan
+    winding: list[int]
+    factor: int
+    region: float = 0.0
+    layers: float = 0.0
+
+    def add(self, cell: int, times: int) -> None:
+        """Take in how often ways go round a cell."""
+        area, more = self.plan.areas.rounded[cell] - self.plan.areas.error[cell], self.factor * times
+        self.layers += abs(more) * area
+        if (self.winding[cell] != 0) != (self.winding[cell] + more != 0):
+            self.region += area
+
+    def is_more_than(self, most: tuple[float, float]) -> bool:
+        """Tell whether too much is changed: (region, layers)."""
+        return self.region > most[0] or self.layers > most[1]
+
+
+def _wound(plan: Plan, ways: Mapping[int, int], changed: _Changed, most: tuple[float, float]) -> _Wound:
     """Return how often closed ways go round each cell, given how often they pass borders forward.
 
     Parameters
     ----------
     plan : Plan
     ways : mapping from border to int
-    most : float
-        End when the areas of the cells, so often, are surely more.
+    changed : _Changed
+        Nothing yet.
+    most : (region, layers)
+        End when surely more is changed.
+
+    Notes
+    -----
+    A walk through the cells that the ways go round; if these are many, all cells at once.
     """
     known = {0: 0}
     times: dict[int, int] = {}
-    area = 0.0
     for border in ways:
         waiting = [_toward_the_outside(plan, ways, side[border], known) for side in (plan.left, plan.right)]
         while waiting:
@@ -355,9 +412,11 @@ def _wound(plan: Plan, ways: Mapping[int, int], most: float = float("inf")) -> _
             if number == 0 or cell in times:
                 continue
             times[cell] = number
-            area += abs(number) * (plan.areas.rounded[cell] - plan.areas.error[cell])
-            if area > most:
+            changed.add(cell, number)
+            if changed.is_more_than(most):
                 return _Wound(times, False)
+            if len(times) > _FEW_CELLS + plan.drawn.n_cells // _CELLS_AT_ONCE:
+                return _up_to(_wound_everywhere(plan, ways), replace(changed, region=0.0, layers=0.0), most)
             for dart in plan.cells[cell]:
                 beyond = (plan.left if dart % 2 else plan.right)[dart // 2]
                 if beyond not in times:
@@ -365,6 +424,27 @@ def _wound(plan: Plan, ways: Mapping[int, int], most: float = float("inf")) -> _
                     known[beyond] = number + (jump if dart % 2 else -jump)
                     waiting.append(beyond)
     return _Wound(times, True)
+
+
+def _up_to(wound: Mapping[int, int], changed: _Changed, most: tuple[float, float]) -> _Wound:
+    """Return how often ways go round cells; only some of these if surely too much is changed there."""
+    times = {}
+    for cell, number in wound.items():
+        times[cell] = number
+        changed.add(cell, number)
+        if changed.is_more_than(most):
+            return _Wound(times, False)
+    return _Wound(times, True)
+
+
+def _wound_everywhere(plan: Plan, ways: Mapping[int, int]) -> dict[int, int]:
+    """Return how often closed ways go round each cell where that is not 0, in the order of the cells."""
+    jump = np.zeros(plan.drawn.n_borders, dtype=np.int64)
+    jump[list(ways)] = list(ways.values())
+    border, sign, entered = plan.tour
+    times = np.cumsum(sign * jump[border])[entered]
+    cells = np.flatnonzero(times)
+    return dict(zip(cells.tolist(), times[cells].tolist(), strict=True))
 
 
 def _toward_the_outside(plan: Plan, ways: Mapping[int, int], cell: int, known: dict[int, int]) -> int:

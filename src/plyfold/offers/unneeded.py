@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
 from plyfold.clock import Clock
-from plyfold.offers.greedy import Caps, is_within, numbers_allow, rerouted_by
+from plyfold.offers.greedy import Caps, is_within, may_bound, numbers_allow, rerouted_by
 from plyfold.offers.rerouted import Move, Plan, Rerouted
 
 __all__ = ["needed"]
@@ -34,19 +35,96 @@ def needed(
     """
     has_lenses = any(move.is_lens for move in moves)
     kept = list(moves) if has_lenses else _outermost(plan, moves)
-    turns = {} if has_lenses or plan.drawn.n_loops > 1 else _turns_of_lobes(plan, kept)
     stretch = len(kept)
+    made = _made(plan, kept)
     while stretch > 1:
         stretch = -(-stretch // 2)
         for start in range(0, len(kept), stretch)[::-1]:
             clock.check()
-            fewer = kept[:start] + kept[start + stretch :]
-            if not _turn_alike(turns, kept[start : start + stretch], plan):
+            end = min(start + stretch, len(kept))
+            if made.are_needed(start, end):
                 continue
+            fewer = kept[:start] + kept[end:]
             left = rerouted_by(plan, fewer)
             if left is not None and numbers_allow(left) and is_within(left, caps) and is_enough(left):
-                kept = fewer
+                kept, made = fewer, _made(plan, fewer)
     return kept
+
+
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """Some moves that were made one after the other.
+
+    Parameters
+    ----------
+    left : Rerouted
+        What is left in the end.
+    n_positive, n_negative : int
+        How many cells have such a winding number.
+    times : sequence of mapping from cell to int
+        By how much each move changed winding numbers.
+    turns : sequence of int
+        How often the outline turned more after each.
+    touched : sequence of set of (bool, int)
+        The borders where each changed what moves would do, or whether they can be done: of lobes, or of lenses.
+    last_at : mapping from (bool, int) to int
+        The last lobe along each border, and the last lens.
+    """
+
+    left: Rerouted
+    n_positive: int
+    n_negative: int
+    times: Sequence[Mapping[int, int]]
+    turns: Sequence[int]
+    touched: Sequence[set[tuple[bool, int]]]
+    last_at: Mapping[tuple[bool, int], int]
+
+    def are_needed(self, start: int, end: int) -> bool:
+        """Tell whether numbers surely allow no surface without some of the moves."""
+        if any(self.last_at.get(border, -1) >= end for at in range(start, end) for border in self.touched[at]):
+            return False  # Later moves would do something else.
+        fewer: dict[int, int] = {}
+        for at in range(start, end):
+            for cell, more in self.times[at].items():
+                fewer[cell] = fewer.get(cell, self.left.winding[cell]) - more
+        before = [self.left.winding[cell] for cell in fewer]
+        n_positive = self.n_positive - _count_positive(before) + _count_positive(fewer.values())
+        n_negative = self.n_negative - _count_negative(before) + _count_negative(fewer.values())
+        turning = self.left.turning - sum(self.turns[start:end])
+        return not may_bound(self.left.plan, n_positive > 0, n_negative > 0, turning)
+
+
+def _count_positive(numbers: Iterable[int]) -> int:
+    return sum(number > 0 for number in numbers)
+
+
+def _count_negative(numbers: Iterable[int]) -> int:
+    return sum(number < 0 for number in numbers)
+
+
+def _made(plan: Plan, moves: Sequence[Move]) -> _Made:
+    left = Rerouted.of(plan)
+    times, turns, touched = [], [], []
+    last_at: dict[tuple[bool, int], int] = {}
+    for at, move in enumerate(moves):
+        effect, before = left.effect(move), left.turning
+        last_at |= {(move.is_lens, border): at for run in move.runs for border in plan.places(run)}
+        touched.append(_touched(left, move))
+        times.append(effect.times)
+        left.make(move, effect)
+        turns.append(left.turning - before)
+    n_positive, n_negative = _count_positive(left.winding), _count_negative(left.winding)
+    return _Made(left, n_positive, n_negative, times, turns, touched, last_at)
+
+
+def _touched(left: Rerouted, move: Move) -> set[tuple[bool, int]]:
+    """Return the borders along which other lobes and lenses would do something else after a move, or could be done."""
+    plan = left.plan
+    places = {border for run in move.runs for border in plan.places(run)}
+    ended = move.visits if move.is_lens else left.visits_in(move.runs[0])
+    for_lobes = places if move.is_lens else {*places, plan.border_before[move.runs[0].start]}
+    for_lenses = {*places, *(plan.border_before[visit] for visit in ended)}
+    return {(False, border) for border in for_lobes} | {(True, border) for border in for_lenses}
 
 
 def _outermost(plan: Plan, moves: Sequence[Move]) -> list[Move]:
@@ -60,21 +138,3 @@ def _outermost(plan: Plan, moves: Sequence[Move]) -> list[Move]:
             for border in plan.places(lobe):
                 gone[border] = True
     return kept[::-1]
-
-
-def _turns_of_lobes(plan: Plan, moves: Sequence[Move]) -> dict[Move, int]:
-    """Return how often the outline turns less without each of some lobes, of which none lies in another."""
-    left = Rerouted.of(plan)
-    turns = {}
-    for move in moves:
-        before = left.turning
-        left.make(move, left.effect(move))
-        turns[move] = before - left.turning
-    return turns
-
-
-def _turn_alike(turns: dict[Move, int], moves: Sequence[Move], plan: Plan) -> bool:
-    """Tell whether an outline can turn as often as it should with some lobes and without them."""
-    more = abs(sum(turns[move] for move in moves)) if turns else 0
-    # Turned round, it turns once the other way, and each cusp is one too many for both.
-    return more == 0 or (plan.drawn.winding.min() < 0 and more == 2 + 2 * int(plan.drawn.cusp_index.sum()))

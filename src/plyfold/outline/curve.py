@@ -206,6 +206,63 @@ class Outline:
         backward = [np.roll(points[::-1], 1, axis=0) for points in self.loops]
         return Outline(backward, [np.roll(index[::-1], 1) for index in self.cusps], self.repairs)
 
+    def simplified(self, tolerance: float, keep_code: bool = False) -> Outline:
+        """Return the outline with fewer points: each loop as by :meth:`Curve.simplified`.
+
+        Parameters
+        ----------
+        tolerance : float
+        keep_code : bool, optional
+            Only of one loop: the code of several says nothing of which of them lie in which.
+
+        Returns
+        -------
+        Outline
+
+        Raises
+        ------
+        InputError
+            If the tolerance is no distance, or with ``keep_code`` and several loops.
+
+        Examples
+        --------
+        >>> Outline([[(0, 0), (5, 0.1), (9, 0), (0, 9)], [(1, 1), (1, 3), (3, 1)]]).simplified(0.2)
+        <Outline of 2 loops, 6 points>
+        """
+        from plyfold.arrangement.tidying import each_tidied, simplified
+
+        return each_tidied(self, keep_code, lambda curve: simplified(curve, tolerance, keep_code))
+
+    def smoothed(self, rounds: int = 3, keep_code: bool = False) -> Outline:
+        """Return the outline with its points moved towards their neighbours: each loop as by :meth:`Curve.smoothed`.
+
+        Parameters
+        ----------
+        rounds : int, optional
+        keep_code : bool, optional
+            Only of one loop: the code of several says nothing of which of them lie in which.
+
+        Returns
+        -------
+        Outline
+
+        Raises
+        ------
+        InputError
+            If ``rounds`` is no count, or with ``keep_code`` and several loops.
+        CurveError
+            If all points of a loop come to lie on one line.
+
+        Examples
+        --------
+        >>> ring = Outline([[(0, 0), (8, 0), (8, 8), (0, 8)], [(3, 3), (3, 5), (5, 3)]])
+        >>> ring.smoothed(1).loops[0].tolist()
+        [[2.0, 2.0], [6.0, 2.0], [6.0, 6.0], [2.0, 6.0]]
+        """
+        from plyfold.arrangement.tidying import each_tidied, smoothed
+
+        return each_tidied(self, keep_code, lambda curve: smoothed(curve, rounds, keep_code))
+
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)
 class Curve(Outline):
@@ -370,7 +427,7 @@ class Curve(Outline):
         Parameters
         ----------
         rounds : int, optional
-            How often each point moves halfway to the middle of its neighbours.
+            How often each point moves halfway to the middle of its neighbours, at most 10,000 times.
         keep_code : bool, optional
             Move points less where that is needed, so that the curve crosses itself as before: its signed Gauss code,
             counted from its first point, is the same. That is proved by comparing the codes in the end.
@@ -389,7 +446,8 @@ class Curve(Outline):
 
         Notes
         -----
-        O(n) for each round; with ``keep_code`` a few arrangements more, whose number does not grow with n.
+        O(n) for each round, up to the first one that moves nothing; with ``keep_code`` a few arrangements more, whose
+        number does not grow with n.
 
         Examples
         --------

@@ -8,14 +8,25 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.errors import CurveError
+from plyfold.errors import CurveError, PrecisionError
 from plyfold.mistaken import Mistake, mistaken_array, mistaken_value
 
-__all__ = ["LARGEST_COORDINATE", "Repair", "as_planar_points", "as_points", "diagonal", "left_out", "refuse_mistake"]
+__all__ = [
+    "LARGEST_COORDINATE",
+    "Repair",
+    "as_planar_points",
+    "as_points",
+    "diagonal",
+    "left_out",
+    "refuse_mistake",
+    "refuse_tiny",
+]
 
 LARGEST_COORDINATE = 1e150
 """Products of two coordinates up to this size stay inside the range of a double."""
 
+# Squares of this size are doubles still.
+_SMALLEST_SIZE = 1e-152
 _LARGEST_EXACT_INTEGER = 2**53
 _NUMERIC_KINDS = "iuf"
 
@@ -179,6 +190,24 @@ def _refuse_huge(points: npt.NDArray[np.float64]) -> None:
             f"point {huge[0]} has a coordinate beyond {LARGEST_COORDINATE:g}",
             where=[points[huge[0]]],
             hint="scale the curve down: no answer depends on its size",
+        )
+
+
+def refuse_tiny(points: npt.NDArray[np.float64], what: str) -> None:
+    """Raise PrecisionError for a drawing so small that what is to be made of it would have areas that are no doubles.
+
+    Examples
+    --------
+    >>> refuse_tiny(np.array([(0, 0), (1e-200, 0), (0, 1e-200)]), "polygons")
+    Traceback (most recent call last):
+    plyfold.errors.PrecisionError: a drawing of size 1e-200 is too small for polygons: areas have no double, at (0, 0)
+      hint: scale it up, to at least 1e-152
+    """
+    if (size := float(np.ptp(points, axis=0).max())) < _SMALLEST_SIZE:
+        raise PrecisionError(
+            f"a drawing of size {size:.3g} is too small for {what}: areas have no double",
+            where=points[:1],
+            hint=f"scale it up, to at least {_SMALLEST_SIZE:g}",
         )
 
 

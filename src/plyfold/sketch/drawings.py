@@ -82,7 +82,8 @@ def arranged(strokes: tuple[Stroke, ...]) -> Arrangement:
     """Return the arrangement of the outline that strokes draw; refuse one with more than 20,000 crossings."""
     drawn = arrange(outline_of(strokes))
     if drawn.n_crossings > _MOST_CROSSINGS:
-        crossings = f"the outline crosses itself {drawn.n_crossings:,} times, more than {_MOST_CROSSINGS:,}"
+        apart = ", moved apart where it touches itself," if len(drawn.contacts) else ""
+        crossings = f"the outline{apart} crosses itself {drawn.n_crossings:,} times, more than {_MOST_CROSSINGS:,}"
         raise CurveError(crossings, hint="draw a simpler one, or use plyfold from Python or the command line")
     return drawn
 

@@ -18,7 +18,7 @@ from plyfold.immersion.compare import changed_borders
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.report import surface_in_words, touches_of, words
+from plyfold.report import cut_in_words, surface_in_words, touches_of, words
 from plyfold.sketch.drawings import Layered, immersed, immersion_count, layered
 from plyfold.sketch.patience import patient
 from plyfold.sketch.schema import VERSION, Lie, Lift
@@ -71,6 +71,7 @@ def lie(question: Lie) -> dict[str, Any]:
         "sheets": _own_borders(disk),
         "sheet_cell": disk.sheet_cell.tolist(),
         "touches": touches,
+        "cut": cut_in_words(disk.pieces) if touches else None,
         "layout": _layout(disk) if disk.is_disk else None,
     }
     found = layered(question.strokes, question.immersion, question.layering)
@@ -109,7 +110,7 @@ def _verdict(
 ) -> dict[str, str]:
     """Return the verdict on the outline in words, now that it is known whether this immersion can be lifted."""
     obstruction = found.sentence if isinstance(found, Obstruction) else ""
-    surface = surface_in_words(immersion.pieces)
+    surface = surface_in_words(immersion.uncut_pieces)
     return asdict(words(count, obstruction, decided=not isinstance(found, Unknown), surface=surface, touches=touches))
 
 

@@ -16,9 +16,18 @@ from plyfold.draw.placement import border_line, cusps_drawn, label_circle, outer
 from plyfold.immersion.blank_word import blank_word
 from plyfold.immersion.immersion import Immersion
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.outline.curve import Outline
 from plyfold.outline.direction import even_odd_directions, sense
-from plyfold.report import A_DISK, Words, given_windings, surface_in_words, touches_of, words
+from plyfold.report import (
+    A_DISK,
+    Words,
+    contacts_of,
+    crossings_as_given,
+    cut_in_words,
+    given_windings,
+    surface_in_words,
+    touches_of,
+    words,
+)
 from plyfold.sketch.drawings import arranged, first_immersion, immersion_count
 from plyfold.sketch.offering import loop_data
 from plyfold.sketch.schema import VERSION, Look
@@ -27,7 +36,7 @@ __all__ = ["look_at"]
 
 _LONGEST_WORD = 60
 _LABEL_TOLERANCE = 0.02
-_NOTHING_WRONG: dict[str, Any] = {"reason": None, "where": [], "touches": []}
+_NOTHING_WRONG: dict[str, Any] = {"reason": None, "where": [], "touches": [], "cut": None}
 
 
 def look_at(question: Look) -> dict[str, Any]:
@@ -64,10 +73,11 @@ def look_at(question: Look) -> dict[str, Any]:
         "loops": list(map(loop_data, given.loops, given.cusps)),
         "cusps": _cusps(drawn),
         "repairs": [{"kind": r.kind, "where": list(r.where), "size": r.size} for r in outline.repairs],
-        "contacts": _contacts(drawn, given),
+        "contacts": contacts_of(drawn),
         "reversed": drawn.reversed,
         "turning_numbers": list(drawn.turning_numbers),
         "crossings": drawn.crossings.tolist(),
+        "crossings_as_given": crossings_as_given(drawn),
         "borders": [_border(drawn, border) for border in range(drawn.n_borders)],
         "visits": np.stack([drawn.border_before, drawn.border_after], axis=1).tolist(),
         "cells": [_cell(drawn, cell) for cell in range(1, drawn.n_cells)],
@@ -82,11 +92,6 @@ def look_at(question: Look) -> dict[str, Any]:
 def _cusps(drawn: Arrangement) -> list[dict[str, Any]]:
     places, indices = cusps_drawn(drawn)
     return [{"where": place, "index": index} for place, index in zip(places.tolist(), indices, strict=True)]
-
-
-def _contacts(drawn: Arrangement, given: Outline) -> list[list[float]]:
-    """Return the places of points that lie on other edges or on each other, each once, from left to right."""
-    return [[x, y] for x, y in np.unique(given.points[drawn.contacts], axis=0).tolist()]
 
 
 def _border(drawn: Arrangement, border: int) -> list[list[float]]:
@@ -129,7 +134,7 @@ def _verdict(question: Look, drawn: Arrangement) -> dict[str, Any]:
             said = _obstructed(drawn, found)
         case Unknown():
             said = _undecided(found)
-    return _NOTHING_WRONG | said | {"figures": _figures(drawn), "turn": _loops_to_turn(drawn)}
+    return _NOTHING_WRONG | {"figures": _figures(drawn)} | said | {"turn": _loops_to_turn(drawn)}
 
 
 def _undecided(unknown: Unknown) -> dict[str, Any]:
@@ -138,11 +143,12 @@ def _undecided(unknown: Unknown) -> dict[str, Any]:
 
 def _immersed(question: Look, found: Immersion) -> dict[str, Any]:
     count, touches = immersion_count(question.strokes), touches_of(found)
-    return {
+    cut = {"cut": cut_in_words(found.pieces), "figures": []} if touches else {}
+    return cut | {
         "immersible": True,
         "immersions": None if count is None else str(count),
         "touches": touches,
-        **asdict(words(count, surface=surface_in_words(found.pieces), touches=bool(touches))),
+        **asdict(words(count, surface=surface_in_words(found.uncut_pieces), touches=bool(touches))),
     }
 
 

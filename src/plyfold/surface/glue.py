@@ -19,7 +19,7 @@ from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering
 from plyfold.mesh.cells import CellTriangulation
 from plyfold.mesh.sheets import SheetMesh, glue_copies
-from plyfold.mesh.strips import turns_unseen
+from plyfold.mesh.strips import as_numbers, turns_unseen
 from plyfold.ragged import count_each, pairs_in_each
 
 __all__ = [
@@ -169,8 +169,8 @@ def _stacks(immersion: Immersion, sheet_level: Ints, mesh: CellTriangulation, gl
     stacked_vertex = vertex[glued.lifted(repeated, sheet)]
     level = np.full(len(planar_vertex), -1)
     level[stacked_vertex] = sheet_level[sheet] - 1
-    # But not where the outline touches itself.
-    is_torn = np.zeros(len(mesh.points), dtype=bool)
+    # But not where the outline touches itself, nor where cusps lie on each other.
+    is_torn = _have_several_cusps(immersion.arrangement, mesh.points)
     is_torn[planar_vertex[level < 0]] = True
     order = np.lexsort((level, planar_vertex))
     if len(stacked_vertex) > len(level):
@@ -183,6 +183,15 @@ def _stacks(immersion: Immersion, sheet_level: Ints, mesh: CellTriangulation, gl
         _raise_where_torn(level, pairs, mesh.points[planar_vertex])
         stacked = np.concatenate([stacked[~is_torn[planar_vertex[stacked[:, 0]]]], pairs])
     return level, stacked
+
+
+def _have_several_cusps(arrangement: Arrangement, places: Floats) -> Bools:
+    """Tell on which places several cusps lie."""
+    cusps = cusps_of(arrangement)
+    if arrangement.given is None or len(cusps) < 2:
+        return np.zeros(len(places), dtype=bool)
+    there, count = np.unique(as_numbers(arrangement.given.points[cusps]), return_counts=True)
+    return np.isin(as_numbers(places), there[count > 1])
 
 
 def _pairs_where_torn(sheet_level: Ints, mesh: CellTriangulation, glued: SheetMesh, is_torn: Bools) -> Ints:

@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from plyfold.arrangement.arrangement import Arrangement, watched_arrangement
 from plyfold.arrangement.base_visit import borders_numbered_back
+from plyfold.arrangement.places import places_of_crossings, places_of_visits
 from plyfold.arrays import Bools, Ints
 from plyfold.clock import Clock, Watch
 from plyfold.errors import InputError, TimeLimitError
@@ -136,10 +137,11 @@ def _not_determined(arranged: Arrangement, level: Ints, other: Ints) -> InputErr
     loops = np.unique(arranged.loop_of_border[level != other]).tolist()
     if len(cusps):
         open_choice = f"whether the surface climbs or falls at {counted(len(cusps), 'cusp')}"
-        places = arranged.visit_point[cusps].tolist() if arranged.outline else []
+        places = places_of_visits(arranged, cusps.tolist())
     else:
         open_choice = f"the level of curve {', '.join(map(str, loops))}"
-        places = [arranged.outline.loops[loop][0] for loop in loops] if arranged.outline else []
+        given = arranged.given
+        places = tuple((x, y) for x, y in given.points[given.first_point[loops]].tolist()) if given else ()
     return InputError(
         f"several surfaces have this casing: it does not determine {open_choice}",
         where=places,
@@ -178,7 +180,7 @@ def _refuse_ambiguous(arranged: Arrangement, casing: Bools) -> None:
         crossing = int(arranged.crossing_of_visit[same[0]])
         raise InputError(
             f"at crossing {crossing} {'both strands pass' if casing[same[0]] else 'no strand passes'} over",
-            where=_place(arranged, crossing),
+            where=places_of_crossings(arranged, [crossing]),
             hint="one of the two visits must be over, and the other one under",
         )
 
@@ -217,11 +219,4 @@ def _fault(arranged: Arrangement, level: Ints, visit: int, outside: Bools) -> Ob
     else:
         reason = f"at crossing {crossing}, the strand that is to pass over would not be the higher one"
     sentence = f"The casing lifts to no surface: {reason}."
-    return Obstruction("casing", sentence, _place(arranged, crossing), crossing, arranged)
-
-
-def _place(arranged: Arrangement, crossing: int) -> tuple[tuple[float, float], ...]:
-    if not len(arranged.crossings):
-        return ()
-    x, y = arranged.crossings[crossing].tolist()
-    return ((x, y),)
+    return Obstruction("casing", sentence, places_of_crossings(arranged, [crossing]), crossing, arranged)

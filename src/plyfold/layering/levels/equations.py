@@ -25,6 +25,7 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.base_visit import begun_at, numbered_from, visits_from_base
+from plyfold.arrangement.places import places_of_crossings, places_of_visits
 from plyfold.arrays import Bools, Ints, freeze
 from plyfold.clock import NO_LIMIT, Clock
 from plyfold.errors import PlyfoldError
@@ -392,7 +393,6 @@ def no_levels(arranged: Arrangement, clauses: LevelClauses, clock: Clock, becaus
     cusps = sorted(cusp_from_base[i] for i in among_cusps)
     at = " and ".join(counted(len(found), name) for found, name in ((crossings, "crossing"), (cusps, "cusp")) if found)
     sentence = f"No embedding: {because}no levels of the strands fit together at {at}."
-    drawn = arranged.outline is not None
-    places = np.concatenate([arranged.crossings[crossings], arranged.visit_point[cusps]]).tolist() if drawn else []
-    where, value = tuple((x, y) for x, y in places), (*crossings, *(("cusp", visit) for visit in cusps))
+    where = places_of_crossings(arranged, crossings) + places_of_visits(arranged, cusps)
+    value = (*crossings, *(("cusp", visit) for visit in cusps))
     return Obstruction("no embedding", sentence, where, value, arranged)

@@ -15,14 +15,16 @@ import numpy as np
 import numpy.typing as npt
 import shapely
 
-from plyfold.arrangement.arrangement import Arrangement, arrange
-from plyfold.arrays import Bools, Floats, Ints
-from plyfold.errors import InputError, PrecisionError
+from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrays import Bools, Ints
+from plyfold.errors import InputError
 from plyfold.layering.layering import Layering, borders_beside_top, layering_of_levels
+from plyfold.layering.levels.courses import first_disobeyed
+from plyfold.layering.levels.laid_strip import LaidStrip, height_on_edge, laid_strip
 from plyfold.obstruction import Obstruction
 from plyfold.outline.ribbons.line import as_line
 from plyfold.outline.ribbons.ribbon import CapStyle, JoinStyle, LineLike, Ribbon, ribbon_of_line, style_of
-from plyfold.predicates import Place, exact_cross, exact_parameter, orient
+from plyfold.predicates import Place, exact_cross
 
 __all__ = ["layering_by_heights", "ribbon_layering"]
 
@@ -55,8 +57,11 @@ def ribbon_layering(  # noqa: PLR0913 - each option is keyword-only and independ
     -------
     Layering or Obstruction
         A layering of :func:`ribbon(...) <plyfold.ribbon>`: all along its outline, sheets are in the order of their
-        heights there. Or the obstruction ``"heights"``, if no cloth can follow them: around a crossing of the outline,
-        whose number is its ``value``, parts of the ribbon would pass through each other.
+        heights there, and wherever the line meets itself the higher part of it lies over the lower one. Or the
+        obstruction ``"heights"``, if no cloth can follow them: around a crossing of the outline, whose number is its
+        ``value``, parts of the ribbon would pass through each other; or where the line meets itself, at the two heights
+        that are its ``value``, the higher part would be below, or both would be in one sheet of a ribbon that is wider
+        than a bend.
 
     Raises
     ------
@@ -89,71 +94,18 @@ def ribbon_layering(  # noqa: PLR0913 - each option is keyword-only and independ
 
 def layering_by_heights(ribbon: Ribbon) -> Layering | Obstruction:
     """Return the layering of a ribbon whose points have heights; see :func:`ribbon_layering`."""
-    strip = _strip(ribbon)
+    strip = laid_strip(ribbon)
     level = _levels(strip)
     fault = _first_fault(strip.arranged, level, _casing(strip))
+    if fault is None:
+        fault = first_disobeyed(strip, ribbon.courses, level)
     return layering_of_levels(strip.arranged, level) if fault is None else fault
 
 
-class _Strip(NamedTuple):
-    """The strip of a ribbon, with its points in general position.
-
-    Parameters
-    ----------
-    arranged : Arrangement
-    points : (n, 2) float
-    next_point : (n,) int
-        Where the edge ends that starts at each point.
-    heights : (n,) float
-    faces : (t, 3) int
-    own_face : (n,) int
-        The triangle at the edge that starts at each point.
-    share : dict
-        Of each visit to a crossing, where on its edge it is.
-    """
-
-    arranged: Arrangement
-    points: Floats
-    next_point: Ints
-    heights: Floats
-    faces: Ints
-    own_face: Ints
-    share: dict[int, Fraction]
-
-
-def _strip(ribbon: Ribbon) -> _Strip:
-    arranged = arrange(ribbon.outline)
-    assert arranged.outline is not None
-    assert ribbon.heights is not None
-    points, following = arranged.outline.points, arranged.outline.next_point
-    folded = ribbon.faces[orient(*points[ribbon.faces].transpose(1, 0, 2)) <= 0]
-    if len(folded):
-        raise PrecisionError("the ribbon touches itself where it is too thin", where=points[folded[0, :1]])
-    start, end = ribbon.faces.ravel(), np.roll(ribbon.faces, -1, axis=1).ravel()
-    on_outline = following[start] == end
-    own_face = np.empty(len(points), dtype=np.int64)
-    own_face[start[on_outline]] = np.flatnonzero(on_outline) // 3
-    return _Strip(
-        arranged, points, following, ribbon.heights, ribbon.faces, own_face, _shares(arranged, points, following)
-    )
-
-
-def _shares(arranged: Arrangement, points: Floats, following: Ints) -> dict[int, Fraction]:
-    visits = arranged.crossing_visits
-    edge, other = arranged.visit_edge[visits], arranged.visit_edge[arranged.partner[visits]]
-    ends = zip(points[edge], points[following[edge]], points[other], points[following[other]], strict=True)
-    return {visit: exact_parameter(*four) for visit, four in zip(visits.tolist(), ends, strict=True)}
-
-
-def _height_on_edge(strip: _Strip, edge: int, share: Fraction) -> Fraction:
-    start, end = strip.heights[[edge, strip.next_point[edge]]].tolist()
-    return (1 - share) * Fraction(start) + share * Fraction(end)
-
-
-def _casing(strip: _Strip) -> Bools:
+def _casing(strip: LaidStrip) -> Bools:
     """Return at which visits the strand is the higher one; refuse equal heights."""
     arranged = strip.arranged
-    height = {v: _height_on_edge(strip, int(arranged.visit_edge[v]), share) for v, share in strip.share.items()}
+    height = {v: height_on_edge(strip, int(arranged.visit_edge[v]), share) for v, share in strip.share.items()}
     casing = np.zeros(len(arranged.partner), dtype=bool)
     for visit, mine in height.items():
         other = height[int(arranged.partner[visit])]
@@ -182,13 +134,13 @@ class _Stretch(NamedTuple):
     share: Fraction
 
 
-def _levels(strip: _Strip) -> Ints:
+def _levels(strip: LaidStrip) -> Ints:
     """Return the level of each border's own sheet: how many sheets there are below it, and 1."""
     level = np.ones(strip.arranged.n_borders, dtype=np.int64)
     stretches = [stretch for stretch in _stretches(strip) if _winding(strip, stretch) > 1]
     places = [_place(strip, stretch) for stretch in stretches]
     for stretch, place, faces in zip(stretches, places, _faces_around(strip, places), strict=True):
-        height = _height_on_edge(strip, stretch.edge, stretch.share)
+        height = height_on_edge(strip, stretch.edge, stretch.share)
         others = [_height_in_face(strip, face, place) for face in faces if face != strip.own_face[stretch.edge]]
         if height in others:
             raise _same_height([float(x) for x in place])
@@ -196,11 +148,11 @@ def _levels(strip: _Strip) -> Ints:
     return level
 
 
-def _winding(strip: _Strip, stretch: _Stretch) -> int:
+def _winding(strip: LaidStrip, stretch: _Stretch) -> int:
     return int(strip.arranged.winding[strip.arranged.left_cell[stretch.borders[0]]])
 
 
-def _stretches(strip: _Strip) -> Iterator[_Stretch]:
+def _stretches(strip: LaidStrip) -> Iterator[_Stretch]:
     """Yield the parts of the outline between crossings. Marks between them are passed over: no level changes there."""
     arranged = strip.arranged
     loops = arranged.loop_of_border
@@ -217,20 +169,20 @@ def _stretches(strip: _Strip) -> Iterator[_Stretch]:
             yield _Stretch(borders[last == number], *_between(strip, visit, following))
 
 
-def _between(strip: _Strip, visit: int, following: int) -> tuple[int, Fraction]:
+def _between(strip: LaidStrip, visit: int, following: int) -> tuple[int, Fraction]:
     """Return an edge and a share of it, past a visit and before the next one."""
     edge, next_edge = strip.arranged.visit_edge[[visit, following]].tolist()
     share, end = strip.share[visit], strip.share[following]
     return edge, (share + (end if edge == next_edge and end > share else 1)) / 2
 
 
-def _place(strip: _Strip, stretch: _Stretch) -> Place:
+def _place(strip: LaidStrip, stretch: _Stretch) -> Place:
     start, end = strip.points[[stretch.edge, strip.next_point[stretch.edge]]].tolist()
     x, y = ((1 - stretch.share) * Fraction(a) + stretch.share * Fraction(b) for a, b in zip(start, end, strict=True))
     return x, y
 
 
-def _faces_around(strip: _Strip, places: list[Place]) -> list[list[int]]:
+def _faces_around(strip: LaidStrip, places: list[Place]) -> list[list[int]]:
     """Return the triangles whose bounding boxes may hold each place."""
     corners = strip.points[strip.faces]
     tree = shapely.STRtree(shapely.box(*corners.min(axis=1).T, *corners.max(axis=1).T))
@@ -244,7 +196,7 @@ def _faces_around(strip: _Strip, places: list[Place]) -> list[list[int]]:
     return found
 
 
-def _height_in_face(strip: _Strip, face: int, place: Place) -> Fraction | None:
+def _height_in_face(strip: LaidStrip, face: int, place: Place) -> Fraction | None:
     """Return the height of a triangle over a place, or None if it does not lie there.
 
     Of a place on an edge it is said that it lies a little to the right of it, and above it by much less: so it lies in

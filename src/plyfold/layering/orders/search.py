@@ -19,6 +19,7 @@ from typing import Literal, TypeAlias, cast
 
 import numpy as np
 
+from plyfold.arrangement.places import place_in_cell
 from plyfold.arrays import Ints, freeze
 from plyfold.clock import NO_LIMIT, Clock, Progress
 from plyfold.errors import InputError, TimeLimitError
@@ -374,7 +375,7 @@ def places_of_cells(immersion: Immersion, cells: Iterable[int]) -> tuple[tuple[f
     """Return a point in each of the cells, in order of appearance; none if there is no drawing."""
     if immersion.arrangement.outline is None:
         return ()
-    return tuple(immersion.arrangement.cell_point(cell) for cell in dict.fromkeys(cells))
+    return tuple(place_in_cell(immersion.arrangement, cell) for cell in dict.fromkeys(cells))
 
 
 def _problem(immersion: Immersion, graph: PairGraph, clock: Clock) -> OrderProblem:

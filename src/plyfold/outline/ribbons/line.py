@@ -172,6 +172,9 @@ def _refuse_widths(points: Floats, half: Floats, closed: bool) -> None:
     if not closed:
         good[[0, -1]] |= (half[[0, -1]] == 0) & half.any()
     bad = np.flatnonzero(~good)
+    if len(bad) and half[bad[0]] > LARGEST_COORDINATE:
+        hint = f"sides have coordinates up to {LARGEST_COORDINATE:g}"
+        raise InputError(f"a ribbon {2 * half[bad[0]]:g} wide is too wide", where=points[bad[:1]], hint=hint)
     if len(bad):
         hint = "widths are positive; at ends of an open line they may be 0, but not along all of it"
         raise InputError(f"a ribbon cannot be {2 * half[bad[0]]:g} wide", where=points[bad[:1]], hint=hint)

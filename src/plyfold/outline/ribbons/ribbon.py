@@ -17,10 +17,40 @@ from plyfold.outline.ribbons.corners import without_gaps
 from plyfold.outline.ribbons.line import LineLike, TightBendError, WideLine, as_line
 from plyfold.outline.ribbons.sides import LEFT, RIGHT, CapStyle, JoinStyle, Side, Style, rough_side
 from plyfold.outline.ribbons.strip import Strip, strip_between
+from plyfold.outline.ribbons.walk import walk_through
 from plyfold.predicates import orient
-from plyfold.ragged import count_each
 
-__all__ = ["CapStyle", "JoinStyle", "LineLike", "Ribbon", "Style", "ribbon", "ribbon_of_line", "style_of"]
+__all__ = ["CapStyle", "Course", "JoinStyle", "LineLike", "Ribbon", "Style", "ribbon", "ribbon_of_line", "style_of"]
+
+
+# Where half the width is fewer steps between doubles than this, it is rounding that leaves no ribbon, and not a bend.
+_LOST = 16
+
+
+class Course(NamedTuple):
+    """A line with heights, and where in its ribbon it runs.
+
+    Parameters
+    ----------
+    points : (n, 2) float
+        Those of a closed line begin and end in the middle of a segment.
+    heights : (n,) float
+    triangles : (n,) int
+        The triangle that each point is in, counted on beyond the first and the last one if the line is closed.
+    first, n_triangles : int
+        Number of the first triangle of this line's ribbon, and how many there are.
+    """
+
+    points: Floats
+    heights: Floats
+    triangles: Ints
+    first: int
+    n_triangles: int
+
+    def faces_along(self, segment: int) -> Ints:
+        """Return the triangles that a segment passes, as rows of the ribbon's ``faces``."""
+        low, high = np.sort(self.triangles[segment : segment + 2])
+        return self.first + np.arange(low, high + 1) % self.n_triangles
 
 
 class Ribbon(NamedTuple):
@@ -34,11 +64,14 @@ class Ribbon(NamedTuple):
         along their common edges they are the ribbon.
     heights : (points,) float or None
         Those of the line beside each point, if it has some.
+    courses : tuple of Course
+        Its line, if that has heights; several, where several ribbons have been put together.
     """
 
     outline: Outline
     faces: Ints
     heights: Floats | None
+    courses: tuple[Course, ...]
 
 
 def ribbon(  # noqa: PLR0913 - each option is keyword-only and independent
@@ -54,7 +87,7 @@ def ribbon(  # noqa: PLR0913 - each option is keyword-only and independent
     """Give a line a width: the outline of the ribbon along it, which is a disk, or a ring if the line is closed.
 
     The line may cross itself as often as it likes; the ribbon lies over itself there. Where it bends, the inner side
-    has no wrong loops.
+    has no wrong loops. The line never leaves its ribbon.
 
     Parameters
     ----------
@@ -91,10 +124,13 @@ def ribbon(  # noqa: PLR0913 - each option is keyword-only and independent
 
     Notes
     -----
+    A ribbon of a line is a disk or ring, immersed, with three properties. The line runs through it from one cap to the
+    other, or once round, and never leaves it, also where it lies over itself. It crosses every edge between the two
+    sides. And no corner is farther from the line than the ribbon reaches: half the width, or what mitres and caps have.
+
     Between the two sides lies a strip of triangles, all positively oriented, whose angles at each point make less than
-    a full turn; that is checked exactly, and proves that the ribbon is an immersed disk or ring. It does not prove that
-    all of the line lies in it: by hairpins narrower than the ribbon, an end may be cut off. Usually linear; more where
-    segments are short for the width, and bends are cut off across many of them.
+    a full turn, and the line is walked through it, triangle by triangle. All that is checked exactly. Usually linear;
+    more where segments are short for the width, and bends are cut off across many of them.
 
     Examples
     --------
@@ -106,7 +142,7 @@ def ribbon(  # noqa: PLR0913 - each option is keyword-only and independent
     <Outline of 2 loops, 39 points>
     >>> ribbon([(0, 0), (9, 0), (9, 1), (0, 1)], 3)
     Traceback (most recent call last):
-    plyfold.errors.InputError: a bend of the line is too tight for a ribbon 3 wide, at (9, 0)
+    plyfold.errors.InputError: a bend of the line is too tight for a ribbon 3 wide, at (9, 1)
       hint: make it narrower there, or round off the bend
     """
     style = style_of(join_style, cap_style, quad_segs, mitre_limit)
@@ -138,13 +174,12 @@ def ribbon_of_line(line: WideLine, style: Style) -> Ribbon:
     sides: list[Side] = []
     try:
         sides += [_side(drawn, way, style, line.closed) for way in (LEFT, RIGHT)]
-        for way, side in zip((LEFT, RIGHT), sides, strict=True):
-            _refuse_line_beyond(drawn, side, way)
-        strip = _strip(drawn, sides, style, line.closed)
+        strip, triangles = _strip(drawn, sides, style, line.closed)
     except TightBendError as error:
         raise _too_tight(drawn, _bend(drawn, sides, error.place)) from None
     outline = Outline(strip.loops, repairs=line.repairs) if line.closed else Curve(strip.loops[0], line.repairs)
-    return Ribbon(outline, strip.faces, _heights(drawn, strip))
+    course = [] if drawn.heights is None else [Course(drawn.points, drawn.heights, triangles, 0, len(strip.faces))]
+    return Ribbon(outline, strip.faces, _heights(drawn, strip), tuple(course))
 
 
 def _refuse_turning_back(line: WideLine) -> None:
@@ -159,11 +194,14 @@ def _refuse_turning_back(line: WideLine) -> None:
 
 
 def _too_tight(line: WideLine, joint: int) -> InputError:
-    return InputError(
-        f"a bend of the line is too tight for a ribbon {2 * line.half_widths[joint]:.6g} wide",
-        where=line.points[[joint]],
-        hint="make it narrower there, or round off the bend",
-    )
+    width, where = f"a ribbon {2 * line.half_widths[joint]:.6g} wide", line.points[[joint]]
+    if line.half_widths[joint] < _LOST * np.spacing(np.abs(where).max()):
+        hint = "make it wider, or move the line towards the origin"
+        return InputError(
+            f"{width} is lost in rounding beside coordinates as large as those here", where=where, hint=hint
+        )
+    hint = "make it narrower there, or round off the bend"
+    return InputError(f"a bend of the line is too tight for {width}", where=where, hint=hint)
 
 
 def _side(line: WideLine, way: int, style: Style, closed: bool) -> Side:
@@ -177,49 +215,31 @@ def _side(line: WideLine, way: int, style: Style, closed: bool) -> Side:
     return side
 
 
-def _refuse_line_beyond(line: WideLine, side: Side, way: int) -> None:
-    """Refuse a side that its line crosses or touches, in the part of it that the side is beside: it would lie outside.
-
-    The ends of the line may be corners of the side, if it leaves them towards the inside.
-    """
-    last = len(line.points) - 1
-    low = np.clip(np.floor(side.low[:-1]), 0, last).astype(np.int64)
-    high = np.clip(np.ceil(side.high[1:]), 0, last).astype(np.int64)
-    edge = np.repeat(np.arange(len(low)), high - low)
-    segment = low[edge] + count_each(high - low)
-    start, end = side.points[edge], side.points[edge + 1]
-    before, after = line.points[segment], line.points[segment + 1]
-    ends = line.points[[0, -1]]
-    is_end = (start[:, None] == ends).all(axis=2).any(axis=1) | (end[:, None] == ends).all(axis=2).any(axis=1)
-    sides_of_segment = orient(before, after, start) * orient(before, after, end)
-    sides_of_edge = orient(start, end, before) * orient(start, end, after)
-    met = np.where(is_end, (sides_of_segment < 0) & (sides_of_edge < 0), (sides_of_segment <= 0) & (sides_of_edge <= 0))
-    at_start, at_end = (start == before).all(axis=1), (end == after).all(axis=1)
-    met |= at_start & (way * orient(start, end, after) >= 0) | at_end & (way * orient(start, end, before) >= 0)
-    if met.any():
-        raise TightBendError(float(segment[met.argmax()]))
-
-
-def _strip(line: WideLine, sides: list[Side], style: Style, closed: bool) -> Strip:
-    """Return the strip between two sides, after the tips are left out that are no corners."""
+def _strip(line: WideLine, sides: list[Side], style: Style, closed: bool) -> tuple[Strip, Ints]:
+    """Return the strip between two sides, without tips that are no corners, and the triangles of the line's points."""
     if closed:
         left, right = (_inner(side, 2, 2) for side in sides)
-        return strip_between(left, right, closed)
+        strip = strip_between(left, right, closed)
+        return strip, walk_through(strip, line.points, closed, (line.points[:0], line.points[:0]))
     # The middle of a flat cap is a corner only where the line has a hook so short that a side joins it.
     is_tip = (line.half_widths[[0, -1]] == 0) | (style.cap == "round")
     for side in sides:
         is_tip |= [side.low[1] > 0, side.high[-2] < len(line.points) - 1]
-    return _first_strip(sides, *is_tip.tolist())
+    return _first_strip(line, sides, *is_tip.tolist())
 
 
-def _first_strip(sides: list[Side], at_start: bool, at_end: bool) -> Strip:
-    """Return a strip that has each tip on the right or on the left side."""
+def _first_strip(line: WideLine, sides: list[Side], at_start: bool, at_end: bool) -> tuple[Strip, Ints]:
+    """Return a strip that has each tip on the right or on the left side, and the triangles of the line's points."""
+    tips = sides[0].points[[0, -1]]
+    is_beyond = (tips != line.points[[0, -1]]).any(axis=1)
+    beyond = tips[:1][is_beyond[:1]], tips[1:][is_beyond[1:]]
     failed = TightBendError(0.0)
     for start, end in product((False, True)[: 1 + at_start], (False, True)[: 1 + at_end]):
         left = _inner(sides[0], int(not start), int(not end))
         right = _inner(sides[1], int(start or not at_start), int(end or not at_end))
         try:
-            return strip_between(left, right, False)
+            strip = strip_between(left, right, False)
+            return strip, walk_through(strip, line.points, False, beyond)
         except TightBendError as error:
             failed = error
     raise failed

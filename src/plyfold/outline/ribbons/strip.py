@@ -30,13 +30,17 @@ class Strip(NamedTuple):
     loops : tuple of (n, 2) float
         The right side forward and back along the left one; or each by itself, if the line is closed.
     faces : (t, 3) int
-        Triangles, counter-clockwise; points are counted loop after loop.
+        Triangles in their order along the line, counter-clockwise; points are counted loop after loop. The last two
+        corners of each, on the right and on the left, are two of the next one.
+    on_left : (t,) bool
+        On which side each triangle has its edge of the outline.
     places : (points, 2) float
         Where along the line each point is: from and to.
     """
 
     loops: tuple[Floats, ...]
     faces: Ints
+    on_left: Bools
     places: Floats
 
 
@@ -85,7 +89,7 @@ def strip_between(left: Side, right: Side, closed: bool) -> Strip:
     full = _first_full_turn(points, n, steps, closed)
     if full is not None:
         raise TightBendError(float(place[full]))
-    return _numbered(left, right, steps.triangles, closed)
+    return _numbered(left, right, steps, closed)
 
 
 def _without_repeats(side: Side, closed: bool) -> Side:
@@ -200,11 +204,11 @@ def _fans(steps: _Steps, closed: bool) -> tuple[Ints, Ints]:
     return point[order], ray[order]
 
 
-def _numbered(left: Side, right: Side, triangles: Ints, closed: bool) -> Strip:
+def _numbered(left: Side, right: Side, steps: _Steps, closed: bool) -> Strip:
     """Return the strip with its points in their order along its boundary."""
     n, m = len(left.points), len(right.points)
     loops = [right.points, left.points[::-1]]
     places = [np.column_stack([side.low, side.high]) for side in (right, left)]
     number = np.concatenate([m + np.arange(n)[::-1], np.arange(m)])
     whole = tuple(loops) if closed else (np.concatenate(loops),)
-    return Strip(whole, number[triangles], np.concatenate([places[0], places[1][::-1]]))
+    return Strip(whole, number[steps.triangles], steps.on_left, np.concatenate([places[0], places[1][::-1]]))

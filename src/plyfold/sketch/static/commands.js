@@ -21,8 +21,11 @@ export const tell = ({ store }, text, actions = []) => store.set({ notice: { tex
 // ---- editing ------------------------------------------------------------------------------------------------------
 
 export function edit({ store }, document) {
-  store.set({ history: record(store.state.history, document), preview: null, ahead: [] });
+  store.set({ history: record(store.state.history, document), preview: null, ahead: [], notice: lastingNotice(store.state) });
 }
+
+/** The notice, unless its button would by now undo something else than it tells of. */
+const lastingNotice = ({ notice }) => (notice?.actions.includes("undo") ? null : notice);
 
 /** The joins of the drawing as it is, as far as they are known. */
 export const currentJoins = ({ store }) => joins(shown(store.state).strokes, answerShown(store.state)?.repairs ?? []);
@@ -91,7 +94,7 @@ export function step(page, direction) {
   if (busy) return;
   if (path.length && direction === undo) store.set({ path: path.slice(0, -1), ahead: [path.at(-1), ...ahead] });
   else if (ahead.length && direction === redo) store.set({ path: [...path, ahead[0]], ahead: ahead.slice(1) });
-  else store.set({ history: direction(history), preview: null, selected: null, carried: null, ahead: [] });
+  else store.set({ history: direction(history), preview: null, selected: null, carried: null, ahead: [], notice: lastingNotice(store.state) });
 }
 
 export const undoStep = (page) => step(page, undo);

@@ -49,7 +49,8 @@ export function figuresOf(state) {
   const lie = lieShown(state);
   const rows = [
     ...(answer.loops.length > 1 ? [["loops", String(answer.loops.length)]] : []),
-    ["crossings", String(answer.crossings.length)],
+    ["crossings", String(answer.crossings_as_given)],
+    ...(answer.contacts.length ? [["crossings when moved apart", String(answer.crossings.length)]] : []),
     ...(answer.cusps.length ? [["cusps", counted(answer.cusps.map(({ index }) => `index ${index}`))]] : []),
     turningOf(answer),
     ["cells by winding number", windings(answer.cells_by_winding)],
@@ -57,12 +58,16 @@ export function figuresOf(state) {
     ["immersions", answer.verdict.immersions === null ? "more than could be counted" : grouped(answer.verdict.immersions)],
   ];
   const touches = touchesShown(state);
-  if (touches.length) rows.push(["touches itself at", touches.map((place) => `(${place.map(rounded).join(", ")})`).join(", ")]);
+  if (touches.length) {
+    rows.push(["touches itself at", touches.map((place) => `(${place.map(rounded).join(", ")})`).join(", ")]);
+    rows.push(["cut there", (lie ?? answer.verdict).cut]);
+  }
   const notes = notesOf(answer);
   if (notes) rows.push(["notes", notes]);
-  if (lie?.levels) rows.push(["levels", String(Math.max(...lie.levels))]);
-  if (answer.gauss) rows.push(["Gauss code", answer.gauss]);
-  if (answer.word) rows.push(["Blank's word", answer.word]);
+  if (lie?.levels) rows.push(["levels", String(Math.max(0, ...answer.cells_by_winding.map(([winding]) => winding)))]);
+  const moved = answer.contacts.length ? " when moved apart" : "";
+  if (answer.gauss) rows.push([`Gauss code${moved}`, answer.gauss]);
+  if (answer.word) rows.push([`Blank's word${moved}`, answer.word]);
   return rows;
 }
 

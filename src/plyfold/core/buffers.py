@@ -1,0 +1,46 @@
+"""Buffers of numbers: what compiled code and plain Python index alike, and quickly. They are views of arrays."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol, TypeAlias, TypeVar, cast
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ["Buffer", "RealBuffer", "WholeBuffer", "all_flat", "flat", "real_room", "whole_room"]
+
+_Number = TypeVar("_Number")
+
+
+class Buffer(Protocol[_Number]):
+    """Numbers in a row, with places from 0 on: a memoryview of an array is one."""
+
+    def __len__(self) -> int: ...
+
+    def __getitem__(self, place: int, /) -> _Number: ...
+
+    def __setitem__(self, place: int, number: _Number, /) -> None: ...
+
+
+RealBuffer: TypeAlias = Buffer[float]
+WholeBuffer: TypeAlias = Buffer[int]
+
+
+def flat(array: npt.NDArray[Any]) -> Buffer[Any]:
+    """Return the numbers of an array in a row, without copying them if they are in one already."""
+    return cast("Buffer[Any]", memoryview(np.ascontiguousarray(array).reshape(-1)))  # type: ignore[arg-type]
+
+
+def all_flat(*arrays: npt.NDArray[Any]) -> list[Buffer[Any]]:
+    """Return the same of several arrays."""
+    return [flat(array) for array in arrays]
+
+
+def real_room(size: int) -> RealBuffer:
+    """Return room for so many doubles, with anything in it."""
+    return flat(np.empty(size))
+
+
+def whole_room(size: int) -> WholeBuffer:
+    """Return so many zeros, for whole numbers of 64 bits."""
+    return flat(np.zeros(size, dtype=np.int64))

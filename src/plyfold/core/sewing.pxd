@@ -1,0 +1,26 @@
+# C types of `sewing.py`.
+from libc.stdint cimport int64_t
+
+cdef class NamedTree:
+    cdef const int64_t[::1] parent, link, partner, winding, first_sheet
+    cdef int64_t[::1] name, named, waiting
+
+cdef class Crossings:
+    cdef const int64_t[::1] around, at_start, at_end
+    cdef int64_t[::1] unknown, sum_unknown, ready, scratch
+
+cdef class BorderSeams:
+    cdef const int64_t[::1] start
+    cdef int64_t[::1] upper
+
+cpdef int sew(NamedTree tree, Crossings crossings, BorderSeams seams) except -1
+cdef int _name_sheets(NamedTree tree, BorderSeams seams, Py_ssize_t cell) except -1
+cdef int _complete(Crossings crossings, BorderSeams seams) except -1
+cdef Py_ssize_t _note_seam(Crossings crossings, Py_ssize_t border, Py_ssize_t crossing, Py_ssize_t size) except -1
+cdef int _find_seam(Crossings crossings, BorderSeams seams, Py_ssize_t border, Py_ssize_t crossing) except -1
+cdef int _find_lower(
+    BorderSeams seams, Crossings crossings, Py_ssize_t border, Py_ssize_t bottom, Py_ssize_t top, Py_ssize_t other_top
+) except -1
+cdef int _find_upper(
+    BorderSeams seams, Py_ssize_t border, Py_ssize_t bottom, Py_ssize_t other_top, Py_ssize_t other_bottom
+) except -1
