@@ -11,7 +11,7 @@ from plyfold.arrays import Floats, Ints
 # So few edges are followed in plain Python.
 _FEW = 500
 
-__all__ = ["components", "representative", "shortest_path", "spanning_tree", "ways_from"]
+__all__ = ["components", "end_of_path", "representative", "shortest_path", "spanning_tree", "ways_from"]
 
 
 def components(n: int, start: Ints, end: Ints) -> Ints:
@@ -105,6 +105,20 @@ def ways_from(sources: Ints, n: int, edges: Ints, length: Floats, limit: float) 
     first = order[np.append(True, (np.diff(start[order]) != 0) | (np.diff(end[order]) != 0))[: len(order)]]
     ways = coo_array((length[first], (start[first], end[first])), shape=(n, n)).tocsr()
     return np.asarray(dijkstra(ways, directed=False, indices=sources, min_only=True, limit=limit))
+
+
+def end_of_path(step: Ints) -> Ints:
+    """Return where each node comes to, step by step, until a step leads nowhere else; no steps lead round in a circle.
+
+    Examples
+    --------
+    >>> end_of_path(np.array([2, 1, 3, 3])).tolist()
+    [3, 1, 3, 3]
+    """
+    further = step[step]
+    while (further != step).any():
+        step, further = further, further[further]
+    return step
 
 
 def representative(joined: MutableSequence[int] | Ints, member: int) -> int:

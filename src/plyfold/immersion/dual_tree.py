@@ -23,6 +23,7 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.core.buffers import all_flat
 from plyfold.core.cells import join_lakes
+from plyfold.graphs import end_of_path
 
 __all__ = ["DualTree", "around_cells", "grow_dual_tree", "grow_tree"]
 
@@ -139,20 +140,13 @@ def _flood(arrangement: Arrangement) -> _Lakes:
     link = np.full(arrangement.n_cells, -1)
     link[left] = np.arange(arrangement.n_borders)
     drain = np.where(link >= 0, right[link], np.arange(arrangement.n_cells))
-    pit = _end_of_path(drain)
+    pit = end_of_path(drain)
     saddles = _join_lakes(arrangement, pit)
     parent, tree_link = drain.copy(), link.copy()
     for cell, beyond, border in [(0, 0, -1), *saddles]:
         way = [cell, *_drains(drain, cell)]
         parent[way], tree_link[way] = [beyond, *way[:-1]], [border, *link[way[:-1]]]
     return _Lakes(drain, link, pit, saddles, parent, tree_link)
-
-
-def _end_of_path(step: Ints) -> Ints:
-    further = step[step]
-    while (further != step).any():
-        step, further = further, further[further]
-    return step
 
 
 def _drains(drain: Ints, cell: int) -> Iterator[int]:
