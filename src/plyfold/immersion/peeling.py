@@ -141,6 +141,8 @@ def peel(seams: OutlineSeams, chosen: Mapping[int, int] | None = None) -> Peeled
         own[list(chosen.keys())] = list(chosen.values())
     ports = int(seams.start[-1])
     nothing = np.full(ports, UNKNOWN)
+    if seams.size.max(initial=0) <= 1:  # no two sheets lie over each other
+        return Peeled(np.zeros_like(nothing), np.zeros_like(nothing), nothing, UNKNOWN)
     room = Found(nothing, nothing.copy(), nothing.copy(), np.array([UNKNOWN]))
     found = run_loop(close_rings, 4 * ports, _given(seams, own), room)
     return Peeled(found.upper, found.port, found.because, int(found.failed[0]))
