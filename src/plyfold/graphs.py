@@ -24,6 +24,8 @@ def components(n: int, start: Ints, end: Ints) -> Ints:
     >>> components(4, np.array([3]), np.array([1])).tolist()
     [0, 1, 2, 1]
     """
+    if not len(start):
+        return np.arange(n)
     if len(start) < _FEW:
         return _few_components(n, start, end)
     from scipy.sparse import coo_array, csgraph

@@ -273,7 +273,8 @@ def _separated(a: Ints, b: Ints, places: ExactPlaces) -> tuple[Bools, Bools, Boo
     clear: Bools = np.all(((sign < 0) & ~doubt) | ~is_other, axis=2)
     on_right: Bools = np.all(sign <= 0, axis=2)
     entered: Bools = np.all(sign >= 0, axis=1) & ~common
-    return _any_side(clear), _any_side(on_right), _any_side(entered), _any_side(doubt.any(axis=2))
+    doubtful: Bools = np.any(doubt, axis=2)
+    return _any_side(clear), _any_side(on_right), _any_side(entered), _any_side(doubtful)
 
 
 def _any_side(found: Bools) -> Bools:
