@@ -15,7 +15,7 @@ from plyfold.core.buffers import flat
 from plyfold.core.cells import walk_cells
 from plyfold.errors import GaussCodeError
 from plyfold.graphs import components
-from plyfold.ragged import count_each, starts_of
+from plyfold.ragged import count_each
 
 __all__ = [
     "borders_at_visits",
@@ -80,10 +80,11 @@ def borders_at_visits(first_visit: Ints) -> tuple[Ints, Ints]:
     if len(first_visit) == 2:  # one loop: as below, in a fifth of the time
         after = np.arange(first_visit[1])
         return (after - 1) % max(len(after), 1), after
-    first, visits = first_visit[:-1], np.diff(first_visit)
-    after = np.arange(first_visit[-1]) + np.repeat(starts_of(np.maximum(visits, 1)) - first, visits)
-    before = after - 1
-    before[first[visits > 0]] += visits[visits > 0]
+    first, visits = first_visit[:-1], first_visit[1:] - first_visit[:-1]
+    lonely = visits == 0
+    after = np.arange(first_visit[-1]) + (lonely.cumsum() - lonely).repeat(visits)
+    before, crossed = after - 1, visits > 0
+    before[first[crossed]] += visits[crossed]
     return before, after
 
 
@@ -194,9 +195,9 @@ def windings_of_loops(partner: Ints, ccw: Bools, first_visit: Ints, outside: Int
 def _along_each_loop(ccw: Bools, first_visit: Ints, after: Ints) -> Ints:
     """Return the winding number on the left of each border, less that of its loop's first border."""
     passed = np.cumsum(np.where(ccw, -1, 1))
-    visits = np.diff(first_visit)
-    along = np.zeros(int(np.maximum(visits, 1).sum()), dtype=np.int64)
-    along[after] = passed - np.repeat(passed[first_visit[:-1][visits > 0]], visits[visits > 0])
+    visits = first_visit[1:] - first_visit[:-1]
+    along, crossed = np.zeros(int(np.maximum(visits, 1).sum()), dtype=np.int64), visits > 0
+    along[after] = passed - passed[first_visit[:-1][crossed]].repeat(visits[crossed])
     return along
 
 

@@ -143,9 +143,14 @@ def _flood(arrangement: Arrangement) -> _Lakes:
     pit = end_of_path(drain)
     saddles = _join_lakes(arrangement, pit)
     parent, tree_link = drain.copy(), link.copy()
-    for cell, beyond, border in [(0, 0, -1), *saddles]:
+    turned: list[int] = []
+    above: list[int] = []
+    for cell, beyond, _ in [(0, 0, -1), *saddles]:
         way = [cell, *_drains(drain, cell)]
-        parent[way], tree_link[way] = [beyond, *way[:-1]], [border, *link[way[:-1]]]
+        turned += way
+        above += [beyond, *way[:-1]]
+    parent[turned], tree_link[turned] = above, link[above]
+    tree_link[[0, *(cell for cell, _, _ in saddles)]] = [-1, *(border for _, _, border in saddles)]
     return _Lakes(drain, link, pit, saddles, parent, tree_link)
 
 

@@ -112,7 +112,7 @@ class Outline:
         """Number of closed curves."""
         return len(self.loops)
 
-    @property
+    @cached_property
     def has_cusps(self) -> bool:
         """Whether some point is a cusp."""
         return any(index.any() for index in self.cusps)
