@@ -105,7 +105,7 @@ def next_darts(partner: Ints, ccw: Bools, first_visit: Ints | None = None) -> In
     return following
 
 
-def cell_boundaries(following: Ints, outer: int) -> tuple[Ints, Ints]:
+def cell_boundaries(following: Ints, outer: int) -> tuple[Ints, Ints, Ints]:
     """Return the orbits around all cells, that of the unbounded one first, the others by their lowest darts.
 
     Where loops hang together they are the boundaries of the cells; otherwise cells have several, which
@@ -123,14 +123,16 @@ def cell_boundaries(following: Ints, outer: int) -> tuple[Ints, Ints]:
     cell_start : (cells + 1,) int
     cell_darts : (darts,) int
         The boundary of cell c is ``cell_darts[cell_start[c]:cell_start[c + 1]]``: its darts in order, the lowest first.
+    cell_of_dart : (darts,) int
 
     Notes
     -----
     O(darts).
     """
     darts, start = np.empty((2, len(following)), dtype=np.int64)
-    cells = walk_cells(flat(following), outer, flat(darts), flat(start), flat(np.full(len(following), -1)))
-    return np.append(start[:cells], len(following)), darts
+    cell = np.full(len(following), -1)
+    cells = walk_cells(flat(following), outer, flat(darts), flat(start), flat(cell))
+    return np.concatenate([start[:cells], [len(following)]]), darts, cell
 
 
 def joined_cells(cycle_start: Ints, cycle_darts: Ints, same_cell: Ints) -> tuple[Ints, Ints]:
@@ -224,7 +226,7 @@ def left_windings(ccw: Bools, outer: int) -> Ints:
     Past a crossing the curve leaves the left side of the other strand if that one crosses from right to left (one
     less), and enters it otherwise (one more).
     """
-    relative = np.cumsum(np.where(ccw, -1, 1)) if len(ccw) else np.zeros(1, dtype=np.int64)
+    relative = np.where(ccw, -1, 1).cumsum() if len(ccw) else np.zeros(1, dtype=np.int64)
     border, backward = divmod(outer, 2)
     return np.asarray(relative - relative[border] + backward, dtype=np.int64)
 

@@ -22,7 +22,7 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.core.buffers import all_flat
-from plyfold.core.cells import join_lakes
+from plyfold.core.cells import join_lakes, sum_down
 from plyfold.graphs import end_of_path
 
 __all__ = ["DualTree", "around_cells", "grow_dual_tree", "grow_tree"]
@@ -232,10 +232,7 @@ def _sums_behind(arrangement: Arrangement, lakes: _Lakes, value: Ints) -> Ints:
 def _sum_down_the_drains(arrangement: Arrangement, lakes: _Lakes, behind: Ints) -> None:
     """Add to every cell, in place, what drains into it; a cell drains into one with winding number one lower."""
     highest_first = np.argsort(-arrangement.winding, kind="stable")
-    levels = np.flatnonzero(np.diff(arrangement.winding[highest_first])) + 1
-    for level in np.split(highest_first, levels):
-        draining = level[lakes.drain_link[level] >= 0]
-        np.add.at(behind, lakes.drain[draining], behind[draining])
+    sum_down(*all_flat(highest_first, lakes.drain, behind))
 
 
 def _bends(
