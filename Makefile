@@ -21,7 +21,7 @@ demo: $(READY)  ## Lift an example: out/ gets a GLB, a 3D page and a picture of 
 test: $(READY) lint  ## Style, types, and every test but the slow ones
 	@$(MAKE) --no-print-directory browser 2>/dev/null || echo "The tests of the pages are skipped."
 	$(BIN)/python -m pytest -n 2
-	PLYFOLD_PURE=1 $(BIN)/python -m pytest -n 2 tests/core tests/arrangement/test_crossings.py
+	PLYFOLD_PURE=1 $(BIN)/python -m pytest -n 2 tests/core tests/arrangement/test_crossings.py tests/arrangement/test_several.py
 
 test-busy: $(READY)  ## The same beside eight busy processes: no test depends on how fast the machine is
 	$(BIN)/python tools/busy.py 8 make --no-print-directory test

@@ -7,7 +7,7 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Bools", "Complexes", "Floats", "Ints", "Signs", "Wholes", "freeze", "read_only"]
+__all__ = ["Bools", "Complexes", "Floats", "Fractions", "Ints", "Reals", "Signs", "Wholes", "freeze", "read_only"]
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 
@@ -17,6 +17,9 @@ Bools: TypeAlias = npt.NDArray[np.bool_]
 Signs: TypeAlias = npt.NDArray[np.int8]
 Wholes: TypeAlias = npt.NDArray[np.object_]
 """Whole numbers, however large."""
+Fractions: TypeAlias = npt.NDArray[np.object_]
+"""Fractions by powers of two: for places that are no doubles."""
+Reals: TypeAlias = Floats | Fractions
 Complexes: TypeAlias = npt.NDArray[np.complex128]
 
 

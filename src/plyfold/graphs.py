@@ -13,7 +13,15 @@ from plyfold.core.cells import join_lakes
 # So few edges are followed one by one.
 _FEW = 500
 
-__all__ = ["components", "members_of", "representative", "shortest_path", "spanning_tree", "ways_from"]
+__all__ = [
+    "components",
+    "end_of_path",
+    "members_of",
+    "representative",
+    "shortest_path",
+    "spanning_tree",
+    "ways_from",
+]
 
 
 def components(n: int, start: Ints, end: Ints) -> Ints:
@@ -39,8 +47,7 @@ def _few_components(n: int, start: Ints, end: Ints) -> Ints:
     node = np.arange(n)
     joined = node.copy()
     join_lakes(*all_flat(start, end, joined, np.zeros(len(start), dtype=np.int64)))
-    while ((further := joined[joined]) != joined).any():
-        joined = further
+    joined = end_of_path(joined)
     first = np.empty_like(node)
     first[joined[::-1]] = node[::-1]  # the last one written stays: the first node of each component
     first = first[joined]
@@ -124,6 +131,20 @@ def ways_from(sources: Ints, n: int, edges: Ints, length: Floats, limit: float) 
     first = order[np.append(True, (np.diff(start[order]) != 0) | (np.diff(end[order]) != 0))[: len(order)]]
     ways = coo_array((length[first], (start[first], end[first])), shape=(n, n)).tocsr()
     return np.asarray(dijkstra(ways, directed=False, indices=sources, min_only=True, limit=limit))
+
+
+def end_of_path(step: Ints) -> Ints:
+    """Return where each node comes to, step by step, until a step leads nowhere else; no steps lead round in a circle.
+
+    Examples
+    --------
+    >>> end_of_path(np.array([2, 1, 3, 3])).tolist()
+    [3, 1, 3, 3]
+    """
+    further = step[step]
+    while (further != step).any():
+        step, further = further, further[further]
+    return step
 
 
 def representative(joined: MutableSequence[int] | Ints, member: int) -> int:

@@ -1,4 +1,4 @@
-"""Numbers with their nouns."""
+"""Reals with their nouns."""
 
 __all__ = ["counted"]
 

@@ -26,10 +26,12 @@ from reference.random_curves import ribbon_outline, random_polygon, star_polygon
 digest = hashlib.sha256()
 rng = np.random.default_rng(18)
 lattice = [rng.integers(-6, 7, (30, 2)).astype(float) for _ in range(20)]
+ring = [[(0, 0), (9, 0), (9, 9), (0, 9)], [(1, 1), (2, 5), (7, 3)], [(-3, 2), (12, 2), (12, 4), (-3, 4)]]
 curves = [random_polygon(rng, 60), ribbon_outline(rng, 200), star_polygon(41, 20), *lattice]
-for curve in curves:
-    drawn = pf.arrange(np.asarray(curve, dtype=float))
-    for name, value in sorted(vars(drawn).items()):
+for curve in [ring, *(np.asarray(curve, dtype=float) for curve in curves)]:
+    drawn = pf.arrange(curve)
+    immersion = pf.find_immersion(drawn)
+    for name, value in (*sorted(vars(drawn).items()), *sorted(vars(immersion).items())):
         digest.update(value.tobytes() if isinstance(value, np.ndarray) else b"")
 print(plyfold.core.WHY_PLAIN or "compiled")
 print(digest.hexdigest())

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 import plyfold as pf
 from plyfold.arrangement import unless
-from plyfold.arrangement.arrangement import ways_apart
 from plyfold.arrangement.general_position import InContact, without_contacts
+from plyfold.arrangement.ways import ways_apart
 from plyfold.errors import CurveError
 from plyfold.immersion.obstructions import touches_as_no_disk
 from reference import contacts as reference

@@ -107,7 +107,9 @@ def test_random_disks_lift():
     for seed in range(5):
         curve = glued_disk(np.random.default_rng(seed), 25)
         for immersion in immersions(curve):
-            assert (least_intersecting_layering(immersion).total_length == 0) == bool(find_layering(immersion))
+            found, layering = least_intersecting_layering(immersion), find_layering(immersion)
+            assert (found.total_length == 0) == bool(layering)
+            assert not layering or np.array_equal(found.level, layering.level)
 
 
 def test_out_of_time():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import plyfold as pf
-from plyfold.arrangement.arrangement import ways_apart
+from plyfold.arrangement.ways import ways_apart
 from plyfold.errors import GeneralPositionError
 from reference import contacts
 from reference.crossings import exact

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 from typing import Any, Literal, cast
@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrangement.drawn import DrawnMap, drawn_map
-from plyfold.arrangement.general_position import in_general_position, number_of_ways, separated, touching_points
+from plyfold.arrangement.general_position import in_general_position, touching_points
 from plyfold.arrangement.leftmost import leftmost_crossing
 from plyfold.arrangement.maps import (
     CellWalk,
@@ -29,14 +29,14 @@ from plyfold.arrangement.planar_map import (
 )
 from plyfold.arrangement.polylines import inner_points, total_winding
 from plyfold.arrangement.theorems import theorems_of
-from plyfold.arrays import Bools, Floats, Ints, freeze
+from plyfold.arrays import Bools, Floats, Fractions, Ints, Reals, freeze
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GaussCodeError, InputError, PlyfoldError
 from plyfold.graphs import components
 from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.given import Coded, CurveLike, OutlineLike, are_several, as_outline
 
-__all__ = ["Arrangement", "CurveLike", "arrange", "require_one_loop", "watched_arrangement", "ways_apart"]
+__all__ = ["Arrangement", "CurveLike", "arrange", "require_one_loop", "watched_arrangement"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +79,8 @@ class Arrangement:
         their left in which it runs. The first foot is at the leftmost vertex of a group of loops, the second one
         straight to the left of it. Borders and bridges together connect the boundary of every bounded cell.
     outline : Outline
-        The loops as used: oriented, without spikes, and with points in contact moved; None if only the code is known.
+        The loops as used: oriented, without spikes, and with points in contact moved, as far as doubles tell; None if
+        only the code is known.
     given : Outline
         The same points in the same order where they were given; None if only the code is known.
     numbers : (points,) int
@@ -97,6 +98,9 @@ class Arrangement:
         numbers of both signs had a negative turning number.
     exact_signs : int
         How many signs and places along edges had to be settled with fractions; 0 if only the code is known.
+    begun : (points, 2) object or None
+        Where the points of ``given`` are when those in contact have begun to move: in fractions, infinitely near. None
+        without contacts. Where doubles have room, ``outline`` shows the same in these; else it has the given points.
 
     Examples
     --------
@@ -130,6 +134,7 @@ class Arrangement:
     marks: Floats = field(default_factory=lambda: np.empty((0, 2)))
     reversed: bool = False
     exact_signs: int = 0
+    begun: Fractions | None = None
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -265,6 +270,16 @@ class Arrangement:
         """That of every surface bounded by the outline: its full turns, less those that are too many at cusps."""
         return self.turning_number - int(self.cusp_index.sum())
 
+    @property
+    def is_begun(self) -> bool:
+        """Whether points have only begun to move, so that doubles do not tell them from the given ones."""
+        return self.begun is not None and np.array_equal(self._drawn().points, cast("Outline", self.given).points)
+
+    @property
+    def exact_points(self) -> Reals:
+        """The points of :attr:`outline` exactly: doubles, or :attr:`begun` where these do not tell."""
+        return cast("Fractions", self.begun) if self.is_begun else self._drawn().points
+
     @cached_property
     def crossing_visits(self) -> Ints:
         """The visits to crossings, shape (2k,): all but the marks."""
@@ -375,7 +390,7 @@ class Arrangement:
             return 0
         visits = np.flatnonzero(self.ccw)
         edge, other = self.visit_edge[visits], self.visit_edge[self.partner[visits]]
-        return int(visits[leftmost_crossing(self.curve.points, edge, other)])
+        return int(visits[leftmost_crossing(self.curve.points if self.begun is None else self.begun, edge, other)])
 
     def border_points(self, border: int) -> Floats:
         """Return the polyline of a border, shape (m, 2), from visit to visit with both ends.
@@ -528,7 +543,7 @@ def arrange(curve: OutlineLike, general_position: Literal["perturb", "raise"] = 
     CurveError
         If the points do not make a closed curve.
     GeneralPositionError
-        With ``general_position="raise"``, at the touching places; else if doubles leave no room to move them apart.
+        With ``general_position="raise"``, at the touching places; else where cusps that stay hold edges together.
 
     References
     ----------
@@ -556,35 +571,6 @@ def watched_arrangement(curve: OutlineLike, general_position: Literal["perturb",
         return watched_arrangement(several[0], general_position, watch)
     placed = in_general_position(as_outline(curve), general_position, watch)
     return Arrangement.of_drawing(drawn_map(placed, watch))
-
-
-def ways_apart(arranged: Arrangement, inward: bool = False) -> Iterator[Arrangement]:
-    """Yield arrangements of the same outline with the points in contact moved apart in all ways that matter.
-
-    That is one, mostly; several if cusps lie on each other. An outline without contacts is arranged in one way.
-
-    Parameters
-    ----------
-    arranged : Arrangement
-    inward : bool, optional
-        Move points inward, in place of outward. Then there is a surface just when the outline as given bounds one in
-        the strict sense: with all angles as one sees them.
-
-    Examples
-    --------
-    >>> pinched = arrange([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)])
-    >>> [way.winding.tolist() for inward in (False, True) for way in ways_apart(pinched, inward)]
-    [[0, 1], [0, -1, 1, 1]]
-    """
-    if arranged.given is None or len(arranged.contacts) == 0:
-        yield arranged
-        return
-    if not inward:
-        yield arranged
-    for way in range(0 if inward else 1, number_of_ways(arranged.given)):
-        placed = separated(arranged.given, -1 if inward else 1, way=way)
-        placed = replace(placed, numbers=arranged.numbers, turned_round=arranged.reversed)
-        yield Arrangement.of_drawing(drawn_map(placed, UNWATCHED))
 
 
 def require_one_loop(arranged: Arrangement, what: str = "this") -> None:

@@ -48,6 +48,7 @@ def numbered_from(arrangement: Arrangement, base: int) -> Arrangement:
         cusp_index=begun_at(arrangement.cusp_index, base),
         outline=None,
         given=None,
+        begun=None,
         numbers=np.empty(0, dtype=np.int64),
         marks=np.empty((0, 2)),
         crossings=np.empty((0, 2)),

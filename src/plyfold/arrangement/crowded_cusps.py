@@ -16,7 +16,7 @@ import numpy as np
 from plyfold.arrangement.crossings import Contacts
 from plyfold.arrangement.outward import canonical_rank
 from plyfold.arrangement.spikes import tips
-from plyfold.arrays import Bools, Floats, Ints
+from plyfold.arrays import Bools, Floats, Ints, Reals
 from plyfold.outline.curve import Outline
 from plyfold.predicates import orient
 
@@ -80,14 +80,14 @@ def cusps_that_stay(given: Outline, contacts: Contacts) -> Bools:
     return np.asarray(is_cusp & (np.isin(np.arange(len(given)), contacts.touches[:, 0]) | tips(given)))
 
 
-def stay_inside(given: Outline, contacts: Contacts, points: Floats, crowded: Ints, sense: int) -> bool:
+def stay_inside(given: Outline, contacts: Contacts, points: Reals, crowded: Ints, sense: int) -> bool:
     """Tell whether cusps that gave way are still inside all that moved outward, or outside what moved inward. Exact.
 
     Parameters
     ----------
     given : Outline
     contacts : Contacts
-    points : (n, 2) float
+    points : (n, 2) float, or object
         The outline's points when they have moved.
     crowded : (m,) int
         The cusps that gave way.

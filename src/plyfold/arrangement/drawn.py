@@ -45,7 +45,10 @@ def drawn_map(placed: GeneralPosition, watch: Watch) -> DrawnMap:
 def _drawn_curve(placed: GeneralPosition) -> DrawnMap:
     outline, given, numbers, visits = placed.outline, placed.given, placed.numbers, placed.visits
     edge, point = visits.edge, visits.point
-    outer, is_directed = outer_dart(outline.points, edge), placed.turned_round is not None
+    outer, is_directed = (
+        outer_dart(outline.points if placed.exact is None else placed.exact, edge),
+        placed.turned_round is not None,
+    )
     used, turning, turned_round = oriented(visits.partner, visits.ccw, outer, is_directed)
     if turned_round:
         outline = given = outline.reversed()
@@ -55,14 +58,15 @@ def _drawn_curve(placed: GeneralPosition) -> DrawnMap:
     crossings = point[np.arange(len(point)) < used.code.partner]
     marked = with_marks(drawn, cusps_of_outline(outline, edge))
     settled = {"exact_signs": visits.exact_signs, "reversed": turned_round or bool(placed.turned_round)}
-    more = {"given": given, "numbers": numbers, "crossings": crossings} | settled
+    more = {"given": given, "numbers": numbers, "crossings": crossings, "begun": placed.begun} | settled
     return DrawnMap(marked, walked_round(marked), (turning,), outline, more)
 
 
 def _drawn_loops(placed: GeneralPosition, watch: Watch) -> DrawnMap:
     """Return the map of several loops as they are directed."""
     outline, visits = placed.outline, placed.visits
-    found = nest(placed.joined, visits, watch)
+    exact = placed.exact
+    found = nest(placed.joined, visits, watch, None if exact is None else exact[placed.joined.number])
     left = windings_of_loops(visits.partner, visits.ccw, found.first_visit, found.outside, found.bridges)
     none = np.zeros(len(visits.partner), dtype=np.int64)
     code = Code(visits.partner, visits.ccw, found.first_visit, left, visits.edge, none)
@@ -73,7 +77,7 @@ def _drawn_loops(placed: GeneralPosition, watch: Watch) -> DrawnMap:
     is_left = found.bridges[inner] % 2 == 0
     drawn = with_marks(plain, cusps_of_outline(outline, visits.edge), feet, is_left)
     crossings = visits.point[np.arange(len(visits.point)) < visits.partner]
-    turning = polygon_turning_numbers(outline.points, outline.first_point)
+    turning = polygon_turning_numbers(outline.points if exact is None else exact, outline.first_point)
     settled = {"exact_signs": visits.exact_signs, "reversed": bool(placed.turned_round)}
-    more = {"given": placed.given, "numbers": placed.numbers, "crossings": crossings} | settled
+    more = {"given": placed.given, "numbers": placed.numbers, "crossings": crossings, "begun": placed.begun} | settled
     return DrawnMap(drawn, walked if drawn is plain else walked_round(drawn), turning, outline, more)

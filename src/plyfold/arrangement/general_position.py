@@ -3,6 +3,12 @@
 An outline that touches itself is taken for the limit of others. First its spikes are taken out. Then each vertex that
 touches something moves outward, infinitely little: that tells which edges cross, and in what order. At last the move is
 made small enough for doubles to show the very same. Vertices that touch as cusps stay where they are.
+
+Doubles may show it at no size: no move is small enough for strands that are nearly in contact, and large enough for the
+rounding of coordinates. Then the outline in general position is the one that has begun to move, in fractions. All that
+is combinatorial follows from it, so it is the same wherever doubles show it and where they do not. Whoever wants more
+of the moved outline than pictures reads :attr:`Arrangement.exact_points`, which are doubles almost always; the exact
+predicates take both.
 """
 
 from __future__ import annotations
@@ -18,17 +24,18 @@ from plyfold.arrangement.crowded_cusps import crowded_cusps, cusps_that_stay, li
 from plyfold.arrangement.infinitesimal import (
     MovingPoints,
     begin_to_move,
+    begun_crossings,
+    begun_visits,
     order_along_edges,
     same_outside,
-    signed_crossings,
     signed_pairs,
 )
 from plyfold.arrangement.meetings import JoinedLoops, joined_loops, meetings, visits_along
 from plyfold.arrangement.nesting import nest, same_nest
 from plyfold.arrangement.noding import Noding, node_outline
-from plyfold.arrangement.outward import are_moved, outward_vectors, winds_backward
+from plyfold.arrangement.outward import are_moved, outward_vectors, whole_vectors, winds_backward
 from plyfold.arrangement.spikes import tips, without_spikes
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Floats, Fractions, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import GeneralPositionError, InputError
 from plyfold.outline.curve import Outline, Repair, backward_numbers, outline_of_points
@@ -69,6 +76,10 @@ class GeneralPosition:
     turned_round : bool or None
         Whether the outline that came in was turned round, so that the surface lies on its left. None if that is not
         settled: it is as it came in, and there is nothing to tell inside from outside but its cells.
+    begun : (points, 2) object or None
+        Where the points are when they have begun to move: in fractions, and infinitely near to those of ``given``. What
+        they draw, ``outline`` shows in doubles; but if these have no room for it, it has the given points. None
+        without contacts.
     """
 
     outline: Outline
@@ -77,6 +88,13 @@ class GeneralPosition:
     joined: JoinedLoops
     visits: Visits
     turned_round: bool | None
+    begun: Fractions | None = None
+
+    @property
+    def exact(self) -> Fractions | None:
+        """The points in general position in fractions, where doubles do not show them; None elsewhere."""
+        shown = self.begun is None or not np.array_equal(self.outline.points, self.given.points)
+        return None if shown else self.begun
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,8 +144,7 @@ def in_general_position(
     CurveError
         If nothing is left of the outline without its spikes.
     GeneralPositionError
-        With ``policy="raise"`` at every touching place; with ``"perturb"`` if double precision cannot show strands
-        apart that are to be.
+        With ``policy="raise"`` at every touching place; with ``"perturb"`` where cusps that stay hold edges together.
     """
     if policy not in ("perturb", "raise"):
         raise InputError(f'general_position must be "perturb" or "raise", not {policy!r}')
@@ -251,7 +268,7 @@ def separated(given: Outline, sense: int, watch: Watch = UNWATCHED, way: int = 0
         more = np.setdiff1d(np.concatenate([found, given.next_point[found]]), np.concatenate([stays, moves.points]))
         moves, scatter = moves._replace(points=np.union1d(moves.points, more)), scatter + (len(more) == 0)
     raise GeneralPositionError(
-        "strands touch or overlap, and are too crowded to be moved apart",
+        "strands touch or overlap, and cusps that stay hold them together",
         where=_places(given, touching.contacts, visits_along(_joined(given), touching.contacts)),
         hint="move these vertices by hand",
     )
@@ -279,59 +296,74 @@ def _points_to_move(given: Outline, contacts: Contacts, way: int) -> tuple[Ints,
 
 
 def _moved(touching: _Touching, moves: _Moves, scatter: int) -> GeneralPosition | Ints:
-    """Return the outline with some points moved as little as need be, or the edges that stay together if they move so.
-
-    No edges, if doubles do not show at any size of the move what is true of infinitely small ones.
-    """
+    """Return the outline with some points moved as little as need be, or the edges that stay together then."""
     given, sense = touching.given, touching.sense
-    vectors = sense * outward_vectors(given, moves.points, scatter)
-    for step in _steps(given.points):
-        points = given.points.copy()
-        points[moves.points] += step * vectors
-        points[moves.others] += step * moves.vectors
-        if not are_moved(given, moves.points, points[moves.points], sense).all():
-            continue
-        if not stay_inside(given, touching.contacts, points, moves.others, sense):
-            continue
-        found = _shown(touching, points)
-        if isinstance(found, GeneralPosition) or len(found):
-            return found
-    return np.empty(0, dtype=np.int64)
-
-
-def _shown(touching: _Touching, points: Floats) -> GeneralPosition | Ints:
-    """Return the outline with its points moved, if it shows what is true of infinitely small moves in that direction.
-
-    Else the edges that stay together, however little they move.
-    """
-    given, contacts, sense, watch = touching
-    motion = begin_to_move(given.points, points, given.next_point)
-    wanted, undecided = signed_crossings(motion, contacts)
-    joined = joined_loops(points, given.first_point)
-    found = meetings(joined, watch)
-    shown = signed_pairs(found.edges, found.from_right, len(points))
-    if len(undecided) or len(found.touches) or not np.array_equal(wanted, shown):
+    vectors = np.zeros_like(given.points)
+    vectors[moves.points] = sense * outward_vectors(given, moves.points, scatter)
+    vectors[moves.others] = moves.vectors
+    exactly = whole_vectors(given, vectors, moves.points, sense)
+    motion = begin_to_move(given.points, exactly, given.next_point)
+    crossings, undecided = begun_crossings(motion, touching.contacts)
+    if len(undecided) or not stay_inside(given, touching.contacts, motion.places, moves.others, sense):
         return np.unique(undecided)
+    for step in _steps(given.points):
+        points = given.points + step * vectors
+        if are_moved(given, moves.points, points[moves.points], sense).all():
+            found = _shown(touching, motion, crossings, points)
+            if found is not None:
+                return found
+    return _as_begun(touching, motion, crossings)
+
+
+def _shown(
+    touching: _Touching, motion: MovingPoints, crossings: Contacts, points: Floats
+) -> GeneralPosition | Ints | None:
+    """Return the outline with its points moved, if it shows what is true of infinitely small moves; else None.
+
+    Or the edges that meet in one point, however little they move.
+    """
+    given = touching.given
+    joined = joined_loops(points, given.first_point)
+    found = meetings(joined, touching.watch)
+    wanted, shown = (signed_pairs(some.edges, some.from_right, len(points)) for some in (crossings, found))
+    if len(found.touches) or not np.array_equal(wanted, shown):
+        return None
     visits = visits_along(joined, found)
     in_order, together = order_along_edges(motion, visits)
-    right = in_order.all() and len(visits.triple) == 0
-    if len(together) or not (right and _lie_alike(motion, joined, visits)):
+    if len(together):
         return np.unique(together)
-    repairs = *given.repairs, *_moves(given.points, points)
+    if len(visits.triple) or not (in_order.all() and _lie_alike(motion, joined, visits)):
+        return None
+    return _placed(touching, points, joined, visits, motion.places)
+
+
+def _as_begun(touching: _Touching, motion: MovingPoints, crossings: Contacts) -> GeneralPosition | Ints:
+    """Return the outline that has begun to move, or the edges of it that meet in one point."""
+    visits = begun_visits(motion, crossings)
+    if len(visits.triple):
+        return np.unique(visits.triple)
+    return _placed(touching, motion.points, _joined(touching.given), visits, motion.places)
+
+
+def _placed(
+    touching: _Touching, points: Floats, joined: JoinedLoops, visits: Visits, begun: Fractions
+) -> GeneralPosition:
+    """Return an outline with its points moved."""
+    given = touching.given
+    repairs = *given.repairs, *_moves(given.points, points, begun)
     # A cusp at a tip has an angle of 360° that one sees; strands that move outward there leave next to none, and those
     # that move inward next to all of it.
-    cusps = np.concatenate(given.cusps) + (tips(given) if given.has_cusps and sense > 0 else 0)
+    cusps = np.concatenate(given.cusps) + (tips(given) if given.has_cusps and touching.sense > 0 else 0)
     outline = outline_of_points(points, given.loop_of_point, cusps, given.rows, repairs)
-    return GeneralPosition(outline, given, np.arange(len(given)), joined, visits, False)
+    return GeneralPosition(outline, given, np.arange(len(given)), joined, visits, False, begun)
 
 
 def _lie_alike(motion: MovingPoints, joined: JoinedLoops, visits: Visits) -> bool:
     """Tell whether moved loops show their outside where it is, and lie in each other, as when they begin to move."""
     if joined.is_one_loop:
         return same_outside(motion, joined.points)
-    number = joined.vertex - joined.loop
-    begun = replace(joined, points=motion.points[number])
-    return same_nest(nest(joined, visits), nest(begun, visits, exact=motion.moved[number]))
+    begun = replace(joined, points=motion.points[joined.number])
+    return same_nest(nest(joined, visits), nest(begun, visits, exact=motion.moved[joined.number]))
 
 
 def _steps(points: Floats) -> list[float]:
@@ -344,8 +376,9 @@ def _steps(points: Floats) -> list[float]:
     return [step * size for step in _STEPS if step * size >= least] or [least] * (least < _LARGEST_STEP * size)
 
 
-def _moves(before: Floats, after: Floats) -> list[Repair]:
-    moved = np.flatnonzero((before != after).any(axis=1))
+def _moves(before: Floats, after: Floats, begun: Fractions) -> list[Repair]:
+    """Return which points were moved, and how far: by 0 if that is less than doubles can tell."""
+    moved = np.flatnonzero((before != begun).any(axis=1))
     size = np.hypot(*(after - before)[moved].T)
     places = zip(before[moved].tolist(), size.tolist(), strict=True)
     return [Repair("vertex moved", (x, y), how_far) for (x, y), how_far in places]

@@ -1,23 +1,34 @@
 """What edges do that touch, when points move by infinitely little: which cross, and in what order along an edge.
 
 Each point p moves to p + s · d, and s tends to 0. Every question is the sign of a polynomial in s, and the answer is
-that of its lowest term. With whole coordinates and moves below 2^b the polynomials have whole coefficients of at most
-2^(4b + 7) together, so for s = 2^-(4b + 9) the lowest one outweighs all others. So the points are moved by just that
-much, in whole numbers, however large, and asked as any others. Only what does not follow from the points as given, with
-a bound on the rounding, is asked so.
+that of its lowest term. With whole coordinates and moves below 2^b, the polynomials have whole coefficients of at most
+2^(5b + 150) together: the largest compare how far a sweeping line has come at two crossings, where 150 allows for its
+tilt. So for s = 2^-(5b + 151) the lowest term outweighs all others. So the points are moved by just that much, in
+fractions, and asked as any others. Only what does not follow from the points as given, with a bound on the rounding, is
+asked so.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
 
 import numpy as np
 
 from plyfold.arrangement.crossings import Contacts, Visits
-from plyfold.arrays import Bools, Floats, Ints, Signs, Wholes
-from plyfold.predicates import orient, parameter_along_edge, whole_numbers
+from plyfold.arrays import Bools, Floats, Fractions, Ints, Signs, Wholes
+from plyfold.predicates import exact_parameter, orient, parameter_along_edge, signs_of, whole_numbers
 
-__all__ = ["MovingPoints", "begin_to_move", "order_along_edges", "same_outside", "signed_crossings", "signed_pairs"]
+__all__ = [
+    "MovingPoints",
+    "begin_to_move",
+    "begun_crossings",
+    "begun_visits",
+    "order_along_edges",
+    "same_outside",
+    "signed_pairs",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,32 +39,48 @@ class MovingPoints:
     ----------
     points : (n, 2) float
     moved : (n, 2) object
-        The points moved by infinitely little, in whole numbers of some unit.
+        The points moved by infinitely little, seen from the first one of ``points``, in whole numbers of ``unit``.
+    unit : Fraction
     next_point : (n,) int
         Edge i runs from point i to this one.
     """
 
     points: Floats
     moved: Wholes
+    unit: Fraction
     next_point: Ints
 
+    @cached_property
+    def places(self) -> Fractions:
+        """The points moved by infinitely little, shape (n, 2)."""
+        origin = np.array([Fraction(number) for number in self.points[0].tolist()], dtype=object)
+        return np.asarray(self.moved * self.unit + origin)
 
-def begin_to_move(points: Floats, goal: Floats, next_point: Ints) -> MovingPoints:
-    """Return points that have begun to move straight to other ones.
+
+def begin_to_move(points: Floats, vectors: Wholes, next_point: Ints) -> MovingPoints:
+    """Return points that have begun to move along some vectors, which are whole numbers of any unit.
 
     Examples
     --------
     >>> points = np.array([(0.0, 0.0), (4.0, 0.0), (2.0, 0.0)])
-    >>> goal = np.array([(0.0, 0.0), (4.0, 0.0), (2.0, 1.0)])
-    >>> begin_to_move(points, goal, np.array([1, 2, 0])).moved[2, 1] > 0
-    True
+    >>> vectors = np.array([(0, 0), (0, 0), (0, 1)], dtype=object)
+    >>> moving = begin_to_move(points, vectors, np.array([1, 2, 0]))
+    >>> moving.places[2, 0] == 2, 0 < moving.places[2, 1] < 1e-40
+    (True, True)
     """
-    places, goals = whole_numbers(np.stack([points, goal]))[0]
-    places, direction = places - places[0], goals - places
-    largest = max(int(np.abs(numbers).max()) for numbers in (places, direction))
+    places, unit = whole_numbers(points)
+    (places, cut), (vectors, _) = _without_zeros(places - places[0]), _without_zeros(vectors)
+    largest = max(int(np.abs(numbers).max()) for numbers in (places, vectors))
     # Differences of two numbers have a bit more.
-    bits = largest.bit_length() + 1
-    return MovingPoints(points, (places << (4 * bits + 9)) + direction, next_point)
+    shift = 5 * (largest.bit_length() + 1) + 151
+    return MovingPoints(points, (places << shift) + vectors, unit * Fraction(2) ** (cut - shift), next_point)
+
+
+def _without_zeros(numbers: Wholes) -> tuple[Wholes, int]:
+    """Return whole numbers without the zeros that all have at their ends, in the binary system, and how many."""
+    together = int(np.bitwise_or.reduce(np.abs(numbers), axis=None))
+    zeros = (together & -together).bit_length() - 1 if together else 0
+    return np.asarray(numbers >> zeros), zeros
 
 
 def signed_pairs(pairs: Ints, from_right: Bools, n: int) -> Ints:
@@ -61,13 +88,12 @@ def signed_pairs(pairs: Ints, from_right: Bools, n: int) -> Ints:
     return np.sort((pairs[:, 0] * n + pairs[:, 1]) * 2 + from_right)
 
 
-def signed_crossings(motion: MovingPoints, contacts: Contacts) -> tuple[Ints, Ints]:
+def begun_crossings(motion: MovingPoints, contacts: Contacts) -> tuple[Contacts, Ints]:
     """Return the pairs of edges that cross when points have begun to move, given what they do before.
 
     Returns
     -------
-    crossings : (k,) int
-        Numbers as from :func:`signed_pairs`.
+    crossings : Contacts
     undecided : (u, 2) int
         Pairs of edges of which an end stays on the other, however far they move.
     """
@@ -76,9 +102,9 @@ def signed_crossings(motion: MovingPoints, contacts: Contacts) -> tuple[Ints, In
     side, other_side = _sides(motion, first, second), _sides(motion, second, first)
     undecided = (side == 0).any(axis=1) | (other_side == 0).any(axis=1)
     cross = (side[:, 0] * side[:, 1] < 0) & (other_side[:, 0] * other_side[:, 1] < 0)
-    all_pairs = np.concatenate([contacts.edges, pairs[cross]])
+    edges = np.concatenate([contacts.edges, pairs[cross]])
     from_right = np.concatenate([contacts.from_right, side[cross, 1] > 0])
-    return signed_pairs(all_pairs, from_right, len(motion.points)), pairs[undecided]
+    return Contacts(edges, from_right, contacts.touches[:0], contacts.exact_signs), pairs[undecided]
 
 
 def _touching_pairs(touches: Ints, next_point: Ints) -> Ints:
@@ -98,7 +124,7 @@ def _sides(motion: MovingPoints, edge: Ints, other: Ints) -> Signs:
     side = orient(*(motion.points[at] for at in (start, end, there)))
     row, column = np.nonzero(side == 0)
     a, b, c = (motion.moved[at] for at in (start[row, 0], end[row, 0], there[row, column]))
-    side[row, column] = _signs(_cross(b - a, c - a))
+    side[row, column] = signs_of(_cross(b - a, c - a))
     return side
 
 
@@ -125,6 +151,29 @@ def order_along_edges(motion: MovingPoints, visits: Visits) -> tuple[Bools, Ints
     return in_order, triples[order == 0]
 
 
+def begun_visits(motion: MovingPoints, crossings: Contacts) -> Visits:
+    """Return the visits to crossings, from :func:`begun_crossings`, in order when points have begun to move."""
+    k = len(crossings.edges)
+    edge, other = crossings.edges.T.ravel(), crossings.edges[:, ::-1].T.ravel()
+    edges = np.stack([edge, motion.next_point[edge], other, motion.next_point[other]], axis=1)
+    ends = motion.places[edges]
+    share = np.array([exact_parameter(*four) for four in ends], dtype=object)
+    order = np.array(sorted(range(2 * k), key=lambda visit: (edge[visit], share[visit])), dtype=np.int64)
+    rank = np.empty_like(order)
+    rank[order] = np.arange(2 * k)
+    start, end = ends[:, 0], ends[:, 1]
+    together = np.flatnonzero((np.diff(edge[order]) == 0) & (share[order][1:] == share[order][:-1]))
+    met = order[np.stack([together, together + 1])]
+    return Visits(
+        edge=edge[order],
+        partner=rank[(order + k) % max(2 * k, 1)],
+        ccw=np.concatenate([crossings.from_right, ~crossings.from_right])[order],
+        point=(start + share[:, None] * (end - start))[order].astype(np.float64),
+        triple=np.stack([edge[met[0]], *other[met]], axis=1),
+        exact_signs=crossings.exact_signs + 2 * k,
+    )
+
+
 def same_outside(motion: MovingPoints, points: Floats) -> bool:
     """Tell whether a loop has its leftmost vertex, and turns there, as it does when its points have begun to move.
 
@@ -135,7 +184,7 @@ def same_outside(motion: MovingPoints, points: Floats) -> bool:
     before = int(np.flatnonzero(motion.next_point == corner)[0])
     around = np.array([before, corner, motion.next_point[corner]])
     a, b, c = motion.moved[around]
-    turn = _signs(_cross(b - a, c - b))
+    turn = signs_of(_cross(b - a, c - b))
     return corner == int(np.lexsort(points.T[::-1])[0]) and bool(turn == orient(*points[around]))
 
 
@@ -148,13 +197,9 @@ def _order(motion: MovingPoints, triples: Ints) -> Signs:
     along, across = end[:, 0] - start[:, 0], end[:, 1:] - start[:, 1:]
     above = _cross(start[:, 1:] - start[:, :1], across)
     below = _cross(along[:, None], across)
-    growing = _signs(below[:, 0]) * _signs(below[:, 1])
-    return np.asarray(growing * _signs(above[:, 0] * below[:, 1] - above[:, 1] * below[:, 0]))
+    growing = signs_of(below[:, 0]) * signs_of(below[:, 1])
+    return np.asarray(growing * signs_of(above[:, 0] * below[:, 1] - above[:, 1] * below[:, 0]))
 
 
 def _cross(one: Wholes, other: Wholes) -> Wholes:
     return np.asarray(one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0])
-
-
-def _signs(numbers: Wholes) -> Signs:
-    return np.asarray((numbers > 0).astype(np.int8) - (numbers < 0).astype(np.int8))

@@ -14,7 +14,8 @@ from plyfold.arrangement.planar_map import (
     reversed_code,
     whitney_turning_number,
 )
-from plyfold.arrays import Bools, Floats, Ints
+from plyfold.arrays import Bools, Floats, Ints, Reals
+from plyfold.core.signs import exact_sign
 from plyfold.predicates import cross_sign
 
 __all__ = [
@@ -106,11 +107,14 @@ def numbered_crossings(partner: Ints) -> Ints:
     return np.where(visit == partner, -1, number[np.minimum(visit, partner)])
 
 
-def outer_dart(points: Floats, visit_edge: Ints) -> int:
+def outer_dart(points: Reals, visit_edge: Ints) -> int:
     """Return a dart with the unbounded cell on its left: at the leftmost vertex, on its convex side."""
     x, y = points.T
     leftmost = np.flatnonzero(x == x.min())
     corner = int(leftmost[y[leftmost].argmin()])
-    before, after = points[corner - 1], points[(corner + 1) % len(points)]
+    before, here, after = points[[corner - 1, corner, (corner + 1) % len(points)]]
     border = (int(np.searchsorted(visit_edge, corner)) - 1) % max(len(visit_edge), 1)
-    return 2 * border + int(cross_sign(before, points[corner], points[corner], after) > 0)
+    # One sign of doubles is sooner found without arrays.
+    are_doubles = points.dtype == np.float64
+    turn = exact_sign(*before, *here, *here, *after) if are_doubles else cross_sign(before, here, here, after)
+    return 2 * border + int(turn > 0)

@@ -45,6 +45,11 @@ class JoinedLoops:
         """Whether there are no jumps."""
         return int(self.loop[-1]) == 0
 
+    @property
+    def number(self) -> Ints:
+        """The number in the outline that each point has, or the one that it is a copy of."""
+        return self.vertex - self.loop
+
     @cached_property
     def vertices(self) -> Floats:
         """The points of the outline, without the copies, shape (points, 2)."""

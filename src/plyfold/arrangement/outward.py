@@ -11,11 +11,11 @@ import numpy as np
 
 from plyfold.arrangement.noding import Noding
 from plyfold.arrangement.polylines import polygon_turning_number
-from plyfold.arrays import Bools, Floats, Ints
+from plyfold.arrays import Bools, Floats, Ints, Wholes
 from plyfold.outline.curve import Outline
-from plyfold.predicates import cross_sign, orient
+from plyfold.predicates import cross_sign, orient, whole_numbers
 
-__all__ = ["are_moved", "canonical_rank", "outward_vectors", "winds_backward"]
+__all__ = ["are_moved", "canonical_rank", "outward_vectors", "whole_vectors", "winds_backward"]
 
 # A vector is a whole multiple of this fraction of a unit, or of a finer one where the way out is so narrow.
 _FINENESS = [2.0**12, 2.0**24, 2.0**36, 2.0**48]
@@ -44,7 +44,8 @@ def outward_vectors(outline: Outline, points: Ints, scatter: int = 0) -> Floats:
 
     Notes
     -----
-    They depend on the shape of the loops alone, not on where these begin or lie, and grow with them.
+    They depend on the shape of the loops alone, not on where these begin or lie, and grow with them. At tips so sharp
+    that no double lies on the way out, they may be wrong: see :func:`whole_vectors`.
     """
     here = outline.points[points]
     before, after = outline.points[outline.previous_point[points]], outline.points[outline.next_point[points]]
@@ -57,6 +58,37 @@ def outward_vectors(outline: Outline, points: Ints, scatter: int = 0) -> Floats:
         ends = before[wrong], here[wrong], after[wrong]
         wrong = wrong[~_is_right_of(*ends, rounded[wrong])]
     return rounded
+
+
+def whole_vectors(outline: Outline, vectors: Floats, points: Ints, sense: int) -> Wholes:
+    """Return a vector for each point in whole numbers of some unit: exactly outward at some points, or inward.
+
+    Parameters
+    ----------
+    outline : Outline
+    vectors : (n, 2) float
+        From :func:`outward_vectors` at the points that are to move outward, or the opposite of these.
+    points : (m,) int
+    sense : int
+        1 if these points move outward, −1 if inward.
+
+    Notes
+    -----
+    Right of two directions u and v, which are not on one line, is a · v − b · u where they turn right, and the opposite
+    where they turn left, for any positive a and b.
+    """
+    whole = whole_numbers(vectors)[0]
+    ends = np.stack([outline.previous_point, np.arange(len(outline)), outline.next_point])[:, points]
+    before, here, after = outline.points[ends]
+    wrong = ~_is_right_of(before, here, after, sense * vectors[points])
+    if wrong.any():
+        at = points[wrong]
+        places = whole_numbers(outline.points[ends[:, wrong]])[0]
+        arriving, leaving = np.diff(places, axis=0)
+        share = np.rint(np.hypot(*vectors[at].T) * _FINENESS[0]).astype(np.int64).astype(object)[:, None]
+        turn = orient(*outline.points[ends[:, wrong]]).astype(object)[:, None]
+        whole[at] = sense * turn * (int(_FINENESS[0]) * arriving - share * leaving)
+    return whole
 
 
 def _outward(arriving: Floats, leaving: Floats) -> Floats:

@@ -6,14 +6,14 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Floats, Ints, Reals
 from plyfold.predicates import orient
 from plyfold.ragged import next_in_rows, previous_in_rows
 
 __all__ = ["inner_points", "polygon_turning_number", "polygon_turning_numbers", "total_winding", "winding_number"]
 
 
-def polygon_turning_number(points: Floats) -> int:
+def polygon_turning_number(points: Reals) -> int:
     """Return the turning number of a closed polyline from its exterior angles, exactly.
 
     It counts how often the direction of the edges passes through that of the positive x axis: only signs of
@@ -27,7 +27,7 @@ def polygon_turning_number(points: Floats) -> int:
     return polygon_turning_numbers(points, np.array([0, len(points)]))[0]
 
 
-def polygon_turning_numbers(points: Floats, first: Ints) -> tuple[int, ...]:
+def polygon_turning_numbers(points: Reals, first: Ints) -> tuple[int, ...]:
     """Return the turning numbers of several closed polylines; polyline l has points ``first[l]:first[l + 1]``."""
     following, previous = next_in_rows(first), previous_in_rows(first)
     x, y = points.T

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrangement.polylines import polygon_turning_number
+from plyfold.arrangement.polylines import polygon_turning_numbers
 
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
@@ -31,7 +31,7 @@ def theorems_of(arranged: Arrangement) -> Iterator[tuple[str, bool]]:
     by_windings = arranged.turning_by_windings()
     yield "turning number by crossings and by winding numbers agree", arranged.turning_number == by_windings
     outline, numbers = arranged.outline, arranged.turning_numbers
-    exterior = tuple(map(polygon_turning_number, outline.loops)) if outline else numbers
+    exterior = polygon_turning_numbers(arranged.exact_points, outline.first_point) if outline else numbers
     yield "turning numbers by crossings and by angles agree", exterior == numbers
     feet = cell_of_dart[arranged.bridges]
     yield "both feet of a bridge stand in one cell", _same(feet[:, 0], feet[:, 1])

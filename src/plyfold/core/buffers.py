@@ -28,7 +28,7 @@ WholeBuffer: TypeAlias = Buffer[int]
 
 def flat(array: npt.NDArray[Any]) -> Buffer[Any]:
     """Return the numbers of an array in a row, without copying them if they are in one already."""
-    return cast("Buffer[Any]", memoryview(np.ascontiguousarray(array).reshape(-1)))  # type: ignore[arg-type]
+    return cast("Buffer[Any]", array.ravel().data)
 
 
 def all_flat(*arrays: npt.NDArray[Any]) -> list[Buffer[Any]]:

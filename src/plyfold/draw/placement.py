@@ -127,6 +127,8 @@ def label_circle(
     """
     rings = outer_ring_first(arrangement, cell) if rings is None else rings
     middle, size = middle_and_size(rings[0])
+    if size == 0:  # strands that have only begun to move apart
+        return (*arrangement.cell_point(cell), 0.0)
     shell, *holes = ((ring - middle) / size for ring in rings)
     polygon = shapely.Polygon(shell, holes)
     try:

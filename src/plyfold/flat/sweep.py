@@ -19,6 +19,7 @@ points as given, for what is a corner of little more than no angle here may be o
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -48,6 +49,7 @@ from plyfold.flat.sweep_line import (
     unlink,
 )
 from plyfold.immersion.immersion import Immersion
+from plyfold.mesh.begun import drawings_of
 from plyfold.mesh.refine import borders_at_points, drawn_outline, given_outline, is_moved
 from plyfold.mesh.sheets import seams_of, twisted_bridges
 from plyfold.predicates import Coordinates, as_coordinates, orient, turn
@@ -156,13 +158,14 @@ def sweep_triangles(immersion: Immersion) -> Ints:
         if len(faces) == triangles:
             return faces
         raise PlyfoldError("internal check failed: the triangles make the surface", where=given[:1])
-    for tilt in TILTS:
-        faces = _swept_triangles(immersion, tilt)
-        if len(faces) == triangles and (orient(*given[faces].swapaxes(0, 1)) >= 0).all():
-            return faces
+    for drawn in drawings_of(immersion.arrangement):
+        for tilt in TILTS:
+            faces = _swept_triangles(replace(immersion, arrangement=drawn), tilt)
+            if len(faces) == triangles and (orient(*given[faces].swapaxes(0, 1)) >= 0).all():
+                return faces
     raise PrecisionError(
         "touching strands were moved apart by more than there is room for",
-        where=given[(given != drawn_outline(immersion.arrangement).points).any(axis=1)][:1],
+        where=given[(given != immersion.arrangement.exact_points).any(axis=1)][:1],
         hint="move these points by hand",
     )
 
@@ -175,7 +178,7 @@ def _swept_triangles(immersion: Immersion, tilt: float) -> Ints:
     ahead = drawing.rank[:n] < drawing.rank[drawing.following[:n]]
     starts = int((ahead > ahead[drawing.preceding]).sum())
     turns = int((drawing.cusp + 1)[drawing.cusp > 0].sum())
-    places = given_places = as_coordinates(plan.points)
+    places = given_places = as_coordinates(plan.exact)
     if is_moved(immersion.arrangement):
         given_places = as_coordinates(given_outline(immersion.arrangement).points)
     given = (places, given_places, drawing, *_room(n, starts, turns, len(plan.bridges)))

@@ -8,11 +8,10 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Floats, Ints, Reals
 from plyfold.compiled import called_from_loops
 from plyfold.immersion.corners import feet
 from plyfold.mesh.refine import drawn_outline
-from plyfold.outline.curve import Outline
 from plyfold.predicates import cross_sign, exact_parameter, parameter_along_edge
 
 __all__ = ["TILTS", "SkipList", "SweepPlan", "empty_skip_list", "link_above", "sweep_order", "sweep_plan", "unlink"]
@@ -34,10 +33,11 @@ class SweepPlan(NamedTuple):
     bridges, then their second feet. ``first_foot`` are vertices, ``second_foot`` visits; ``above`` tells which bridges
     begin above the edge with their second foot, as seen along the line. ``visit`` are the visits that the line comes
     to: the first ones to crossings, and second feet. There ``edge`` and ``other`` cross, of which one may be a bridge.
-    The line is where x + ``tilt`` · y is some number.
+    The line is where x + ``tilt`` · y is some number. ``points`` are rounded if ``exact`` has fractions.
     """
 
     points: Floats
+    exact: Reals
     following: Ints
     n_vertices: int
     bridges: Ints
@@ -56,20 +56,22 @@ def sweep_plan(arrangement: Arrangement, bridges: Ints, tilt: float = TILTS[0]) 
     n, count = len(outline), len(bridges)
     first, second = feet(arrangement).reshape(2, -1)[:, bridges]
     start, place = arrangement.visit_edge[first], arrangement.visit_point[second]
-    points = outline.points
+    points, exact = outline.points, arrangement.exact_points
     if count:
         points = np.concatenate([points, points[start], np.column_stack([place[:, 0], points[start, 1]])])
+        exact = np.concatenate([exact, exact[start], _ends_of_bridges(exact[start], place)])
     following = np.concatenate([outline.next_point, n + count + np.arange(count), n + np.arange(count)])
     visit = np.flatnonzero(np.arange(len(arrangement.partner)) < arrangement.partner)
     edge, other = arrangement.visit_edge[visit], arrangement.visit_edge[arrangement.partner[visit]]
     return SweepPlan(
         points=points,
+        exact=exact,
         following=following,
         n_vertices=n,
         bridges=bridges,
         first_foot=start,
         second_foot=second,
-        above=_leave_above(outline, arrangement.visit_edge[second], tilt),
+        above=_leave_above(exact, outline.next_point, arrangement.visit_edge[second], tilt),
         visit=np.concatenate([visit, second]),
         edge=np.concatenate([edge, arrangement.visit_edge[second]]),
         other=np.concatenate([other, n + np.arange(count)]),
@@ -77,11 +79,18 @@ def sweep_plan(arrangement: Arrangement, bridges: Ints, tilt: float = TILTS[0]) 
     )
 
 
-def _leave_above(outline: Outline, edge: Ints, tilt: float) -> Ints:
+def _ends_of_bridges(start: Reals, end: Floats) -> Reals:
+    """Return where bridges end, or other places on the same level: they run to the left, however short they are."""
+    x, y = start.T
+    return np.column_stack([end[:, 0] if start.dtype != object else x - 1, y])
+
+
+def _leave_above(points: Reals, next_point: Ints, edge: Ints, tilt: float) -> Ints:
     """Tell whether what leaves edges to the right is above them on the line: they fall as the line comes along them."""
-    start, end = outline.points[edge], outline.points[outline.next_point[edge]]
+    start, end = points[edge], points[next_point[edge]]
     along = cross_sign(start, end, np.zeros(2), np.array([-tilt, 1.0]))
-    return (np.sign(end[:, 1] - start[:, 1]) * along < 0).astype(np.int64)
+    rises = (end[:, 1] > start[:, 1]).astype(np.int64) - (end[:, 1] < start[:, 1])
+    return (rises * along < 0).astype(np.int64)
 
 
 def sweep_order(plan: SweepPlan) -> Ints:
@@ -156,13 +165,13 @@ def _behind(plan: SweepPlan, event: int) -> int:
     if foot < 0:
         return 0
     start = plan.edge[event - plan.n_vertices]
-    (x, y), (end_x, end_y) = (map(Fraction, plan.points[point].tolist()) for point in (start, plan.following[start]))
+    (x, y), (end_x, end_y) = (map(Fraction, plan.exact[point].tolist()) for point in (start, plan.following[start]))
     reaches = end_x - x + Fraction(plan.tilt) * (end_y - y) > 0
     return 1 if reaches == (end_y > y) else -1
 
 
 def _exact_place(plan: SweepPlan, event: int) -> _Place:
-    points = plan.points
+    points = plan.exact
     if event < plan.n_vertices:
         x, y = points[event].tolist()
         return Fraction(x), Fraction(y)

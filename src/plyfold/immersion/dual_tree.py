@@ -23,6 +23,7 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.core.buffers import all_flat
 from plyfold.core.cells import join_lakes
+from plyfold.graphs import end_of_path
 
 __all__ = ["DualTree", "around_cells", "grow_dual_tree", "grow_tree"]
 
@@ -139,7 +140,7 @@ def _flood(arrangement: Arrangement) -> _Lakes:
     link = np.full(arrangement.n_cells, -1)
     link[left] = np.arange(arrangement.n_borders)
     drain = np.where(link >= 0, right[link], np.arange(arrangement.n_cells))
-    pit = _end_of_path(drain)
+    pit = end_of_path(drain)
     saddles = _join_lakes(arrangement, pit)
     parent, tree_link = drain.copy(), link.copy()
     turned: list[int] = []
@@ -151,13 +152,6 @@ def _flood(arrangement: Arrangement) -> _Lakes:
     parent[turned], tree_link[turned] = above, link[above]
     tree_link[[0, *(cell for cell, _, _ in saddles)]] = [-1, *(border for _, _, border in saddles)]
     return _Lakes(drain, link, pit, saddles, parent, tree_link)
-
-
-def _end_of_path(step: Ints) -> Ints:
-    further = step[step]
-    while (further != step).any():
-        step, further = further, further[further]
-    return step
 
 
 def _drains(drain: Ints, cell: int) -> Iterator[int]:

@@ -21,14 +21,20 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Bools, Ints
-from plyfold.compiled import run_loop
+from plyfold.core.buffers import all_flat, flat
+from plyfold.core.rings import Found, Rings, State, Work, close_rings, step
 from plyfold.immersion.corners import NO_SEAM, corners, corners_at_feet
 from plyfold.immersion.dual_tree import grow_tree
 from plyfold.immersion.immersion import Immersion
-from plyfold.immersion.rings import LEFT_OVER, NO_OWN, UNKNOWN, Found, Rings, State, Work, close_rings, step
 from plyfold.ragged import starts_of
 
 __all__ = ["UNKNOWN", "OutlineSeams", "Peeled", "immersion_of", "outline_seams", "peel"]
+
+UNKNOWN = -1
+# Among reasons: the other pairs of the seam.
+LEFT_OVER = -2
+# Equal to no port and no sheet: the own sheet of a bridge.
+NO_OWN = -9
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,42 +146,23 @@ def peel(seams: OutlineSeams, chosen: Mapping[int, int] | None = None) -> Peeled
     if chosen:
         own[list(chosen.keys())] = list(chosen.values())
     ports = int(seams.start[-1])
-    nothing = np.full(ports, UNKNOWN)
+    upper, port, because = np.full((3, ports), UNKNOWN)
     if seams.size.max(initial=0) <= 1:  # no two sheets lie over each other
-        return Peeled(np.zeros_like(nothing), np.zeros_like(nothing), nothing, UNKNOWN)
-    room = Found(nothing, nothing.copy(), nothing.copy(), np.array([UNKNOWN]))
-    found = run_loop(close_rings, 4 * ports, _given(seams, own), room)
-    return Peeled(found.upper, found.port, found.because, int(found.failed[0]))
+        return Peeled(np.zeros_like(upper), np.zeros_like(upper), because, UNKNOWN)
+    state = _state(seams, own, Found(flat(upper), flat(port), flat(because), UNKNOWN))
+    close_rings(state)
+    return Peeled(upper, port, because, state.found.failed)
 
 
-def _given(seams: OutlineSeams, own: Ints) -> tuple[Rings, Work]:
+def _state(seams: OutlineSeams, own: Ints, found: Found) -> State:
     at, place = _ends(seams)
     a, b = seams.around[:, [0, 1]].max(axis=1, initial=NO_SEAM), seams.around[:, [2, 3]].max(axis=1, initial=NO_SEAM)
-    rings = Rings(
-        around=seams.around[:, [2, 1, 3, 0]].ravel(),
-        bottom=seams.bottom,
-        own_a=np.where(seams.is_border[a], seams.size[seams.around[:, 0]] - 1, NO_OWN),
-        own_b=np.where(seams.is_border[b], seams.size[seams.around[:, 2]] - 1, NO_OWN),
-        at=at.ravel(),
-        place=place.ravel(),
-    )
-    total = seams.size * (seams.size - 1) // 2
-    work = Work(
-        start=seams.start,
-        size=seams.size,
-        seam=np.repeat(np.arange(len(seams.size)), seams.size),
-        in_tree=seams.in_tree.astype(np.int64),
-        own=own,
-        missing=seams.size.copy(),
-        sum_port=total,
-        sum_upper=total.copy(),
-        open_around=np.zeros(len(seams.around), dtype=np.int64),
-        ready=np.zeros(5 * len(seams.around), dtype=np.int64),
-        stack=np.zeros(int(seams.start[-1]), dtype=np.int64),
-        top=np.zeros(1, dtype=np.int64),
-        reason=np.array([UNKNOWN]),
-    )
-    return rings, work
+    own_a = np.where(seams.is_border[a], seams.size[seams.around[:, 0]] - 1, NO_OWN)
+    own_b = np.where(seams.is_border[b], seams.size[seams.around[:, 2]] - 1, NO_OWN)
+    rings = Rings(*all_flat(seams.around[:, [2, 1, 3, 0]], seams.bottom, own_a, own_b, at, place))
+    seam = np.repeat(np.arange(len(seams.size)), seams.size)
+    work = Work(rings, *all_flat(seams.start, seams.size, seam, seams.in_tree.astype(np.int64), own))
+    return State(rings, work, found)
 
 
 def _ends(seams: OutlineSeams) -> tuple[Ints, Ints]:
@@ -195,7 +182,8 @@ def reasons(seams: OutlineSeams, known: Peeled, meetings: Iterable[int]) -> Ints
 
     The way leads back over all pairs from which something follows, to those known from the start.
     """
-    state = *_given(seams, seams.own), Found(known.upper, known.port, known.because, np.array([known.failed]))
+    found_pairs = Found(flat(known.upper), flat(known.port), flat(known.because), known.failed)
+    state = _state(seams, seams.own, found_pairs)
     found = set(meetings)
     waiting = [pair for at in found for pair in _pairs_at(seams, known, at)]
     seen = set(waiting)
@@ -220,7 +208,7 @@ def _pairs_at(seams: OutlineSeams, known: Peeled, at: int) -> list[int]:
 
 def _pairs_before(seams: OutlineSeams, state: State, pair: int, because: int) -> list[int]:
     """Return the pairs from which a pair follows, and perhaps more."""
-    rings, work, found = state
+    rings, work, found = state.rings, state.work, state.found
     if because == UNKNOWN:
         return []
     seam = int(work.seam[pair])
@@ -233,7 +221,7 @@ def _pairs_before(seams: OutlineSeams, state: State, pair: int, because: int) ->
 
 def _ring(state: State, at: int, place: int, pair: int) -> Iterator[int]:
     """Yield the pairs around a crossing that are in a ring with a given one, at a place, as far as they are known."""
-    rings, work, found = state
+    rings, work, found = state.rings, state.work, state.found
     port, sheet = pair - int(work.start[work.seam[pair]]), int(found.upper[pair])
     lower = rings.bottom[at] + 1 if place == 2 and port == rings.bottom[at] else port
     corner = np.full(4, UNKNOWN)

@@ -12,9 +12,10 @@ from typing import Any, overload
 
 import numpy as np
 
-from plyfold.arrangement.arrangement import Arrangement, arrange, watched_arrangement, ways_apart
+from plyfold.arrangement.arrangement import Arrangement, arrange, watched_arrangement
 from plyfold.arrangement.general_position import number_of_ways
 from plyfold.arrangement.unless import arrangement_unless
+from plyfold.arrangement.ways import ways_apart
 from plyfold.clock import UNWATCHED, Clock, Watch
 from plyfold.errors import InputError, TimeLimitError
 from plyfold.immersion.contradiction import no_gluing

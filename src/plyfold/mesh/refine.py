@@ -393,7 +393,7 @@ def given_outline(arrangement: Arrangement) -> Outline:
 def is_moved(arrangement: Arrangement) -> bool:
     """Tell whether points of a drawing were moved apart."""
     outline, given = drawn_outline(arrangement), given_outline(arrangement)
-    return outline is not given and not np.array_equal(outline.points, given.points)
+    return outline is not given and not np.array_equal(arrangement.exact_points, given.points)
 
 
 def noded_curve(arrangement: Arrangement) -> NodedCurve:

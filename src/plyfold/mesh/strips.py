@@ -18,8 +18,9 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.noding import Strands, exact_ranks, strands_of
-from plyfold.arrays import Bools, Complexes, Floats, Ints, freeze
+from plyfold.arrays import Bools, Complexes, Floats, Ints, Reals, freeze
 from plyfold.errors import PrecisionError
+from plyfold.mesh.begun import drawings_of
 from plyfold.mesh.refine import NodedCurve, borders_passed, is_moved, unit_square
 from plyfold.outline.curve import Outline
 
@@ -104,13 +105,23 @@ def strips_of(arrangement: Arrangement) -> Strips:
     >>> len(strips.strands.noding.ends), len(strips.order), len(strips.cell)
     (10, 11, 3)
     """
-    given = _drawn(arrangement.given)
-    strands = strands_of(given)
+    strands = strands_of(_drawn(arrangement.given))
+    drawings = drawings_of(arrangement)
+    try:
+        return _strips(next(drawings), strands)
+    except PrecisionError:
+        if (begun := next(drawings, None)) is None:
+            raise
+        return _strips(begun, strands)
+
+
+def _strips(arrangement: Arrangement, strands: Strands) -> Strips:
+    """Return the borders of a drawing on its given points, told by the points it is drawn with."""
     border, order = _borders_in_order(arrangement, strands)
     place = np.empty_like(order)
     place[order] = np.arange(len(order))
     cell = _cells_of_faces(arrangement, strands, border, order)
-    return Strips(strands, border, order, place, cell, strands.first[given.first_point])
+    return Strips(strands, border, order, place, cell, strands.first[_drawn(arrangement.given).first_point])
 
 
 def cells_left(arrangement: Arrangement) -> Bools:
@@ -264,17 +275,24 @@ def _visits_before(arrangement: Arrangement, axis: int, edge: Ints, along: Float
 
 def _heights(arrangement: Arrangement, places: _Places) -> Ints:
     """Return ranks of y where x is given, or of x where y is. Exact."""
-    outline, rows = _drawn(arrangement.outline), np.arange(len(places.row))
-    start, end = outline.points[places.edge], outline.points[outline.next_point[places.edge]]
-    (a, p), (b, q) = ((point[rows, places.axis], point[rows, 1 - places.axis]) for point in (start, end))
+    outline = _drawn(arrangement.outline)
+    edges = np.stack([places.edge, outline.next_point[places.edge]])
+    a, b, p, q = _along_and_across(outline.points[edges], places.axis)
     value = p + (places.along - a) / (b - a) * (q - p)
     error = 16 * np.finfo(np.float64).eps * (np.abs(p) + np.abs(q)) + np.finfo(np.float64).tiny
 
     def exact(which: Ints) -> list[Fraction]:
-        numbers = np.stack([places.along, a, b, p, q], axis=1)[which].tolist()
+        ends = _along_and_across(arrangement.exact_points[edges[:, which]], places.axis[which])
+        numbers = zip(places.along[which].tolist(), *ends.tolist(), strict=True)
         return [_height(*map(Fraction, row)) for row in numbers]
 
     return exact_ranks(value - error, value + error, exact)
+
+
+def _along_and_across(ends: Reals, axis: Ints) -> Reals:
+    """Return the coordinates of both ends of edges along some axes, and then their other ones, shape (4, m)."""
+    rows = np.arange(len(axis))
+    return np.concatenate([ends[:, rows, axis], ends[:, rows, 1 - axis]])
 
 
 def _height(along: Fraction, a: Fraction, b: Fraction, p: Fraction, q: Fraction) -> Fraction:

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Floats, Ints, Reals
 from plyfold.mesh.refine import chain_of, drawn_outline
 from plyfold.predicates import crossing_bounds, exact_crossings, whole_numbers
 from plyfold.ragged import next_in_rows
@@ -22,6 +22,8 @@ __all__ = ["CellAreas", "Measure", "areas_of"]
 
 _ROUNDING = float(np.finfo(np.float64).eps)
 _UNDERFLOW = float(np.finfo(np.float64).tiny)
+# Points that have begun to move are by less than this part of a rounding off.
+_BEGUN = 2.0**-60
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +65,7 @@ class CellAreas:
 
     def _crosses_along(self, chain: Ints) -> Fraction:
         """Return the sum of the cross products of points and the next ones; whole numbers do but beside crossings."""
-        vertices = drawn_outline(self.drawn).points
+        vertices = self.drawn.exact_points
         inside = chain[chain < len(vertices)]
         whole, unit = whole_numbers(vertices[inside])
         total = ((whole[:-1, 0] * whole[1:, 1]).sum() - (whole[:-1, 1] * whole[1:, 0]).sum()) * unit**2
@@ -75,7 +77,7 @@ class CellAreas:
 
     def place(self, number: int) -> tuple[Fraction, Fraction]:
         """Return a point of the outline, or a crossing, which are numbered after the points, exactly."""
-        vertices = drawn_outline(self.drawn).points
+        vertices = self.drawn.exact_points
         if number < len(vertices):
             x, y = vertices[number].tolist()
             return Fraction(x), Fraction(y)
@@ -85,8 +87,8 @@ class CellAreas:
         return self._crossings[number]
 
     @cached_property
-    def _edges_that_cross(self) -> Floats:
-        return _edges_that_cross(self.drawn)
+    def _edges_that_cross(self) -> Reals:
+        return _edges_that_cross(self.drawn, self.drawn.exact_points)
 
     @cached_property
     def _pieces(self) -> tuple[Ints, Ints, Ints]:
@@ -141,13 +143,12 @@ class Measure:
         return sum((count * self.areas.exact(cell) for cell, count in self.times.items()), Fraction(0))
 
 
-def _edges_that_cross(drawn: Arrangement) -> Floats:
-    """Return the ends of the two edges at each crossing, shape (4, k, 2)."""
-    outline = drawn_outline(drawn)
+def _edges_that_cross(drawn: Arrangement, points: Reals) -> Reals:
+    """Return the ends of the two edges at each crossing, shape (4, k, 2), given the points of the outline."""
     first = np.flatnonzero(np.arange(len(drawn.partner)) < drawn.partner)
     edge, other = drawn.visit_edge[first], drawn.visit_edge[drawn.partner[first]]
-    following = outline.next_point
-    return outline.points[np.stack([edge, following[edge], other, following[other]])]
+    following = drawn_outline(drawn).next_point
+    return points[np.stack([edge, following[edge], other, following[other]])]
 
 
 def areas_of(drawn: Arrangement) -> CellAreas:
@@ -184,9 +185,9 @@ def _places(drawn: Arrangement) -> tuple[Floats, Floats]:
     """
     outline = drawn_outline(drawn)
     places = np.concatenate([outline.points, drawn.crossings])
-    error = np.zeros(len(places))
+    error = np.full(len(places), _BEGUN * np.spacing(np.abs(places).max()) if drawn.is_begun else 0.0)
     if drawn.n_crossings:
-        low, high = crossing_bounds(*_edges_that_cross(drawn))
+        low, high = crossing_bounds(*_edges_that_cross(drawn, outline.points))
         off = np.maximum(high - drawn.crossings, drawn.crossings - low)
         error[len(outline) :] = off.max(axis=1) + _UNDERFLOW
     unit = -int(np.frexp(np.ptp(outline.points, axis=0).max())[1])

@@ -127,7 +127,7 @@ class Pen:
         ends = np.concatenate([[edge, self.given.next_point[edge]] for edge in edges])
         given, drawn_outline = self.given.points[ends], self.drawn.outline
         assert drawn_outline is not None
-        if np.array_equal(given, drawn_outline.points[ends]):
+        if not self.drawn.is_begun and np.array_equal(given, drawn_outline.points[ends]):
             x, y = (exact_crossings(given[:, None], axis)[0] for axis in (0, 1))
             return x, y
         return _meeting(given[:2], given[2:]) or _exact(self.drawn.crossings[number])

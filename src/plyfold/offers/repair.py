@@ -150,7 +150,7 @@ def repair(
     InputError
         If it is a Gauss code, which has no points, or a cap is no number from 0 on.
     GeneralPositionError
-        If strands touch and are too crowded to be moved apart.
+        If strands touch, and cusps that stay hold them together.
 
     Notes
     -----

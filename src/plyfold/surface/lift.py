@@ -42,7 +42,7 @@ from plyfold.mesh.cells import (
     refuse_sizes,
     triangulate_cells,
 )
-from plyfold.mesh.refine import drawn_outline, given_outline, is_moved
+from plyfold.mesh.refine import given_outline, is_moved
 from plyfold.obstruction import IMMERSION_REASONS, Obstruction, Unknown
 from plyfold.options import refuse_unless_flag, refuse_unless_number
 from plyfold.outline.curve import Curve, Outline
@@ -411,7 +411,7 @@ def _refuse_touching(drawn: Arrangement) -> None:
         given = given_outline(drawn).points
         raise InputError(
             "a surface that passes through itself can be lifted only if its outline does not touch itself",
-            where=given[(given != drawn_outline(drawn).points).any(axis=1)],
+            where=given[(given != drawn.exact_points).any(axis=1)],
             hint="move the strands apart there",
         )
 

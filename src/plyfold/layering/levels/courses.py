@@ -15,7 +15,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import shapely
 
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Floats, Ints, Reals
 from plyfold.errors import PrecisionError
 from plyfold.layering.levels.laid_strip import LaidStrip
 from plyfold.obstruction import Obstruction
@@ -159,7 +159,7 @@ class _Borders(NamedTuple):
     ----------
     strip : LaidStrip
     level : (borders,) int
-    ends : (n, 2, 2) float
+    ends : (n, 2, 2) float, or object
         Of the edges.
     tree : STRtree
         Of their boxes.
@@ -169,16 +169,18 @@ class _Borders(NamedTuple):
 
     strip: LaidStrip
     level: Ints
-    ends: Floats
+    ends: Reals
     tree: shapely.STRtree
     side: Ints
 
 
 def _borders(strip: LaidStrip, level: Ints) -> _Borders:
-    ends = np.stack([strip.points, strip.points[strip.next_point]], axis=1)
+    edges = np.stack([np.arange(len(strip.next_point)), strip.next_point], axis=1)
+    ends = strip.points[edges]
     side = np.empty(len(strip.faces), dtype=np.int64)
     side[strip.own_face] = np.arange(len(ends))
-    tree = shapely.STRtree(shapely.box(*ends.min(axis=1).T, *ends.max(axis=1).T))
+    rounded = ends.astype(np.float64)
+    tree = shapely.STRtree(shapely.box(*rounded.min(axis=1).T, *rounded.max(axis=1).T))
     return _Borders(strip, level, ends, tree, side)
 
 

@@ -184,7 +184,7 @@ def _place(strip: LaidStrip, stretch: _Stretch) -> Place:
 
 def _faces_around(strip: LaidStrip, places: list[Place]) -> list[list[int]]:
     """Return the triangles whose bounding boxes may hold each place."""
-    corners = strip.points[strip.faces]
+    corners = strip.points[strip.faces].astype(np.float64)
     tree = shapely.STRtree(shapely.box(*corners.min(axis=1).T, *corners.max(axis=1).T))
     # Fractions lie between the doubles next to what they are rounded to.
     rounded = np.array([[float(x), float(y)] for x, y in places]).reshape(-1, 2)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, arrange
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Floats, Ints, Reals
 from plyfold.errors import PrecisionError
 from plyfold.outline.ribbons.ribbon import Ribbon
 from plyfold.predicates import exact_parameter, orient
@@ -23,7 +23,7 @@ class LaidStrip(NamedTuple):
     ----------
     arranged : Arrangement
     points, given : (n, 2) float
-        As moved, and as they were given.
+        As moved, in doubles or fractions, and as they were given.
     next_point : (n,) int
         Where the edge ends that starts at each point.
     heights : (n,) float
@@ -35,7 +35,7 @@ class LaidStrip(NamedTuple):
     """
 
     arranged: Arrangement
-    points: Floats
+    points: Reals
     given: Floats
     next_point: Ints
     heights: Floats
@@ -50,7 +50,7 @@ def laid_strip(ribbon: Ribbon) -> LaidStrip:
     assert arranged.outline is not None
     assert arranged.given is not None
     assert ribbon.heights is not None
-    points, following = arranged.outline.points, arranged.outline.next_point
+    points, following = arranged.exact_points, arranged.outline.next_point
     folded = ribbon.faces[orient(*points[ribbon.faces].transpose(1, 0, 2)) <= 0]
     if len(folded):
         raise PrecisionError("the ribbon touches itself where it is too thin", where=points[folded[0, :1]])
@@ -62,7 +62,7 @@ def laid_strip(ribbon: Ribbon) -> LaidStrip:
     return LaidStrip(arranged, points, arranged.given.points, following, ribbon.heights, ribbon.faces, own_face, share)
 
 
-def _shares(arranged: Arrangement, points: Floats, following: Ints) -> dict[int, Fraction]:
+def _shares(arranged: Arrangement, points: Reals, following: Ints) -> dict[int, Fraction]:
     visits = arranged.crossing_visits
     edge, other = arranged.visit_edge[visits], arranged.visit_edge[arranged.partner[visits]]
     ends = zip(points[edge], points[following[edge]], points[other], points[following[other]], strict=True)

@@ -27,10 +27,10 @@ from plyfold.clock import Clock
 from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import check_levels
 from plyfold.layering.orders.maxsat import equal_or_failing, fewest_failures
-from plyfold.layering.orders.search import OrderProblem, independent_orders
+from plyfold.layering.orders.search import OrderProblem, independent_orders, order_problem
 from plyfold.memory import number_of_tuples, require_memory
 from plyfold.ragged import count_each, pairs_in_each
-from plyfold.sat import StoppableSolver, search_in_time
+from plyfold.sat import StoppableSolver, search_in_time, solve
 from plyfold.wording import counted
 
 __all__ = ["IntersectingLayering", "border_lengths", "least_intersecting_layering"]
@@ -40,6 +40,8 @@ _UNITS = 1_000_000
 # A pair of sheets glued along a border, and all that the solvers know about the wish that it keep its order.
 _BYTES_PER_PAIR = 110
 _BYTES_PER_WISH = 1600
+# The part of the time in which to look for a layering without any intersections.
+_TO_FIND_NONE = 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +120,8 @@ def least_intersecting_layering(immersion: Immersion, time_limit: float | None =
     Returns
     -------
     IntersectingLayering
-        Without intersections if and only if the immersion has a layering, as long as ``optimal`` is true.
+        Without intersections if and only if the immersion has a layering, as long as ``optimal`` is true; then it is
+        that of :func:`~plyfold.find_layering`.
         Intersections run along borders; the shortest total length of borders is found, or for a Gauss code the
         smallest number of them.
 
@@ -129,8 +132,9 @@ def least_intersecting_layering(immersion: Immersion, time_limit: float | None =
 
     Notes
     -----
-    MaxSAT by cores [IMM19]_; NP-hard. Lengths are weighed to a millionth of the longest border. Where the time ends,
-    the answer is that of a greedy search: gluings, longest borders first, are kept as long as all that are kept agree.
+    A layering is looked for first. If there is none: MaxSAT by cores [IMM19]_; NP-hard. Lengths are weighed to a
+    millionth of the longest border. Where the time ends, the answer is that of a greedy search: gluings, longest
+    borders first, are kept as long as all that are kept agree.
     Cost of setting up: O(Σ w²) over borders and O(Σ w³) over cells.
 
     References
@@ -156,6 +160,9 @@ def _levels_in_time(immersion: Immersion, clock: Clock) -> tuple[Ints, bool]:
     """Return the best levels that are found in time, and whether there are none better."""
     level = 1 + count_each(immersion.arrangement.winding)
     try:
+        without = _without_intersections(immersion, clock.share(_TO_FIND_NONE))
+        if without is not None:
+            return without, True
         problem = independent_orders(immersion, clock)
         wishes = _wishes(problem, clock)
         if clock.left is not None:
@@ -164,6 +171,15 @@ def _levels_in_time(immersion: Immersion, clock: Clock) -> tuple[Ints, bool]:
         return problem.levels(_most_wishes(wishes, clock)), True
     except TimeoutError:
         return level, False
+
+
+def _without_intersections(immersion: Immersion, clock: Clock) -> Ints | None:
+    """Return the levels of a layering, if one is found in time."""
+    with suppress(TimeoutError):
+        problem = order_problem(immersion, clock)
+        if isinstance(problem, OrderProblem) and (true := solve(problem.clauses, clock)) is not None:
+            return problem.levels(true)
+    return None
 
 
 def border_lengths(arrangement: Arrangement) -> Floats:

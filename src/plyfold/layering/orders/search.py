@@ -1,8 +1,7 @@
 """The exact search for a layering of an immersed surface, or for the reason why there is none (§3 of the paper).
 
 Two sheets that are glued to two sheets of the next cell keep their order across the border. So ordered pairs of sheets
-fall into classes: all pairs of a class are in order, or all are reversed. The *graph of pairs* has a node for every
-ordered pair and an edge for every border that carries one pair to another; its components are the classes.
+fall into classes (:mod:`plyfold.layering.orders.pairs`): all pairs of a class are in order, or all are reversed.
 
 There is one unknown for every class, and one constraint for every three sheets over a cell: they must not lie above
 each other in a circle, so of their three orders, taken round the circle, not all are true and not all are false.
@@ -13,7 +12,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, combinations
 from typing import Literal, TypeAlias, cast
@@ -24,26 +23,23 @@ from plyfold.arrangement.places import place_in_cell
 from plyfold.arrays import Ints, freeze
 from plyfold.clock import NO_LIMIT, Clock, Progress
 from plyfold.errors import InputError, TimeLimitError
-from plyfold.graphs import components, shortest_path
-from plyfold.immersion.immersion import Immersion, require_immersion
+from plyfold.graphs import components
+from plyfold.immersion.immersion import Immersion
 from plyfold.layering.layering import Layering, crossing_visits_by_loop, meeting_sheets
+from plyfold.layering.orders.pairs import PairGraph, every_pair, pair_graph, shortest_chain_to_reverse
 from plyfold.loading import FOR_LAYERINGS, load_libraries
-from plyfold.memory import number_of_tuples, require_memory
+from plyfold.memory import require_memory
 from plyfold.obstruction import Obstruction, Unknown
-from plyfold.ragged import count_each, starts_of
+from plyfold.ragged import count_each, pairs_in_each
 from plyfold.sat import minimal_core, solve
 
 __all__ = [
     "FixedOrders",
     "OrderProblem",
-    "PairGraph",
-    "chain_to_reverse",
     "find_layering",
     "first_layering",
     "independent_orders",
     "order_problem",
-    "pair_graph",
-    "pair_of",
     "places_of_cells",
     "solve_orders",
     "undecided",
@@ -89,7 +85,7 @@ def find_layering(
     Notes
     -----
     Exact in both directions. The problem is NP-complete [EM09]_; the instances of drawings are solved at once. The
-    classes of pairs cost O(Σ w²), and triples of sheets O(Σ w³).
+    classes of pairs cost O(Σ w²), and triples of sheets O(Σ w³), over cells that no higher cell lies beside.
 
     References
     ----------
@@ -255,6 +251,9 @@ def _cyclic_order(problem: OrderProblem, clock: Clock) -> Obstruction:
 _ROWS_AT_A_TIME = 4096
 # With what is needed to make them.
 _BYTES_PER_TRIPLE = 200
+_TRIPLES_AT_A_TIME = 1_000_000
+# Three numbers up to this one, and their signs, fit into one.
+_SMALL = 2**20
 
 
 @dataclass(frozen=True, eq=False)
@@ -265,7 +264,7 @@ class OrderProblem:
     ----------
     immersion : Immersion
     graph : PairGraph
-        The ordered pairs of sheets.
+        Ordered pairs of sheets, with all that the constraints are between.
     literal : (pairs,) int
         A variable 1, 2, … for each class of pairs, negative for the reversed pairs: it is true if the pair's second
         sheet lies above its first. Where a pair is no pair, 0.
@@ -303,7 +302,7 @@ class OrderProblem:
 
     def above(self, lower: Ints, upper: Ints) -> Ints:
         """Return the literals that are true if the second sheets lie above the first."""
-        return np.asarray(self.literal[pair_of(self.immersion, self.graph.first_pair, lower, upper)])
+        return np.asarray(self.literal[self.graph.pair_of(lower, upper)])
 
     @cached_property
     def _component(self) -> Ints:
@@ -338,19 +337,21 @@ class OrderProblem:
         literals = np.fromiter(true, dtype=np.int64)
         value[-literals[(literals < 0) & (literals >= -self.n_variables)]] = False
         below = (value[np.abs(self.literal)] == (self.literal > 0)) & (self.literal != 0)
-        return np.asarray(1 + np.bincount(self.graph.upper[below], minlength=self.immersion.n_sheets), dtype=np.int64)
+        number_below = np.bincount(self.graph.upper[below], minlength=self.immersion.n_sheets)
+        upward = np.lexsort((number_below[self.graph.stand_in], self.immersion.sheet_cell))
+        level = np.empty(self.immersion.n_sheets, dtype=np.int64)
+        level[upward] = 1 + count_each(self.immersion.arrangement.winding)
+        return level
 
 
 def order_problem(immersion: Immersion, clock: Clock = NO_LIMIT) -> OrderProblem | Obstruction:
     """Return the problem, or a pair of sheets that returns reversed: then there is no layering.
 
-    Cost: O(Σ w²) for pairs, over cells and borders, and O(Σ w³) for triples, over cells. Raises TimeoutError when the
-    time is over.
+    Cost: O(Σ w²) for pairs and O(Σ w³) for triples, over summits. Raises TimeoutError when the time is over.
     """
     graph = pair_graph(immersion, clock)
-    contradictions = graph.contradictions()
-    if len(contradictions):
-        return _reversed_pair(immersion, graph, int(contradictions[0]))
+    if len(graph.contradictions()):
+        return _reversed_pair(graph, clock)
     return _problem(immersion, graph, clock)
 
 
@@ -367,8 +368,7 @@ def independent_orders(immersion: Immersion, clock: Clock = NO_LIMIT) -> OrderPr
 
     Raises TimeoutError when the time is over.
     """
-    graph = pair_graph(immersion, clock)
-    return _problem(immersion, replace(graph, label=np.arange(len(graph.label))), clock)
+    return _problem(immersion, every_pair(immersion, clock), clock)
 
 
 def places_of_cells(immersion: Immersion, cells: Iterable[int]) -> tuple[tuple[float, float], ...]:
@@ -394,152 +394,92 @@ def _literals(immersion: Immersion, graph: PairGraph) -> Ints:
     representative = np.minimum(graph.label, graph.label[graph.reverse])
     visits = np.concatenate(crossing_visits_by_loop(immersion.arrangement))
     here, there = (sheets[visits] for sheets in meeting_sheets(immersion))
-    met = pair_of(immersion, graph.first_pair, there, here)
-    met_first = np.concatenate([met, np.flatnonzero(graph.lower != graph.upper)])
-    classes, place = np.unique(representative[met_first], return_index=True)
+    met = graph.pair_of(there, here)
+    is_met = np.zeros(len(graph.label), dtype=bool)
+    is_met[representative[met]] = True
+    if not (is_met[representative] | (graph.lower == graph.upper)).all():
+        met = np.concatenate([met, graph.pair_of(*pairs_in_each(immersion.arrangement.winding))])
+    classes, place = np.unique(representative[met], return_index=True)
     variable = np.zeros(len(graph.label), dtype=np.int64)
     variable[classes[np.argsort(place)]] = 1 + np.arange(len(classes))
     true = np.zeros(len(graph.label), dtype=np.int64)
-    true[classes] = graph.label[met_first[place]]
+    true[classes] = graph.label[met[place]]
     literal = variable[representative]
     return np.where(graph.label == true[representative], literal, -literal)
 
 
 def _triples(immersion: Immersion, graph: PairGraph, literal: Ints, clock: Clock) -> tuple[Ints, Ints]:
-    """Return the constraints on triples of sheets, each once, and for each three sheets that demand it."""
-    winding = immersion.arrangement.winding
-    number = number_of_tuples(winding, 3) // 6
+    """Return the constraints on triples of sheets, each once, and for each the first three sheets that demand it."""
+    nothing = np.empty((0, 3), dtype=np.int64)
+    waiting = [(nothing, nothing)]
+    for more in _all_triples(immersion, graph, literal):
+        clock.check()
+        waiting.append(_in_standard_form(*more))
+        number = sum(len(some) for some, _ in waiting)
+        _require_memory_for_triples(immersion, number)
+        if number > max(_TRIPLES_AT_A_TIME, 2 * len(waiting[0][0])):
+            waiting = [_each_once(waiting)]
+    return _each_once(waiting) if len(waiting) > 1 else waiting[0]
+
+
+def _require_memory_for_triples(immersion: Immersion, number: int) -> None:
     require_memory(
         _BYTES_PER_TRIPLE * number,
         f"{number:,} triples of sheets",
         immersion.arrangement,
         "embed_cased(curve, over) orders sheets without triples, where over and under are known",
     )
-    cycles, sheets = [np.empty((0, 3), dtype=np.int64)], [np.empty((0, 3), dtype=np.int64)]
+
+
+def _all_triples(immersion: Immersion, graph: PairGraph, literal: Ints) -> Iterator[tuple[Ints, Ints]]:
+    """Yield the literals of three sheets in a circle, and the sheets, of some cells at a time, the lowest first."""
+    with_pairs = graph.cells()
+    winding = immersion.arrangement.winding[with_pairs]
     for w in np.unique(winding[winding >= 3]).tolist():
-        clock.check()
-        cells = np.flatnonzero(winding == w)
         three = np.array(list(combinations(range(w), 3)))
-        pair = three * w + np.roll(three, -1, axis=1)
-        cycles.append(literal[graph.first_pair[cells, None, None] + pair].reshape(-1, 3))
-        sheets.append((immersion.first_sheet[cells, None, None] + three).reshape(-1, 3))
-    clock.check()
-    return _each_once(np.concatenate(cycles), np.concatenate(sheets))
+        pair = three * w + three[:, [1, 2, 0]]
+        cells, step = with_pairs[winding == w], max(1, _TRIPLES_AT_A_TIME // len(three))
+        for some in (cells[start : start + step, None, None] for start in range(0, len(cells), step)):
+            of_circles = literal[graph.first_pair[some] + pair]
+            yield of_circles.reshape(-1, 3), (immersion.first_sheet[some] + three).reshape(-1, 3)
 
 
-def _each_once(cycles: Ints, sheets: Ints) -> tuple[Ints, Ints]:
-    """Leave out constraints that always hold, for they have a literal and its opposite, and repeated ones."""
-    always = (cycles == -np.roll(cycles, 1, axis=1)).any(axis=1)
-    cycles, sheets = cycles[~always], sheets[~always]
+def _in_standard_form(cycles: Ints, sheets: Ints) -> tuple[Ints, Ints]:
+    """Bring equal constraints into the same form, and leave out those that have a literal and its opposite."""
+    x, y, z = cycles.T
+    holds_always = (x == -y) | (y == -z) | (z == -x)
+    cycles, sheets = cycles[~holds_always], sheets[~holds_always]
     cycles = np.take_along_axis(cycles, np.argsort(np.abs(cycles), axis=1), axis=1)
     cycles = np.where(cycles[:, :1] < 0, -cycles, cycles)
     cycles[:, 1] = np.where(cycles[:, 0] == cycles[:, 1], cycles[:, 2], cycles[:, 1])
-    order = np.lexsort(cycles.T)
+    return cycles, sheets
+
+
+def _each_once(parts: list[tuple[Ints, Ints]]) -> tuple[Ints, Ints]:
+    """Put constraints in order, leaving out repeated ones; of these the first one stays.
+
+    The order is that of their literals, so it belongs to the drawing, as these do, and not to how cells are numbered.
+    """
+    cycles, sheets = (np.concatenate(columns) for columns in zip(*parts, strict=True))
+    order = _in_order(cycles)
     repeats = np.zeros(len(order), dtype=bool)
-    repeats[order[1:]] = (cycles[order[1:]] == cycles[order[:-1]]).all(axis=1)
-    return cycles[~repeats], sheets[~repeats]
+    repeats[1:] = (cycles[order[1:]] == cycles[order[:-1]]).all(axis=1)
+    kept = order[~repeats]
+    return cycles[kept], sheets[kept]
 
 
-def _reversed_pair(immersion: Immersion, graph: PairGraph, pair: int) -> Obstruction:
-    chain = chain_to_reverse(graph, pair)
-    steps = tuple((int(immersion.sheet_cell[graph.lower[p]]), int(graph.lower[p]), int(graph.upper[p])) for p in chain)
+def _in_order(cycles: Ints) -> Ints:
+    """Return the order of constraints by their last literals, then by those in the middle; equal ones as they come."""
+    highest = int(np.abs(cycles).max(initial=0))
+    if highest >= _SMALL:
+        return np.lexsort(cycles.T)
+    first, middle, last = cycles.T
+    base = 2 * highest + 1
+    return np.argsort((last * base + middle) * base + first, kind="stable")
+
+
+def _reversed_pair(graph: PairGraph, clock: Clock) -> Obstruction:
+    steps = tuple(shortest_chain_to_reverse(graph, clock))
     sentence = f"No layering: two sheets, followed through {len(steps)} cells, return with their order reversed."
-    places = places_of_cells(immersion, [cell for cell, _, _ in steps])
-    return Obstruction("reversed pair", sentence, places, steps, immersion)
-
-
-# ---- pairs of sheets -----------------------------------------------------------------------------------------------
-
-# Of sheets over a cell, and of those glued along a border, with what is needed to make them.
-_BYTES_PER_PAIR = 100
-
-
-@dataclass(frozen=True, eq=False)
-class PairGraph:
-    """The ordered pairs of sheets over the same cell, and the classes they fall into.
-
-    Parameters
-    ----------
-    lower, upper : (p,) int
-        The two sheets of each ordered pair; equal where the slot is unused.
-    reverse : (p,) int
-        Index of the pair with the sheets exchanged.
-    edges : (e, 2) int
-        Pairs carried into each other across some border.
-    label : (p,) int
-        Class of each pair.
-    first_pair : (cells,) int
-        Index of the first pair over each cell. The pair of its i-th and j-th sheet is ``first_pair[c] + i * w + j``.
-    """
-
-    lower: Ints
-    upper: Ints
-    reverse: Ints
-    edges: Ints
-    label: Ints
-    first_pair: Ints
-
-    def contradictions(self) -> Ints:
-        """Return the pairs that are in the same class as their reverse; no layering exists if there is one."""
-        return np.flatnonzero((self.label == self.label[self.reverse]) & (self.lower != self.upper))
-
-
-def pair_graph(immersion: Immersion, clock: Clock = NO_LIMIT) -> PairGraph:
-    """Return the graph of pairs of an immersion. Cost: O(Σ w²) over cells and borders.
-
-    Raises TimeoutError when the time is over.
-    """
-    winding = require_immersion(immersion).arrangement.winding
-    clock.check()
-    _require_memory(immersion)
-    first_pair = np.concatenate([[0], np.cumsum(winding**2)])
-    total = int(first_pair[-1])
-    cell = np.repeat(np.arange(len(winding)), winding**2)
-    row, column = np.divmod(np.arange(total) - first_pair[cell], winding[cell])
-    clock.check()
-    edges = _carried(immersion, first_pair)
-    clock.check()
-    return PairGraph(
-        lower=immersion.first_sheet[cell] + row,
-        upper=immersion.first_sheet[cell] + column,
-        reverse=first_pair[cell] + column * winding[cell] + row,
-        edges=edges,
-        label=components(total, *edges.T),
-        first_pair=first_pair[:-1],
-    )
-
-
-def _require_memory(immersion: Immersion) -> None:
-    arrangement = immersion.arrangement
-    pairs = number_of_tuples(arrangement.winding, 2)
-    carried = number_of_tuples(arrangement.winding[arrangement.right_cell], 2)
-    require_memory(
-        _BYTES_PER_PAIR * (pairs + carried),
-        f"a graph of {pairs:,} pairs of sheets",
-        arrangement,
-        "embed_cased(curve, over) orders sheets without pairs, where over and under are known",
-    )
-
-
-def _carried(immersion: Immersion, first_pair: Ints) -> Ints:
-    """Return the edges (pair on the right of a border, pair on its left)."""
-    border, right, left = immersion.gluing.T
-    counts = np.bincount(border, minlength=immersion.arrangement.n_borders)
-    first = np.repeat(np.arange(len(border)), counts[border])
-    second = starts_of(counts)[border[first]] + count_each(counts[border])
-    differ = first != second
-    return np.stack(
-        [pair_of(immersion, first_pair, side[first], side[second])[differ] for side in (right, left)], axis=1
-    )
-
-
-def pair_of(immersion: Immersion, first_pair: Ints, lower: Ints, upper: Ints) -> Ints:
-    """Return the indices of pairs of sheets, each two over one cell."""
-    cell = immersion.sheet_cell[lower]
-    first = immersion.first_sheet[cell]
-    return np.asarray(first_pair[cell] + (lower - first) * immersion.arrangement.winding[cell] + upper - first)
-
-
-def chain_to_reverse(graph: PairGraph, pair: int) -> list[int]:
-    """Return a shortest chain of pairs, each glued to the next, from a pair to its own reverse."""
-    return shortest_path(len(graph.label), graph.edges, pair, int(graph.reverse[pair]))
+    places = places_of_cells(graph.immersion, [cell for cell, _, _ in steps])
+    return Obstruction("reversed pair", sentence, places, steps, graph.immersion)

@@ -6,36 +6,35 @@ all there is to do for most outlines. Where several seams around a crossing stay
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, TypeAlias
+from plyfold.core.buffers import WholeBuffer, whole_room
 
-from plyfold.arrays import Ints
-from plyfold.compiled import called_from_loops
+__all__ = ["Found", "Rings", "State", "Work", "close_rings", "step"]
 
-__all__ = ["LEFT_OVER", "NO_OWN", "UNKNOWN", "Found", "Rings", "State", "Work", "close_rings", "step"]
-
-UNKNOWN = -1
-# Among reasons: the other pairs of the seam.
-LEFT_OVER = -2
-# Equal to no port and no sheet: the own sheet of a bridge.
-NO_OWN = -9
+# Among reasons: the other pairs of the seam. See `immersion.peeling`.
+_LEFT_OVER = -2
 
 
-class Rings(NamedTuple):
+class Rings:
     """The seams around each crossing in the order of the ring: b to top, a to bottom, b to bottom, a to top.
 
     ``own_a`` is the port of a's own sheet in the seam a to top, and ``own_b`` of b's; −9 for a bridge. ``at`` has for
     each seam the crossings at both ends, and ``place`` its places in their rings.
     """
 
-    around: Ints
-    bottom: Ints
-    own_a: Ints
-    own_b: Ints
-    at: Ints
-    place: Ints
+    def __init__(
+        self,
+        around: WholeBuffer,
+        bottom: WholeBuffer,
+        own_a: WholeBuffer,
+        own_b: WholeBuffer,
+        at: WholeBuffer,
+        place: WholeBuffer,
+    ) -> None:
+        self.around, self.bottom, self.own_a, self.own_b = around, bottom, own_a, own_b
+        self.at, self.place = at, place
 
 
-class Work(NamedTuple):
+class Work:
     """``missing`` ports of each seam are open; the sums of their numbers, and of the sheets not yet reached.
 
     ``open_around`` is how many seams around each crossing are partly open, −1 where nothing is left to conclude;
@@ -43,45 +42,49 @@ class Work(NamedTuple):
     concluded yet. ``reason`` says from where something is being concluded.
     """
 
-    start: Ints
-    size: Ints
-    seam: Ints
-    in_tree: Ints
-    own: Ints
-    missing: Ints
-    sum_port: Ints
-    sum_upper: Ints
-    open_around: Ints
-    ready: Ints
-    stack: Ints
-    top: Ints
-    reason: Ints
+    def __init__(
+        self,
+        rings: Rings,
+        start: WholeBuffer,
+        size: WholeBuffer,
+        seam: WholeBuffer,
+        in_tree: WholeBuffer,
+        own: WholeBuffer,
+    ) -> None:
+        self.start, self.size, self.seam, self.in_tree, self.own = start, size, seam, in_tree, own
+        crossings, seams = len(rings.bottom), len(size)
+        self.missing, self.sum_port, self.sum_upper = whole_room(seams), whole_room(seams), whole_room(seams)
+        for number in range(seams):
+            self.missing[number] = size[number]
+            self.sum_port[number] = self.sum_upper[number] = size[number] * (size[number] - 1) // 2
+        self.open_around, self.ready = whole_room(crossings), whole_room(5 * crossings)
+        self.stack = whole_room(len(seam))
+        self.top, self.reason = 0, -1
 
 
-class Found(NamedTuple):
-    """See :class:`Peeled`."""
+class Found:
+    """See `immersion.peeling.Peeled`."""
 
-    upper: Ints
-    port: Ints
-    because: Ints
-    failed: Ints
+    def __init__(self, upper: WholeBuffer, port: WholeBuffer, because: WholeBuffer, failed: int) -> None:
+        self.upper, self.port, self.because, self.failed = upper, port, because, failed
 
 
-State: TypeAlias = tuple[Rings, Work, Found]
+class State:
+    """All three together."""
+
+    def __init__(self, rings: Rings, work: Work, found: Found) -> None:
+        self.rings, self.work, self.found = rings, work, found
 
 
-def close_rings(given: tuple[Rings, Work], found: Found) -> int:
+def close_rings(state: State) -> int:
     """Write down what is known of each seam, and conclude, until nothing new comes; 0 at a contradiction."""
-    rings, work = given
-    state = rings, work, found
-    _write_names(work, found)
+    _write_names(state.work, state.found)
     if _find_whole_seams(state) == 0:
         return 0
     _recall_pairs(state)
-    return int(_conclude(rings, work, found))
+    return _conclude(state)
 
 
-@called_from_loops
 def _write_names(work: Work, found: Found) -> None:
     """Write down the seams of tree links with known own sheets, and those that have no choice."""
     for seam in range(len(work.size)):
@@ -94,10 +97,9 @@ def _write_names(work: Work, found: Found) -> None:
             _glue(work, found, seam, 0, 0)
 
 
-@called_from_loops
 def _find_whole_seams(state: State) -> int:
     """Find the last seam around a crossing, as long as there is one, and compare all four where they are known."""
-    rings, work, _ = state
+    rings, work = state.rings, state.work
     waiting = 0
     for at in range(len(rings.bottom)):
         work.open_around[at] = 0
@@ -122,21 +124,19 @@ def _find_whole_seams(state: State) -> int:
     return 1
 
 
-@called_from_loops
 def _fail(state: State, at: int) -> int:
-    state[2].failed[0] = at
+    state.found.failed = at
     return 0
 
 
-@called_from_loops
-def _find_last_seam(state: State, at: int) -> Any:
+def _find_last_seam(state: State, at: int) -> int:
     """Find the only open seam around a crossing from the three others, and return it; −1 at a contradiction."""
-    rings, work, found = state
+    rings, work, found = state.rings, state.work, state.found
     place = 0
     while rings.around[4 * at + place] < 0 or work.missing[rings.around[4 * at + place]] == 0:
         place += 1
     seam, bottom = rings.around[4 * at + place], rings.bottom[at]
-    work.reason[0] = at
+    work.reason = at
     for port in range(work.size[seam]):
         lower = bottom + 1 if place == 2 and port == bottom else port
         upper = _walk_round(state, at, place, lower)
@@ -148,8 +148,7 @@ def _find_last_seam(state: State, at: int) -> Any:
     return seam
 
 
-@called_from_loops
-def _walk_round(state: State, at: int, place: int, lower: int) -> Any:
+def _walk_round(state: State, at: int, place: int, lower: int) -> int:
     """Go from the lower corner at a place to the upper one, the other way round."""
     sheet = lower
     for step_on in range(1, 4):
@@ -160,7 +159,6 @@ def _walk_round(state: State, at: int, place: int, lower: int) -> Any:
     return sheet
 
 
-@called_from_loops
 def _know(rings: Rings, work: Work, seam: int, waiting: int) -> int:
     """Count a seam as known at both its ends, and have crossings wait that may be ready."""
     for end in range(2):
@@ -173,10 +171,9 @@ def _know(rings: Rings, work: Work, seam: int, waiting: int) -> int:
     return waiting
 
 
-@called_from_loops
 def _is_closed(state: State, at: int) -> int:
     """Compare the four seams around a crossing that are known: 0 if a sheet over the top cell does not come back."""
-    rings, work, _ = state
+    rings, work = state.rings, state.work
     top = max(rings.around[4 * at], rings.around[4 * at + 3])
     for sheet in range(work.size[top]):
         here = sheet
@@ -187,28 +184,25 @@ def _is_closed(state: State, at: int) -> int:
     return 1
 
 
-@called_from_loops
 def _recall_pairs(state: State) -> None:
     """Have all pairs wait that are known of seams with an end where others are open."""
-    rings, work, found = state
-    work.top[0] = 0
+    rings, work, found = state.rings, state.work, state.found
+    work.top = 0
     for seam in range(len(work.size)):
         for end in range(2):
             at = rings.at[2 * seam + end]
             if at >= 0 and work.open_around[at] > 0 and (end == 0 or _is_settled(rings, work, rings.at[2 * seam])):
                 for port in range(work.start[seam], work.start[seam + 1]):
                     if found.upper[port] >= 0:
-                        work.stack[work.top[0]] = port
-                        work.top[0] += 1
+                        work.stack[work.top] = port
+                        work.top += 1
 
 
-@called_from_loops
 def _is_settled(rings: Rings, work: Work, at: int) -> bool:
     """Tell whether nothing is left to conclude around a crossing, or there is none."""
-    return bool(at < 0 or work.open_around[at] <= 0)
+    return at < 0 or work.open_around[at] <= 0
 
 
-@called_from_loops
 def _glue(work: Work, found: Found, seam: int, port: int, sheet: int) -> int:
     """Note that a port leads to a sheet, and what that leaves for the last port of the seam; 0 if it cannot be."""
     start = work.start[seam]
@@ -216,14 +210,14 @@ def _glue(work: Work, found: Found, seam: int, port: int, sheet: int) -> int:
         return 0
     if found.upper[start + port] == sheet:
         return 1
-    reason = work.reason[0]
+    reason = work.reason
     while True:
         if found.upper[start + port] >= 0 or found.port[start + sheet] >= 0:
             return 0
         found.upper[start + port], found.port[start + sheet] = sheet, port
-        found.because[start + port], reason = reason, LEFT_OVER
-        work.stack[work.top[0]] = start + port
-        work.top[0] += 1
+        found.because[start + port], reason = reason, _LEFT_OVER
+        work.stack[work.top] = start + port
+        work.top += 1
         work.missing[seam] -= 1
         work.sum_port[seam] -= port
         work.sum_upper[seam] -= sheet
@@ -232,28 +226,26 @@ def _glue(work: Work, found: Found, seam: int, port: int, sheet: int) -> int:
         port, sheet = work.sum_port[seam], work.sum_upper[seam]
 
 
-@called_from_loops
-def _conclude(rings: Rings, work: Work, found: Found) -> int:
+def _conclude(state: State) -> int:
     """Go round the crossings at both ends of all seams with something new; 0 at a contradiction."""
-    state = rings, work, found
-    while work.top[0] > 0:
-        work.top[0] -= 1
-        here = work.stack[work.top[0]]
+    rings, work, found = state.rings, state.work, state.found
+    while work.top > 0:
+        work.top -= 1
+        here = work.stack[work.top]
         seam, sheet = work.seam[here], found.upper[here]
         port = here - work.start[seam]
-        work.reason[0] = LEFT_OVER
+        work.reason = _LEFT_OVER
         if work.in_tree[seam] == 1 and _keep_order(work, found, seam, port, sheet) == 0:
-            found.failed[0] = rings.at[2 * seam]
+            found.failed = rings.at[2 * seam]
             return 0
         for end in range(2):
-            at = work.reason[0] = rings.at[2 * seam + end]
+            at = work.reason = rings.at[2 * seam + end]
             if at >= 0 and _go_round(state, at, rings.place[2 * seam + end], port, sheet) == 0:
-                found.failed[0] = at
+                found.failed = at
                 return 0
     return 1
 
 
-@called_from_loops
 def _keep_order(work: Work, found: Found, seam: int, port: int, sheet: int) -> int:
     """Conclude what follows for neighbours along a link of the tree: in order, ports skip the own sheet only."""
     last = work.size[seam] - 1
@@ -267,14 +259,13 @@ def _keep_order(work: Work, found: Found, seam: int, port: int, sheet: int) -> i
     return 0
 
 
-@called_from_loops
 def _go_round(state: State, at: int, place: int, port: int, sheet: int) -> int:
     """Conclude the fourth pair around a crossing, where with a new one three are known; 0 at a contradiction.
 
     The corners are in the top cell, on a's left and b's right, in the bottom cell, and on the other side; the seam at
     place i lies between corners i and i + 1.
     """
-    bottom = state[0].bottom[at]
+    bottom = state.rings.bottom[at]
     lower = bottom + 1 if place == 2 and port == bottom else port
     here, there = (sheet, lower) if place < 2 else (lower, sheet)
     after = step(state, at, (place + 1) % 4, there, 1)
@@ -290,14 +281,13 @@ def _go_round(state: State, at: int, place: int, port: int, sheet: int) -> int:
     return 1
 
 
-@called_from_loops
-def step(state: State, at: int, place: int, sheet: int, onward: int) -> Any:
+def step(state: State, at: int, place: int, sheet: int, onward: int) -> int:
     """Go from a sheet at one corner across a seam to the next corner, or back; −1 if that is not known.
 
     Over the bottom cell, a's boundary has the number of sheets there, and b's one more. Over the side that a has left,
     b's boundary goes on as the port of b's own sheet, and over the other side a's.
     """
-    rings, work, found = state
+    rings, work, found = state.rings, state.work, state.found
     seam, bottom = rings.around[4 * at + place], rings.bottom[at]
     if (place < 2) == (onward == 1):  # down
         if place == 1 and sheet == rings.own_b[at]:
@@ -314,15 +304,16 @@ def step(state: State, at: int, place: int, sheet: int, onward: int) -> Any:
     return port if seam < 0 else found.upper[work.start[seam] + port]
 
 
-@called_from_loops
 def _join(state: State, at: int, place: int, here: int, there: int) -> int:
     """Note that two sheets at neighbouring corners are glued; 0 if they cannot be."""
-    rings, work, found = state
+    rings, work, found = state.rings, state.work, state.found
     seam, bottom = rings.around[4 * at + place], rings.bottom[at]
     lower, upper = (there, here) if place < 2 else (here, there)
     if place == 1 and (lower == bottom + 1 or upper == rings.own_b[at]):
-        return int(lower == bottom + 1 and upper == rings.own_b[at])
+        return 1 if lower == bottom + 1 and upper == rings.own_b[at] else 0
     if place == 2 and (lower == bottom or upper == rings.own_a[at]):
-        return int(lower == bottom and upper == rings.own_a[at])
+        return 1 if lower == bottom and upper == rings.own_a[at] else 0
     port = bottom if place == 2 and lower == bottom + 1 else lower
-    return int(port == upper) if seam < 0 else _glue(work, found, seam, port, upper)
+    if seam < 0:
+        return 1 if port == upper else 0
+    return _glue(work, found, seam, port, upper)
