@@ -32,7 +32,8 @@ for curve in [ring, *(np.asarray(curve, dtype=float) for curve in curves)]:
     drawn = pf.arrange(curve)
     immersion = pf.find_immersion(drawn)
     for name, value in (*sorted(vars(drawn).items()), *sorted(vars(immersion).items())):
-        digest.update(value.tobytes() if isinstance(value, np.ndarray) else b"")
+        if isinstance(value, np.ndarray):  # fractions are objects, whose bytes are where they are kept
+            digest.update(repr(value.tolist()).encode() if value.dtype == object else value.tobytes())
 print(plyfold.core.WHY_PLAIN or "compiled")
 print(digest.hexdigest())
 """
