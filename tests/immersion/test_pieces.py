@@ -149,4 +149,4 @@ def test_rectangles(outline):
 @settings(max_examples=40, deadline=None)
 @given(touching_outlines())
 def test_any_outline(outline):
-    judge(outline)
+    judge_all([outline])
