@@ -120,7 +120,7 @@ def distinct_numbers(numbers: Ints) -> Ints:
     [1, 3]
     """
     ordered = np.sort(numbers)
-    return ordered[np.append(True, ordered[1:] != ordered[:-1])[: len(ordered)]]
+    return np.asarray(ordered[np.append(True, ordered[1:] != ordered[:-1])[: len(ordered)]])
 
 
 def _following(points: Floats, first_point: Ints | None) -> Ints:
