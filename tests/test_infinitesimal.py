@@ -3,7 +3,7 @@
 from itertools import combinations
 
 import numpy as np
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plyfold.arrangement.crossings import distinct_numbers, distinct_pairs, find_contacts
@@ -21,6 +21,7 @@ def moving_points(draw):
     return (np.array(places, dtype=float) + origin) * size, np.array(velocities, dtype=object)
 
 
+@settings(deadline=None)
 @given(moving_points())
 def test_edges_cross_as_the_moved_points_say(drawn):
     points, velocities = drawn

@@ -125,12 +125,15 @@ def _touching_pairs(touches: Ints, next_point: Ints) -> Ints:
 
 def _sides(motion: MovingPoints, edge: Ints, other: Ints) -> Signs:
     """Return on which side of each edge the other one starts and ends, shape (m, 2)."""
-    start, end = edge[:, None], motion.next_point[edge][:, None]
-    there = np.stack([other, motion.next_point[other]], axis=1)
-    side = orient(*(motion.points[at] for at in (start, end, there)))
-    row, column = np.nonzero(side == 0)
-    side[row, column] = _sides_begun(motion, start[row, 0], end[row, 0], there[row, column])
-    return side
+    there = np.stack([other, motion.next_point[other]], axis=1).ravel()
+    start, end = np.repeat(np.stack([edge, motion.next_point[edge]]), 2, axis=1)
+    place, side = np.ascontiguousarray(motion.points).view(np.complex128).ravel(), np.zeros(len(there), dtype=np.int8)
+    # Most that meet in crowded places have an end in common.
+    apart = np.flatnonzero((place[there] != place[start]) & (place[there] != place[end]))
+    side[apart] = orient(*(motion.points[at[apart]] for at in (start, end, there)))
+    touching = np.flatnonzero(side == 0)
+    side[touching] = _sides_begun(motion, *(at[touching] for at in (start, end, there)))
+    return side.reshape(-1, 2)
 
 
 def _sides_begun(motion: MovingPoints, a: Ints, b: Ints, c: Ints) -> Signs:
