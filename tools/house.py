@@ -25,9 +25,10 @@ SOURCE = Path(__file__).resolve().parent.parent / "src" / "plyfold"
 ORDER = [
     ["arrays", "errors", "wording"],
     ["obstruction"],
-    ["options", "clock", "compiled", "colours", "ragged", "graphs", "loading", "memory", "mistaken", "certify"],
+    ["options", "clock", "compiled", "colours", "ragged", "loading", "memory", "mistaken", "certify"],
     ["predicates", "halfedges", "matrices", "sat"],
     ["core"],
+    ["graphs"],
     ["outline"],
     ["io"],
     ["arrangement"],

@@ -7,11 +7,13 @@ from collections.abc import MutableSequence
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
+from plyfold.core.buffers import all_flat
+from plyfold.core.cells import join_lakes
 
-# So few edges are followed in plain Python.
+# So few edges are followed one by one.
 _FEW = 500
 
-__all__ = ["components", "end_of_path", "representative", "shortest_path", "spanning_tree", "ways_from"]
+__all__ = ["components", "end_of_path", "members_of", "representative", "shortest_path", "spanning_tree", "ways_from"]
 
 
 def components(n: int, start: Ints, end: Ints) -> Ints:
@@ -22,6 +24,8 @@ def components(n: int, start: Ints, end: Ints) -> Ints:
     >>> components(4, np.array([3]), np.array([1])).tolist()
     [0, 1, 2, 1]
     """
+    if not len(start):
+        return np.arange(n)
     if len(start) < _FEW:
         return _few_components(n, start, end)
     from scipy.sparse import coo_array, csgraph
@@ -32,14 +36,28 @@ def components(n: int, start: Ints, end: Ints) -> Ints:
 
 def _few_components(n: int, start: Ints, end: Ints) -> Ints:
     """Return the components of a graph with few edges, up to a millisecond sooner than the library."""
-    joined = list(range(n))
-    for first, second in zip(start.tolist(), end.tolist(), strict=True):
-        one, other = representative(joined, first), representative(joined, second)
-        joined[max(one, other)] = min(one, other)
-    for node in np.concatenate([start, end]).tolist():
-        joined[node] = representative(joined, node)
-    root = np.array(joined, dtype=np.int64)
-    return np.asarray((np.cumsum(root == np.arange(n)) - 1)[root])
+    node = np.arange(n)
+    joined = node.copy()
+    join_lakes(*all_flat(start, end, joined, np.zeros(len(start), dtype=np.int64)))
+    joined = end_of_path(joined)
+    first = np.empty_like(node)
+    first[joined[::-1]] = node[::-1]  # the last one written stays: the first node of each component
+    first = first[joined]
+    return np.asarray((np.cumsum(first == node) - 1)[first])
+
+
+def members_of(group: Ints) -> dict[int, list[int]]:
+    """Return the members of each group, given the group of each; groups in the order of their first members.
+
+    Examples
+    --------
+    >>> members_of(np.array([2, 0, 2]))
+    {2: [0, 2], 0: [1]}
+    """
+    members: dict[int, list[int]] = {}
+    for member, of in enumerate(group.tolist()):
+        members.setdefault(of, []).append(member)
+    return members
 
 
 def spanning_tree(n: int, start: Ints, end: Ints) -> tuple[Ints, Ints, Ints]:

@@ -32,7 +32,8 @@ for curve in [ring, *(np.asarray(curve, dtype=float) for curve in curves)]:
     drawn = pf.arrange(curve)
     immersion = pf.find_immersion(drawn)
     for name, value in (*sorted(vars(drawn).items()), *sorted(vars(immersion).items())):
-        digest.update(value.tobytes() if isinstance(value, np.ndarray) else b"")
+        if isinstance(value, np.ndarray):  # the bytes of fractions are where they lie in memory
+            digest.update(str(value.tolist()).encode() if value.dtype == object else value.tobytes())
 print(plyfold.core.WHY_PLAIN or "compiled")
 print(digest.hexdigest())
 """

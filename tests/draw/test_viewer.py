@@ -218,7 +218,8 @@ def box(mask):
 def test_browser_shows_the_surface_without_a_complaint_or_a_request(shown):
     red, _, blue = colour_at(shown, 350, 250)
     assert blue > red + 40
-    assert shown.complaints == []
+    # The test itself reads the picture back.
+    assert [said for said in shown.complaints if "GPU stall due to ReadPixels" not in said] == []
     assert all(address.startswith(("file:", "blob:")) for address in shown.asked)
 
 

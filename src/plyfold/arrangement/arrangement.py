@@ -17,7 +17,6 @@ from plyfold.arrangement.leftmost import leftmost_crossing
 from plyfold.arrangement.maps import (
     CellWalk,
     Map,
-    cell_of_each_dart,
     numbered_crossings,
     oriented,
     walked_round,
@@ -196,9 +195,8 @@ class Arrangement:
         cls, drawn: Map, walked: CellWalk, turning: tuple[int, ...], outline: Outline | None, **more: Any
     ) -> Arrangement:
         """Return the arrangement of loops whose cells have been walked round."""
-        code, (following, *boundaries) = drawn.code, walked
-        cell_of_dart = cell_of_each_dart(*boundaries)
-        winding = np.empty(len(boundaries[0]) - 1, dtype=np.int64)
+        code, (following, cell_start, cell_darts, cell_of_dart) = drawn.code, walked
+        winding = np.empty(len(cell_start) - 1, dtype=np.int64)
         winding[cell_of_dart[0::2]] = code.left
         winding[cell_of_dart[1::2]] = code.left - 1
         return cls(
@@ -208,8 +206,8 @@ class Arrangement:
             first_visit=code.first_visit,
             next_dart=following,
             cell_of_dart=cell_of_dart,
-            cell_start=boundaries[0],
-            cell_darts=boundaries[1],
+            cell_start=cell_start,
+            cell_darts=cell_darts,
             winding=winding,
             turning_numbers=turning,
             crossing_of_visit=numbered_crossings(code.partner),

@@ -21,6 +21,8 @@ __all__ = ["Contacts", "Visits", "distinct_numbers", "distinct_pairs", "find_con
 
 # Products of two larger sides are far from the smallest doubles.
 _TINY = 1e-120
+# `core.meetings` packs the sense of a crossing into its second edge, as the last bit.
+_PACKED = np.array([0, 1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +95,7 @@ def find_contacts(points: Floats, watch: Watch = UNWATCHED, first_point: Ints | 
     found = Meetings(flat(points), flat(_following(points, first_point)), watch.step)
     crossings, touches = (numbers.as_array().reshape(-1, 2) for numbers in (found.crossings, found.touches))
     return Contacts(
-        edges=crossings >> [0, 1],
+        edges=crossings >> _PACKED,
         from_right=crossings[:, 1] % 2 == 1,
         touches=distinct_pairs(touches, len(points)) if len(touches) else touches,
         exact_signs=found.exact_signs,

@@ -22,7 +22,6 @@ __all__ = [
     "CellWalk",
     "Code",
     "Map",
-    "cell_of_each_dart",
     "in_bounded_cells",
     "numbered_crossings",
     "oriented",
@@ -31,8 +30,8 @@ __all__ = [
 ]
 
 
-CellWalk: TypeAlias = tuple[Ints, Ints, Ints]
-"""The dart after each dart, where the boundary of each cell starts, and the darts cell by cell."""
+CellWalk: TypeAlias = tuple[Ints, Ints, Ints, Ints]
+"""The dart after each dart, where the boundary of each cell starts, the darts cell by cell, and the cell of each."""
 
 
 class Code(NamedTuple):
@@ -78,18 +77,19 @@ def oriented(partner: Ints, ccw: Bools, outer: int, is_directed: bool = False) -
 
 
 def walked_round(drawn: Map) -> CellWalk:
-    """Return the dart after each, and the boundaries of all cells: where each starts, and their darts."""
+    """Return the dart after each, where the boundary of each cell starts, their darts, and the cell of each dart."""
     following = next_darts(drawn.code.partner, drawn.code.ccw, drawn.code.first_visit)
     boundaries = cell_boundaries(following, int(drawn.outside[0]))
     if len(drawn.outside) + len(drawn.same_cell) > 1:
         outside = np.stack([np.full_like(drawn.outside, drawn.outside[0]), drawn.outside], axis=1)
-        boundaries = joined_cells(*boundaries, np.concatenate([drawn.same_cell, outside]))
+        joined = joined_cells(*boundaries[:2], np.concatenate([drawn.same_cell, outside]))
+        return following, *joined, cell_of_each_dart(*joined)
     return following, *boundaries
 
 
 def in_bounded_cells(plain: Map, walked: CellWalk) -> list[int]:
     """Return which of the pairs of darts with the same cell lie in a bounded one."""
-    inner: list[int] = np.flatnonzero(cell_of_each_dart(*walked[1:])[plain.same_cell[:, 0]]).tolist()
+    inner: list[int] = np.flatnonzero(walked[3][plain.same_cell[:, 0]]).tolist()
     return inner
 
 
@@ -112,8 +112,8 @@ def outer_dart(points: Reals, visit_edge: Ints) -> int:
     x, y = points.T
     leftmost = np.flatnonzero(x == x.min())
     corner = int(leftmost[y[leftmost].argmin()])
-    before, here, after = points[[corner - 1, corner, (corner + 1) % len(points)]]
-    border = (int(np.searchsorted(visit_edge, corner)) - 1) % max(len(visit_edge), 1)
+    before, here, after = (points[at].tolist() for at in (corner - 1, corner, (corner + 1) % len(points)))
+    border = (int(visit_edge.searchsorted(corner)) - 1) % max(len(visit_edge), 1)
     # One sign of doubles is sooner found without arrays.
     are_doubles = points.dtype == np.float64
     turn = exact_sign(*before, *here, *here, *after) if are_doubles else cross_sign(before, here, here, after)

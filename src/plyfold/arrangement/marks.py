@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from math import inf
+from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,8 @@ __all__ = ["AT_VERTEX", "Mark", "cusps_of_outline", "cusps_on_borders", "with_ma
 
 # Where on an edge the vertex is that it starts from.
 AT_VERTEX = -inf
+# By what marks are sorted; no two have the same.
+_PLACE = itemgetter(0, 1, 2)
 _NO_FEET = np.empty((0, 2), dtype=bool)
 
 
@@ -87,12 +90,12 @@ def with_marks(plain: Map, marks: Sequence[Mark], feet: Sequence[Mark] = (), is_
     """
     if not marks and not feet:
         return plain
-    everything = sorted([*marks, *feet], key=lambda mark: mark[:3])
+    everything = sorted([*marks, *feet], key=_PLACE)
     inserted = _Inserted.of(plain.code, everything)
     code = _with_inserted(plain.code, inserted, everything)
-    place = {mark[:3]: visit for mark, visit in zip(everything, inserted.visit.tolist(), strict=True)}
+    place = dict(zip(map(_PLACE, everything), inserted.visit.tolist(), strict=True)) if feet else {}
     before, after = borders_at_visits(code.first_visit)
-    foot = np.array([place[mark[:3]] for mark in feet], dtype=np.int64).reshape(-1, 2)
+    foot = np.array([place[_PLACE(mark)] for mark in feet], dtype=np.int64).reshape(-1, 2)
     return Map(
         code,
         outside=_moved(plain.code, inserted, plain.outside),
@@ -113,7 +116,7 @@ class _Inserted(NamedTuple):
 
     @classmethod
     def of(cls, code: Code, marks: Sequence[Mark]) -> _Inserted:
-        at, loop = np.array([(mark.at, mark.loop) for mark in marks]).T
+        at, loop = np.array([mark.at for mark in marks]), np.array([mark.loop for mark in marks])
         visit = np.arange(len(code.partner))
         count = np.bincount(loop, minlength=len(code.first_visit) - 1)
         return cls(
@@ -132,7 +135,7 @@ def _with_inserted(code: Code, inserted: _Inserted, marks: Sequence[Mark]) -> Co
     partner[old], ccw[old] = old[code.partner], code.ccw
     if len(code.edge) == len(old):
         edge[old] = code.edge
-    edge[new], index[new] = np.array([(mark.edge, mark.cusp_index) for mark in marks]).T
+    edge[new], index[new] = [mark.edge for mark in marks], [mark.cusp_index for mark in marks]
     left = np.empty(int(np.maximum(np.diff(inserted.first_visit), 1).sum()), dtype=np.int64)
     left[_moved(code, inserted, np.arange(0, 2 * len(code.left), 2)) // 2] = code.left
     left[borders_at_visits(inserted.first_visit)[1][new]] = code.left[_border_cut(code, inserted)]
@@ -142,13 +145,15 @@ def _with_inserted(code: Code, inserted: _Inserted, marks: Sequence[Mark]) -> Co
 def _moved(code: Code, inserted: _Inserted, darts: Ints) -> Ints:
     """Return the darts of the first pieces of borders, where marks have cut them."""
     border, backward = np.divmod(darts, 2)
-    visits, new_first = np.diff(code.first_visit), inserted.first_visit
-    base, new_base = starts_of(np.maximum(visits, 1)), starts_of(np.maximum(np.diff(new_first), 1))
+    if not darts.size:
+        return darts
+    visits, new_visits = (first[1:] - first[:-1] for first in (code.first_visit, inserted.first_visit))
+    base, new_base = starts_of(np.maximum(visits, 1)), starts_of(np.maximum(new_visits, 1))
     loop = np.searchsorted(base, border, side="right") - 1
     piece = np.zeros_like(border)
     crossed = visits[loop] > 0
     start = (code.first_visit[loop] + border - base[loop])[crossed]
-    piece[crossed] = inserted.moved[start] - new_first[loop[crossed]]
+    piece[crossed] = inserted.moved[start] - inserted.first_visit[loop[crossed]]
     return np.asarray(2 * (new_base[loop] + piece) + backward)
 
 

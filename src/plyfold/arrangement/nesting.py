@@ -33,7 +33,7 @@ _EDGES_IN_BOX = 8
 # Rays that meet nothing are made so many times longer; this many are looked at together.
 _LONGER = 4
 _RAYS = 1024
-# So few pairs of rays and edges are looked at without boxes.
+# So few pairs of rays and loops, or of rays and edges, are looked at without boxes.
 _ALL_PAIRS = 2**17
 
 
@@ -88,7 +88,7 @@ def nest(joined: JoinedLoops, visits: Visits, watch: Watch = UNWATCHED, exact: W
     first_visit = np.searchsorted(loop, np.arange(n_loops + 1))
     other = loop[visits.partner]
     group = components(n_loops, loop[loop < other], other[loop < other])
-    plan = _Plan(joined, visits, first_visit, group[joined.loop], exact)
+    plan = _Plan(joined, visits, first_visit, group, exact)
     corner = _corners(plan)
     dart, beyond = _outer_darts(plan, corner), _met_on_the_left(plan, corner, watch)
     is_free, number = beyond < 0, np.flatnonzero(beyond >= 0)
@@ -120,7 +120,7 @@ def same_nest(one: Nest, other: Nest) -> bool:
 class _Plan:
     """The polyline with its visits, to find the border at a place.
 
-    Loops that hang together by crossings are a group; ``group`` has that of each edge. ``exact`` are places to which
+    Loops that hang together by crossings are a group; ``group`` has that of each loop. ``exact`` are places to which
     the points are near, see :func:`nest`.
     """
 
@@ -138,7 +138,25 @@ class _Plan:
     @cached_property
     def height(self) -> Floats | Ints:
         """The heights of the points, or numbers in the same order."""
-        return self.joined.points[:, 1] if self.exact is None else _ranks(self.exact[:, 1])
+        return self._along(1)
+
+    @cached_property
+    def across(self) -> Floats | Ints:
+        """How far right the points are, or numbers in the same order."""
+        return self._along(0)
+
+    def _along(self, axis: int) -> Floats | Ints:
+        return self.joined.points[:, axis].copy() if self.exact is None else _ranks(self.exact[:, axis])
+
+    @cached_property
+    def first(self) -> Ints:
+        """The first point of each loop, and last the number of points."""
+        return self.joined.first_point + np.arange(len(self.joined.first_point))
+
+    @cached_property
+    def left(self) -> Floats | Ints:
+        """How far right the leftmost point of each loop is."""
+        return np.asarray(np.minimum.reduceat(self.across, self.first[:-1]))
 
     def ends(self, edge: Ints) -> Floats:
         """Return start and end of some edges."""
@@ -214,13 +232,13 @@ def _extremes(values: Floats, first: Ints, size: Ints) -> tuple[Floats, Floats]:
 
 def _corners(plan: _Plan) -> Ints:
     """Return the leftmost vertex of each group, the lowest of several, from left to right."""
-    x, y = plan.joined.points.T if plan.exact is None else map(_ranks, plan.exact.T)
+    x, y, loop = plan.across, plan.height, plan.joined.loop
     leftmost = np.full(plan.group.max() + 1, np.inf)
-    first = np.flatnonzero(np.diff(plan.joined.loop, prepend=-1))
-    np.minimum.at(leftmost, plan.group[first], np.minimum.reduceat(x, first))
-    corner = np.flatnonzero((x == leftmost[plan.group]) & ~plan.joined.is_jump)
+    np.minimum.at(leftmost, plan.group, plan.left)
+    corner = np.flatnonzero(x == leftmost[plan.group].repeat(plan.first[1:] - plan.first[:-1]))
+    corner = corner[~plan.joined.is_jump[corner]]
     corner = corner[np.lexsort([y[corner], x[corner]])]
-    return np.asarray(corner[np.sort(np.unique(plan.group[corner], return_index=True)[1])])
+    return np.asarray(corner[np.sort(np.unique(plan.group[loop[corner]], return_index=True)[1])])
 
 
 def _ranks(numbers: Wholes) -> Ints:
@@ -280,9 +298,9 @@ def _met_on_the_left(plan: _Plan, corner: Ints, watch: Watch) -> Ints:
     The rays run a little higher than the vertices, by less than any other difference in height. So they meet no
     vertices and no crossings. They are short at first: most meet something soon.
     """
+    if (few := _few_at_heights(plan, corner)) is not None:
+        return _first_met(plan, corner, *few)[0]
     x, y = plan.joined.points.T
-    if len(corner) * len(x) <= _ALL_PAIRS:
-        return _first_met(plan, corner, *_all_at_heights(plan, corner))[0]
     boxes = _Boxes.at(plan, y[corner])
     leftmost, rightmost = float(x.min()), float(x.max())
     met = np.full(len(corner), -1)
@@ -304,11 +322,45 @@ def _met_on_the_left(plan: _Plan, corner: Ints, watch: Watch) -> Ints:
     return met
 
 
+def _few_at_heights(plan: _Plan, corner: Ints) -> tuple[Ints, Ints] | None:
+    """Return edges that pass heights of vertices, among them the first that each ray meets; None if they are many."""
+    if len(corner) * len(plan.left) <= _ALL_PAIRS:
+        ray, loop = _loops_perhaps_met(plan, corner)
+        if (plan.first[loop + 1] - plan.first[loop]).sum() <= 2 * len(plan.height):
+            return _of_loops_at_heights(plan, corner, ray, loop)
+    return _all_at_heights(plan, corner) if len(corner) * len(plan.height) <= _ALL_PAIRS else None
+
+
+def _loops_perhaps_met(plan: _Plan, corner: Ints) -> tuple[Ints, Ints]:
+    """Return the loops of other groups that rays from vertices to the left may meet first: (place among these, loop).
+
+    A ray meets every loop on the left of it that comes as high and as low, and so none that lies further left than all
+    of such a loop.
+    """
+    x, level, first = plan.across[corner, None], plan.height[corner, None], plan.first[:-1]
+    low, high = np.minimum.reduceat(plan.height, first), np.maximum.reduceat(plan.height, first)
+    right = np.maximum.reduceat(plan.across, first)
+    is_met = (low <= level) & (level < high) & (plan.left < x)
+    is_met &= plan.group != plan.group[plan.joined.loop[corner], None]
+    beyond = np.where(is_met & (right < x), plan.left, -np.inf).max(axis=1, keepdims=True)
+    ray, loop = (is_met & (right >= beyond)).nonzero()
+    return ray, loop
+
+
 def _all_at_heights(plan: _Plan, corner: Ints) -> tuple[Ints, Ints]:
     """Return all edges that pass heights of vertices: (place among these, edge) of each."""
     is_low = plan.height <= plan.height[corner, None]
     ray, edge = (is_low[:, :-1] != is_low[:, 1:]).nonzero()
     return ray, edge
+
+
+def _of_loops_at_heights(plan: _Plan, corner: Ints, ray: Ints, loop: Ints) -> tuple[Ints, Ints]:
+    """Return all edges of some loops that pass heights of vertices: (place among these, edge) of each."""
+    size = plan.first[loop + 1] - plan.first[loop] - 1
+    edge = plan.first[loop].repeat(size) + count_each(size)
+    level = plan.height[corner[ray]].repeat(size)
+    passing = np.flatnonzero((plan.height[edge] <= level) != (plan.height[edge + 1] <= level))
+    return ray.repeat(size)[passing], edge[passing]
 
 
 def _near_at_heights(plan: _Plan, boxes: _Boxes, corner: Ints, end: Floats) -> tuple[Ints, Ints]:
@@ -325,7 +377,8 @@ def _first_met(plan: _Plan, corner: Ints, ray: Ints, edge: Ints) -> tuple[Ints, 
 
     It is not further to the left than that place, which is −∞ if the ray met nothing.
     """
-    others = (plan.group[edge] != plan.group[corner[ray]]) & ~plan.joined.is_jump[edge]
+    group = plan.group[plan.joined.loop[np.stack([edge, corner[ray]])]]
+    others = (group[0] != group[1]) & ~plan.joined.is_jump[edge]
     ray, edge = ray[others], edge[others]
     if plan.exact is not None:
         return _exactly_first(plan, corner, ray, edge, np.arange(len(corner))), np.full(len(corner), np.inf)

@@ -15,7 +15,7 @@ from plyfold.core.buffers import flat
 from plyfold.core.cells import walk_cells
 from plyfold.errors import GaussCodeError
 from plyfold.graphs import components
-from plyfold.ragged import count_each, starts_of
+from plyfold.ragged import count_each
 
 __all__ = [
     "borders_at_visits",
@@ -80,10 +80,11 @@ def borders_at_visits(first_visit: Ints) -> tuple[Ints, Ints]:
     if len(first_visit) == 2:  # one loop: as below, in a fifth of the time
         after = np.arange(first_visit[1])
         return (after - 1) % max(len(after), 1), after
-    first, visits = first_visit[:-1], np.diff(first_visit)
-    after = np.arange(first_visit[-1]) + np.repeat(starts_of(np.maximum(visits, 1)) - first, visits)
-    before = after - 1
-    before[first[visits > 0]] += visits[visits > 0]
+    first, visits = first_visit[:-1], first_visit[1:] - first_visit[:-1]
+    lonely = visits == 0
+    after = np.arange(first_visit[-1]) + (lonely.cumsum() - lonely).repeat(visits)
+    before, crossed = after - 1, visits > 0
+    before[first[crossed]] += visits[crossed]
     return before, after
 
 
@@ -104,7 +105,7 @@ def next_darts(partner: Ints, ccw: Bools, first_visit: Ints | None = None) -> In
     return following
 
 
-def cell_boundaries(following: Ints, outer: int) -> tuple[Ints, Ints]:
+def cell_boundaries(following: Ints, outer: int) -> tuple[Ints, Ints, Ints]:
     """Return the orbits around all cells, that of the unbounded one first, the others by their lowest darts.
 
     Where loops hang together they are the boundaries of the cells; otherwise cells have several, which
@@ -122,14 +123,16 @@ def cell_boundaries(following: Ints, outer: int) -> tuple[Ints, Ints]:
     cell_start : (cells + 1,) int
     cell_darts : (darts,) int
         The boundary of cell c is ``cell_darts[cell_start[c]:cell_start[c + 1]]``: its darts in order, the lowest first.
+    cell_of_dart : (darts,) int
 
     Notes
     -----
     O(darts).
     """
     darts, start = np.empty((2, len(following)), dtype=np.int64)
-    cells = walk_cells(flat(following), outer, flat(darts), flat(start), flat(np.full(len(following), -1)))
-    return np.append(start[:cells], len(following)), darts
+    cell = np.full(len(following), -1)
+    cells = walk_cells(flat(following), outer, flat(darts), flat(start), flat(cell))
+    return np.concatenate([start[:cells], [len(following)]]), darts, cell
 
 
 def joined_cells(cycle_start: Ints, cycle_darts: Ints, same_cell: Ints) -> tuple[Ints, Ints]:
@@ -194,9 +197,9 @@ def windings_of_loops(partner: Ints, ccw: Bools, first_visit: Ints, outside: Int
 def _along_each_loop(ccw: Bools, first_visit: Ints, after: Ints) -> Ints:
     """Return the winding number on the left of each border, less that of its loop's first border."""
     passed = np.cumsum(np.where(ccw, -1, 1))
-    visits = np.diff(first_visit)
-    along = np.zeros(int(np.maximum(visits, 1).sum()), dtype=np.int64)
-    along[after] = passed - np.repeat(passed[first_visit[:-1][visits > 0]], visits[visits > 0])
+    visits = first_visit[1:] - first_visit[:-1]
+    along, crossed = np.zeros(int(np.maximum(visits, 1).sum()), dtype=np.int64), visits > 0
+    along[after] = passed - passed[first_visit[:-1][crossed]].repeat(visits[crossed])
     return along
 
 
@@ -223,7 +226,7 @@ def left_windings(ccw: Bools, outer: int) -> Ints:
     Past a crossing the curve leaves the left side of the other strand if that one crosses from right to left (one
     less), and enters it otherwise (one more).
     """
-    relative = np.cumsum(np.where(ccw, -1, 1)) if len(ccw) else np.zeros(1, dtype=np.int64)
+    relative = np.where(ccw, -1, 1).cumsum() if len(ccw) else np.zeros(1, dtype=np.int64)
     border, backward = divmod(outer, 2)
     return np.asarray(relative - relative[border] + backward, dtype=np.int64)
 

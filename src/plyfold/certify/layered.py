@@ -225,13 +225,16 @@ def _require_apart(a: Ints, b: Ints, places: ExactPlaces) -> Bools:
 
     Two convex polygons without common inner points are separated by the line of a side of one of them. If moreover
     neither has a corner in the other, except common ones, they have nothing in common but these and what is between.
+    Where b is clear of a side of a, that is so at once.
     """
-    apart_ab, entered_ab, doubt_ab = _separated(a, b, places)
-    apart_ba, entered_ba, doubt_ba = _separated(b, a, places)
-    bad = ~(apart_ab | apart_ba) | entered_ab | entered_ba
+    clear, apart, entered, doubt = _separated(a, b, places)
+    near = np.flatnonzero(~clear)
+    _, apart_ba, entered_ba, doubt_ba = _separated(b[near], a[near], places)
+    bad = ~(apart[near] | apart_ba) | entered[near] | entered_ba
     if bad.any():
-        raise CertificateError("seen from above, triangles overlap in part", where=places.near[a[np.argmax(bad)]])
-    return np.asarray(doubt_ab | doubt_ba)
+        raise CertificateError("seen from above, triangles overlap in part", where=places.near[a[near[np.argmax(bad)]]])
+    doubt[near] |= doubt_ba
+    return doubt & ~clear
 
 
 def _pairs_with_common_boxes(low: Floats, high: Floats) -> Iterator[tuple[Ints, Ints]]:
@@ -253,20 +256,26 @@ def _pairs_with_common_boxes(low: Floats, high: Floats) -> Iterator[tuple[Ints, 
             yield first[some], second[some]
 
 
-def _separated(a: Ints, b: Ints, places: ExactPlaces) -> tuple[Bools, Bools, Bools]:
+def _separated(a: Ints, b: Ints, places: ExactPlaces) -> tuple[Bools, Bools, Bools, Bools]:
     """Tell whether a side of triangle a has all of b on its right, and whether a corner of b alone lies in a.
 
-    And where this may be otherwise for the doubles near by.
+    Before that, whether b is clear of a side: all its corners but the side's own ends lie beyond the line, and as well
+    if they are the doubles near by. Last, where anything may be otherwise for these.
     """
     start, end = a[:, :, None], np.roll(a, -1, axis=1)[:, :, None]
     corner = b[:, None, :]
-    sign = np.zeros((len(a), 3, 3), dtype=np.int8)
-    pair, side, which = np.nonzero((corner != start) & (corner != end))
+    sign, doubt = np.zeros((len(a), 3, 3), dtype=np.int8), np.zeros((len(a), 3, 3), dtype=bool)
+    is_other = (corner != start) & (corner != end)
+    pair, side, which = np.nonzero(is_other)
     p, q, r = a[pair, side], end[pair, side, 0], b[pair, which]
-    sign[pair, side, which], doubt = places.cross_sign_and_doubt(p, q, p, r)
-    doubtful = np.zeros(len(a), dtype=bool)
-    doubtful[pair[doubt]] = True
+    sign[pair, side, which], doubt[pair, side, which] = places.cross_sign_and_doubt(p, q, p, r)
     common = (corner == start).any(axis=1)
+    clear: Bools = np.all(((sign < 0) & ~doubt) | ~is_other, axis=2)
     on_right: Bools = np.all(sign <= 0, axis=2)
     entered: Bools = np.all(sign >= 0, axis=1) & ~common
-    return np.asarray(on_right.any(axis=1)), np.asarray(entered.any(axis=1)), doubtful
+    doubtful: Bools = np.any(doubt, axis=2)
+    return _any_side(clear), _any_side(on_right), _any_side(entered), _any_side(doubtful)
+
+
+def _any_side(found: Bools) -> Bools:
+    return np.asarray(found.any(axis=1))

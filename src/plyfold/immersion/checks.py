@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from plyfold.arrays import Ints
+from plyfold.graphs import members_of
 from plyfold.immersion.corners import NO_SEAM, corners, corners_at_feet
 from plyfold.ragged import count_each, starts_of
 
@@ -179,8 +180,8 @@ def _euler_by_loops(immersion: Immersion) -> dict[tuple[int, ...], int]:
     total -= counted(piece[over(cells[arrangement.border_after[visits]])])
     at_cusps = piece[immersion.own_sheet[arrangement.border_after[cusps]]]
     total -= counted(np.repeat(at_cusps, arrangement.cusp_index[cusps]))
-    loops = immersion.piece_of_loop
-    return {tuple(np.flatnonzero(loops == number).tolist()): int(value) for number, value in enumerate(total)}
+    loops = members_of(immersion.piece_of_loop)
+    return {tuple(loops.get(number, ())): value for number, value in enumerate(total.tolist())}
 
 
 def _sheets_over(immersion: Immersion, cells: Ints) -> Ints:

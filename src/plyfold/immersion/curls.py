@@ -115,7 +115,7 @@ def _cells(arrangement: Arrangement, border: Ints) -> tuple[Ints, Ints]:
 
 def _boundaries(following: Ints, outer: int, cell_of_dart: Ints) -> tuple[Ints, Ints]:
     """Return the boundaries of cells that have numbers already, cycles by their lowest darts."""
-    start, darts = cell_boundaries(following, outer)
+    start, darts, _ = cell_boundaries(following, outer)
     return cycles_by_cell(start, darts, cell_of_dart[darts[start[:-1]]])
 
 

@@ -25,7 +25,7 @@ from plyfold.immersion.sewing import glue_sheets
 from plyfold.immersion.word import write_word
 from plyfold.obstruction import Obstruction
 
-__all__ = ["Disks", "count_disks", "find_disks", "list_disks", "no_grouping", "nth_disk"]
+__all__ = ["Disks", "bounds_disks", "count_disks", "find_disks", "list_disks", "no_grouping", "nth_disk"]
 
 # Above this many ascending links, the conflict that an obstruction names is not made minimal.
 _MINIMISE_UP_TO = 300
@@ -46,6 +46,12 @@ def find_disks(arranged: Arrangement, watch: Watch = UNWATCHED) -> Disks | None:
     tree = grow_dual_tree(search_map.map)
     groupings = find_groupings(write_word(tree), watch)
     return Disks(search_map, tree, groupings) if isinstance(groupings, Groupings) else None
+
+
+def bounds_disks(arranged: Arrangement) -> bool:
+    """Tell whether a curve without a visible obstruction bounds a disk: its word tells, wherever it begins."""
+    word = write_word(grow_dual_tree(draw_out_cusps(arranged).arrangement))
+    return isinstance(find_groupings(word), Groupings)
 
 
 def list_disks(disks: Disks, watch: Watch = UNWATCHED) -> Iterator[Immersion]:

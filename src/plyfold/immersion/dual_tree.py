@@ -22,7 +22,7 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.core.buffers import all_flat
-from plyfold.core.cells import join_lakes
+from plyfold.core.cells import join_lakes, sum_down
 from plyfold.graphs import end_of_path
 
 __all__ = ["DualTree", "around_cells", "grow_dual_tree", "grow_tree"]
@@ -143,9 +143,14 @@ def _flood(arrangement: Arrangement) -> _Lakes:
     pit = end_of_path(drain)
     saddles = _join_lakes(arrangement, pit)
     parent, tree_link = drain.copy(), link.copy()
-    for cell, beyond, border in [(0, 0, -1), *saddles]:
+    turned: list[int] = []
+    above: list[int] = []
+    for cell, beyond, _ in [(0, 0, -1), *saddles]:
         way = [cell, *_drains(drain, cell)]
-        parent[way], tree_link[way] = [beyond, *way[:-1]], [border, *link[way[:-1]]]
+        turned += way
+        above += [beyond, *way[:-1]]
+    parent[turned], tree_link[turned] = above, link[above]
+    tree_link[[0, *(cell for cell, _, _ in saddles)]] = [-1, *(border for _, _, border in saddles)]
     return _Lakes(drain, link, pit, saddles, parent, tree_link)
 
 
@@ -227,10 +232,7 @@ def _sums_behind(arrangement: Arrangement, lakes: _Lakes, value: Ints) -> Ints:
 def _sum_down_the_drains(arrangement: Arrangement, lakes: _Lakes, behind: Ints) -> None:
     """Add to every cell, in place, what drains into it; a cell drains into one with winding number one lower."""
     highest_first = np.argsort(-arrangement.winding, kind="stable")
-    levels = np.flatnonzero(np.diff(arrangement.winding[highest_first])) + 1
-    for level in np.split(highest_first, levels):
-        draining = level[lakes.drain_link[level] >= 0]
-        np.add.at(behind, lakes.drain[draining], behind[draining])
+    sum_down(*all_flat(highest_first, lakes.drain, behind))
 
 
 def _bends(

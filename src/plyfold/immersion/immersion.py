@@ -14,7 +14,7 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints, freeze
 from plyfold.errors import InputError, NotImmersibleError, PlyfoldError
-from plyfold.graphs import components
+from plyfold.graphs import components, members_of
 from plyfold.immersion.checks import conditions
 from plyfold.memory import require_memory
 from plyfold.obstruction import Obstruction
@@ -187,10 +187,7 @@ class Immersion:
         In the order of their first curves. What these are together is what the outline bounds, if only as a limit.
         Cost: O(Σ w).
         """
-        turns = loop_characteristics(self.arrangement)
-        loops_of: dict[int, list[int]] = {}
-        for loop, piece in enumerate(self.piece_of_loop.tolist()):
-            loops_of.setdefault(piece, []).append(loop)
+        turns, loops_of = loop_characteristics(self.arrangement), members_of(self.piece_of_loop)
         return tuple(Piece(tuple(loops), sum(turns[loop] for loop in loops)) for loops in loops_of.values())
 
     @property
@@ -251,9 +248,7 @@ class Immersion:
            Sketch-Based Interfaces and Modeling, 2011.
         """
         require_disk(self)
-        borders_of: dict[int, list[int]] = {}
-        for border, sheet in enumerate(self.own_sheet.tolist()):
-            borders_of.setdefault(sheet, []).append(border)
+        borders_of = members_of(self.own_sheet)
         return tuple(Group(s, int(self.sheet_cell[s]), tuple(borders)) for s, borders in borders_of.items())
 
     def check(self) -> None:

@@ -119,13 +119,13 @@ def impossible_turning(arranged: Arrangement, connected: bool = False) -> Obstru
     So c loops bound something only if they turn c times, or less by an even number; one piece, if 2 − c times, or less.
     """
     turns, cluster = np.array(loop_characteristics(arranged)), clusters_of_loops(arranged)
-    for number in range(int(cluster.max()) + 1):
-        members = np.flatnonzero(cluster == number)
-        chi, loops = int(turns[members].sum()), len(members)
-        if chi > (2 - loops if connected else loops) or (loops - chi) % 2:
-            sentence = _turning_in_words(arranged, members, connected)
-            return Obstruction("turning number", sentence, place_of_turning(arranged), chi, arranged)
-    return None
+    loops, chi = np.bincount(cluster), np.zeros(int(cluster.max()) + 1, dtype=np.int64)
+    np.add.at(chi, cluster, turns)
+    wrong = np.flatnonzero((chi > (2 - loops if connected else loops)) | ((loops - chi) % 2 == 1))
+    if not len(wrong):
+        return None
+    sentence = _turning_in_words(arranged, np.flatnonzero(cluster == wrong[0]), connected)
+    return Obstruction("turning number", sentence, place_of_turning(arranged), int(chi[wrong[0]]), arranged)
 
 
 def _turning_in_words(arranged: Arrangement, members: Ints, connected: bool) -> str:

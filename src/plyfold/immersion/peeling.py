@@ -147,6 +147,8 @@ def peel(seams: OutlineSeams, chosen: Mapping[int, int] | None = None) -> Peeled
         own[list(chosen.keys())] = list(chosen.values())
     ports = int(seams.start[-1])
     upper, port, because = np.full((3, ports), UNKNOWN)
+    if seams.size.max(initial=0) <= 1:  # no two sheets lie over each other
+        return Peeled(np.zeros_like(upper), np.zeros_like(port), because, UNKNOWN)
     state = _state(seams, own, Found(flat(upper), flat(port), flat(because), UNKNOWN))
     close_rings(state)
     return Peeled(upper, port, because, state.found.failed)

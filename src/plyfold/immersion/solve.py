@@ -19,7 +19,7 @@ from plyfold.arrangement.ways import ways_apart
 from plyfold.clock import UNWATCHED, Clock, Watch
 from plyfold.errors import InputError, TimeLimitError
 from plyfold.immersion.contradiction import no_gluing
-from plyfold.immersion.disks import count_disks, find_disks, list_disks, no_grouping, nth_disk
+from plyfold.immersion.disks import bounds_disks, count_disks, find_disks, list_disks, no_grouping, nth_disk
 from plyfold.immersion.immersion import Immersion
 from plyfold.immersion.obstructions import (
     is_visibly_no_disk,
@@ -256,7 +256,7 @@ def bounds_disk(curve: OutlineLike, touching: bool = True) -> bool:
 
 
 def _bounds_disk(arranged: Arrangement) -> bool:
-    return not is_visibly_no_disk(arranged) and find_disks(arranged) is not None
+    return not is_visibly_no_disk(arranged) and bounds_disks(arranged)
 
 
 def bounds_strictly(arranged: Arrangement) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate
 from typing import TypeAlias, TypeVar
 
 import numpy as np
@@ -112,7 +113,7 @@ class Outline:
         """Number of closed curves."""
         return len(self.loops)
 
-    @property
+    @cached_property
     def has_cusps(self) -> bool:
         """Whether some point is a cusp."""
         return any(index.any() for index in self.cusps)
@@ -120,7 +121,7 @@ class Outline:
     @cached_property
     def first_point(self) -> Ints:
         """The number of each loop's first point, and last the number of all points, shape (loops + 1,)."""
-        return np.cumsum([0, *map(len, self.loops)])
+        return np.array([0, *accumulate(map(len, self.loops))])
 
     @cached_property
     def next_point(self) -> Ints:

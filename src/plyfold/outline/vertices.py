@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrays import Floats, Ints
+from plyfold.core.signs import exact_sign
 from plyfold.errors import CurveError, InputError
 from plyfold.outline.points import Repair, as_planar_points
 from plyfold.predicates import orient
@@ -121,14 +122,17 @@ def _vertex_of_row(vertices: Vertices, count: int) -> Ints:
 
 
 def _without_closing_point(points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    closed = len(points) > 1 and np.array_equal(points[0], points[-1])
-    return points[:-1] if closed else points
+    return points[:-1] if len(points) > 1 and _ends_where_it_begins(points) else points
+
+
+def _ends_where_it_begins(points: npt.NDArray[np.float64]) -> bool:
+    return bool(points[:1].tolist() == points[-1:].tolist())
 
 
 def _fresh_rows(points: npt.NDArray[np.float64]) -> npt.NDArray[np.int64]:
     """Return the first row of each run of equal points; a run across the end belongs to the first point."""
     x, y = points.T
-    if not ((x[1:] == x[:-1]) & (y[1:] == y[:-1])).any() and not np.array_equal(points[:1], points[-1:]):
+    if not ((x[1:] == x[:-1]) & (y[1:] == y[:-1])).any() and not _ends_where_it_begins(points):
         return np.arange(len(points))
     fresh = (points != np.roll(points, 1, axis=0)).any(axis=1)
     fresh[:1] = True
@@ -161,7 +165,9 @@ def _has_a_corner(points: npt.NDArray[np.float64]) -> bool:
     """Tell whether one of the first points, or the one that seems farthest, is off the line through the first two."""
     if len(points) < 3:
         return False
-    if orient(points[0], points[1], points[2:6]).any():
+    # One sign of doubles is sooner found without arrays, and mostly the first one tells.
+    first, second, *others = points[:6].tolist()
+    if any(exact_sign(*first, *second, *first, *other) for other in others):
         return True
     x, y = (points - points[0]).T
     farthest = int(np.abs(x[1] * y - y[1] * x).argmax())
