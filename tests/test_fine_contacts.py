@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 import plyfold as pf
 from nightly.contacts import without_touches
 from plyfold.certify import check_pieces
-from plyfold.errors import CurveError
+from plyfold.errors import CurveError, PrecisionError
+from plyfold.mesh.strips import strips_of
 from plyfold.report import verdict
 from reference.contacts import answer, positions, random_touching_loops, random_touching_with_cusps
 from reference.crossings import crossings_between
@@ -163,6 +164,57 @@ def test_the_arrangement_and_its_first_immersion_move_along_with_the_points(poin
         if found:
             assert np.array_equal(pf.find_immersion(other).gluing, found.gluing)
             assert np.array_equal(pf.triangulate(changed), pf.triangulate(points))
+
+
+# Nodes lie nearer to each other than 64 roundings of coordinates, and the strands cross at angles of next to nothing.
+NEAR_NODES = [
+    [
+        (2**34, 2**33),
+        (2**34 + 1, 2**34),
+        (2**34, 2**34),
+        (2**34, 2**33),
+        (2**33, 2**33),
+        (2**34 + 1, 2**34 + 1),
+        (0, 2**33),
+    ],
+    [(0, 2**49 + 1), (2**48, -1), (2**48, 2**49 - 1), (0, 2**49), (2**48, 2**48 - 1), (2**48, 1)],
+]
+
+
+def borders(points):
+    """What an outline's borders on its given points are: their numbers do not depend on where it lies."""
+    strips = strips_of(pf.arrange(points))
+    return [array.tolist() for array in (strips.strands.half_edge, strips.moved_border, strips.order, strips.cell)]
+
+
+@pytest.mark.parametrize("points", CROWDED + NEAR_NODES)
+def test_borders_on_the_given_points_move_along_with_them(points):
+    for changed in moved_along(points):
+        assert borders(changed) == borders(points)
+
+
+@settings(max_examples=40, deadline=None)
+@given(near_coincident().filter(lambda points: are_loops([points])))
+def test_near_coincident_borders_move_along(points):
+    if answer(points) is not None and pf.arrange(points).begun is not None:
+        for changed in moved_along(points):
+            assert borders(changed) == borders(points)
+
+
+def test_near_nodes_lift_everywhere():
+    for points in [NEAR_NODES[0], *moved_along(NEAR_NODES[0])]:
+        lifted = pf.lift(points)
+        a, b, c = lifted.vertices[lifted.faces, :2].swapaxes(0, 1) - np.array(points[0])
+        double_areas = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+        assert double_areas.sum() == pytest.approx(double_area(points), rel=1e-6)
+
+
+def test_nodes_that_round_to_one_double_are_named():
+    lifted = pf.lift(NEAR_NODES[1])
+    assert len(lifted.faces)
+    with pytest.raises(PrecisionError, match="rounded to double precision") as caught:
+        pf.lift(next(moved_along(NEAR_NODES[1])))
+    assert len(caught.value.where)
 
 
 @pytest.mark.parametrize("exponent", [-400, -52, 7, 300])

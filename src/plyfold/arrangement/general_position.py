@@ -108,11 +108,14 @@ class InContact:
         What is left of it without its spikes; the same one if it has none.
     kept : (points,) int
         The numbers of those points.
+    contacts : Contacts
+        The crossings and touches of the outline with its spikes.
     """
 
     outline: Outline
     left: Outline
     kept: Ints
+    contacts: Contacts
 
     @cached_property
     def noding(self) -> Noding:
@@ -164,7 +167,7 @@ def without_contacts(
             return GeneralPosition(outline, outline, np.arange(len(outline)), joined, visits, None)
         if policy == "raise":
             raise _not_general(outline, contacts, visits)
-    return InContact(outline, *without_spikes(outline))
+    return InContact(outline, *without_spikes(outline), contacts)
 
 
 def moved_apart(found: InContact, watch: Watch = UNWATCHED) -> GeneralPosition:
@@ -203,7 +206,7 @@ def _directed(found: InContact, watch: Watch) -> GeneralPosition:
     """Turn an outline round if its surface lies on the right, and move its points outward."""
     outline = found.left
     if not winds_backward(outline, found.noding):
-        return separated(outline, 1, watch)
+        return separated(outline, 1, watch, contacts=found.contacts if outline is found.outline else None)
     numbers = backward_numbers(outline.first_point)
     parts = (
         outline.points[numbers],
@@ -240,7 +243,9 @@ class _Moves(NamedTuple):
     vectors: Floats
 
 
-def separated(given: Outline, sense: int, watch: Watch = UNWATCHED, way: int = 0) -> GeneralPosition:
+def separated(
+    given: Outline, sense: int, watch: Watch = UNWATCHED, way: int = 0, contacts: Contacts | None = None
+) -> GeneralPosition:
     """Return an outline with its points in contact moved outward (``sense`` 1) or inward (−1), as little as need be.
 
     Parameters
@@ -251,6 +256,8 @@ def separated(given: Outline, sense: int, watch: Watch = UNWATCHED, way: int = 0
     watch : Watch, optional
     way : int, optional
         Which one to take of several ways, if there are some: from 0 up to :func:`number_of_ways`.
+    contacts : Contacts, optional
+        The crossings and touches of the outline, if they are known.
 
     Notes
     -----
@@ -258,7 +265,7 @@ def separated(given: Outline, sense: int, watch: Watch = UNWATCHED, way: int = 0
     same immersions. But only if all of them, or all but two, move outward, all sheets there have a cell in common, so
     that they lie over it in one order, as they must over the single point.
     """
-    touching = _Touching(given, meetings(_joined(given), watch), sense, watch)
+    touching = _Touching(given, contacts or meetings(_joined(given), watch), sense, watch)
     stays, moves = _points_to_move(given, touching.contacts, way)
     scatter = 0
     while scatter < _ATTEMPTS:

@@ -16,7 +16,7 @@ from functools import cached_property
 
 import numpy as np
 
-from plyfold.arrangement.crossings import Contacts, Visits
+from plyfold.arrangement.crossings import Contacts, Visits, distinct_pairs
 from plyfold.arrays import Bools, Floats, Fractions, Ints, Signs, Wholes
 from plyfold.predicates import exact_parameter, orient, parameter_along_edge, signs_of, whole_numbers
 
@@ -30,6 +30,8 @@ __all__ = [
     "signed_pairs",
 ]
 
+_EPSILON, _TINY = float(np.finfo(np.float64).eps), float(np.finfo(np.float64).tiny)
+
 
 @dataclass(frozen=True, eq=False)
 class MovingPoints:
@@ -38,6 +40,8 @@ class MovingPoints:
     Parameters
     ----------
     points : (n, 2) float
+    velocity : (n, 2) float
+        Along which vectors they move, in any unit in which x and y are at most 1, rounded.
     moved : (n, 2) object
         The points moved by infinitely little, seen from the first one of ``points``, in whole numbers of ``unit``.
     unit : Fraction
@@ -46,6 +50,7 @@ class MovingPoints:
     """
 
     points: Floats
+    velocity: Floats
     moved: Wholes
     unit: Fraction
     next_point: Ints
@@ -73,7 +78,8 @@ def begin_to_move(points: Floats, vectors: Wholes, next_point: Ints) -> MovingPo
     largest = max(int(np.abs(numbers).max()) for numbers in (places, vectors))
     # Differences of two numbers have a bit more.
     shift = 5 * (largest.bit_length() + 1) + 151
-    return MovingPoints(points, (places << shift) + vectors, unit * Fraction(2) ** (cut - shift), next_point)
+    velocity = (vectors / max(int(np.abs(vectors).max()), 1)).astype(np.float64)
+    return MovingPoints(points, velocity, (places << shift) + vectors, unit * Fraction(2) ** (cut - shift), next_point)
 
 
 def _without_zeros(numbers: Wholes) -> tuple[Wholes, int]:
@@ -114,17 +120,35 @@ def _touching_pairs(touches: Ints, next_point: Ints) -> Ints:
     previous[next_point] = np.arange(len(next_point))
     rows = np.concatenate([np.stack([previous[vertex], edge], axis=1), touches])
     rows = rows[(rows[:, 0] != rows[:, 1]) & (next_point[rows] != rows[:, ::-1]).all(axis=1)]
-    return np.unique(np.sort(rows, axis=1), axis=0)
+    return distinct_pairs(np.sort(rows, axis=1), len(next_point))
 
 
 def _sides(motion: MovingPoints, edge: Ints, other: Ints) -> Signs:
     """Return on which side of each edge the other one starts and ends, shape (m, 2)."""
-    start, end = edge[:, None], motion.next_point[edge][:, None]
-    there = np.stack([other, motion.next_point[other]], axis=1)
-    side = orient(*(motion.points[at] for at in (start, end, there)))
-    row, column = np.nonzero(side == 0)
-    a, b, c = (motion.moved[at] for at in (start[row, 0], end[row, 0], there[row, column]))
-    side[row, column] = signs_of(_cross(b - a, c - a))
+    there = np.stack([other, motion.next_point[other]], axis=1).ravel()
+    start, end = np.repeat(np.stack([edge, motion.next_point[edge]]), 2, axis=1)
+    place, side = np.ascontiguousarray(motion.points).view(np.complex128).ravel(), np.zeros(len(there), dtype=np.int8)
+    # Most that meet in crowded places have an end in common.
+    apart = np.flatnonzero((place[there] != place[start]) & (place[there] != place[end]))
+    side[apart] = orient(*(motion.points[at[apart]] for at in (start, end, there)))
+    touching = np.flatnonzero(side == 0)
+    side[touching] = _sides_begun(motion, *(at[touching] for at in (start, end, there)))
+    return side.reshape(-1, 2)
+
+
+def _sides_begun(motion: MovingPoints, a: Ints, b: Ints, c: Ints) -> Signs:
+    """Return on which side of edges from a to b the points c come to lie that were on their lines.
+
+    What decides is how the product (b − a) × (c − a) begins to grow; if that is near 0, the points that have moved.
+    """
+    step, away = (motion.points[to] - motion.points[a] for to in (b, c))
+    turn, drift = (motion.velocity[to] - motion.velocity[a] for to in (b, c))
+    growth = turn[:, 0] * away[:, 1] - turn[:, 1] * away[:, 0] + step[:, 0] * drift[:, 1] - step[:, 1] * drift[:, 0]
+    # No velocity is above 1 in x or y, and they are rounded; so are all sums and products.
+    error = 16 * _EPSILON * (np.abs(step) + np.abs(away)).sum(axis=1) + _TINY * (1 + np.abs(motion.points).max())
+    side, unsure = np.sign(growth).astype(np.int8), ~(np.abs(growth) > error)
+    p, q, r = (motion.moved[at[unsure]] for at in (a, b, c))
+    side[unsure] = signs_of(_cross(q - p, r - p))
     return side
 
 

@@ -15,6 +15,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from plyfold.arrangement.crossings import distinct_numbers
 from plyfold.arrays import Bools, Floats, Ints, Signs, freeze
 from plyfold.errors import PrecisionError
 from plyfold.graphs import components, spanning_tree
@@ -414,7 +415,7 @@ def _cut_at_nodes(lines: _Lines, meetings: _Meetings, rounded: _Rounded) -> tupl
     at = np.concatenate(
         [np.arange(2 * n), meetings.other + n * meetings.other_end, *[2 * n + np.arange(len(crossing))] * 2]
     )
-    edge, place = np.divmod(np.unique(edge * number + node[at]), number)
+    edge, place = np.divmod(distinct_numbers(edge * number + node[at]), number)
     inside = np.flatnonzero(edge[1:] == edge[:-1])
     part, first, which = np.unique(place[inside] * number + place[inside + 1], return_index=True, return_inverse=True)
     times = np.zeros(len(part), dtype=np.int64)

@@ -14,12 +14,12 @@ from typing import cast
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrays import Floats, Fractions, Ints
+from plyfold.arrays import Fractions, Ints
 from plyfold.immersion.corners import feet
 from plyfold.outline.curve import Outline, outline_of_points
 from plyfold.predicates import exact_crossings
 
-__all__ = ["drawings_of"]
+__all__ = ["drawings_of", "exact_visits"]
 
 
 def drawings_of(arrangement: Arrangement) -> Iterator[Arrangement]:
@@ -34,32 +34,38 @@ def drawings_of(arrangement: Arrangement) -> Iterator[Arrangement]:
     """
     yield arrangement
     if arrangement.begun is not None and not arrangement.is_begun:
-        yield _as_begun(arrangement, arrangement.begun)
+        yield _as_begun(arrangement)
 
 
-def _as_begun(arrangement: Arrangement, begun: Fractions) -> Arrangement:
+def _as_begun(arrangement: Arrangement) -> Arrangement:
     outline, given = cast("Outline", arrangement.outline), cast("Outline", arrangement.given)
     cusps = np.concatenate(outline.cusps)
     drawn = outline_of_points(given.points, given.loop_of_point, cusps, given.rows, outline.repairs)
-    crossings, marks = _crossings(arrangement, begun, outline.next_point), _marks(arrangement, begun, drawn)
+    visits = np.arange(len(arrangement.partner))
+    which = visits < arrangement.partner, visits == arrangement.partner
+    crossings, marks = (exact_visits(arrangement, visits[some]).astype(np.float64) for some in which)
     return replace(arrangement, outline=drawn, crossings=crossings, marks=marks)
 
 
-def _crossings(arrangement: Arrangement, begun: Fractions, next_point: Ints) -> Floats:
-    """Return where edges cross that have begun to move, rounded."""
-    first = np.flatnonzero(np.arange(len(arrangement.partner)) < arrangement.partner)
-    edge, other = arrangement.visit_edge[first], arrangement.visit_edge[arrangement.partner[first]]
-    ends = begun[np.stack([edge, next_point[edge], other, next_point[other]])]
-    return np.array([exact_crossings(ends, axis) for axis in (0, 1)], dtype=np.float64).reshape(2, -1).T
+def exact_visits(arrangement: Arrangement, visits: Ints) -> Fractions:
+    """Return where some visits, in order, are when points have begun to move, shape (m, 2).
 
-
-def _marks(arrangement: Arrangement, begun: Fractions, drawn: Outline) -> Floats:
-    """Return where cusps and the feet of bridges are when points have begun to move, rounded."""
-    is_mark = arrangement.crossing_of_visit < 0
-    point = drawn.points[arrangement.visit_edge]
-    corner, foot = feet(arrangement).reshape(2, -1)
-    edge = arrangement.visit_edge[foot]
-    start, end, height = begun[edge], begun[drawn.next_point[edge]], begun[arrangement.visit_edge[corner], 1]
-    point[foot, 0] = start[:, 0] + (height - start[:, 1]) / (end[:, 1] - start[:, 1]) * (end[:, 0] - start[:, 0])
-    point[foot, 1] = height
-    return np.asarray(point[is_mark])
+    Examples
+    --------
+    >>> from plyfold import arrange
+    >>> pinched = arrange([(0, 0), (4, 0), (4, 2), (2, 2), (2, 1), (3, 1), (3, 2), (0, 2)])
+    >>> exact_visits(pinched, pinched.crossing_visits).shape == (len(pinched.crossing_visits), 2)
+    True
+    """
+    begun, next_point = cast("Fractions", arrangement.begun), cast("Outline", arrangement.outline).next_point
+    edge, other = arrangement.visit_edge[np.stack([visits, arrangement.partner[visits]])]
+    places, crosses = begun[edge], edge != other
+    ends = begun[np.stack([edge, next_point[edge], other, next_point[other]])[:, crosses]]
+    for axis in (0, 1):
+        places[crosses, axis] = exact_crossings(ends, axis)
+    corner, foot = feet(arrangement).reshape(2, -1)[:, np.isin(feet(arrangement)[len(arrangement.bridges) :], visits)]
+    start, end = begun[arrangement.visit_edge[foot]], begun[next_point[arrangement.visit_edge[foot]]]
+    height, at = begun[arrangement.visit_edge[corner], 1], np.searchsorted(visits, foot)
+    places[at, 0] = start[:, 0] + (height - start[:, 1]) / (end[:, 1] - start[:, 1]) * (end[:, 0] - start[:, 0])
+    places[at, 1] = height
+    return np.asarray(places)

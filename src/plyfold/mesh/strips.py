@@ -10,6 +10,7 @@ none, it ends; and a sheet over thin cells alone is gone.
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import cast
@@ -18,17 +19,19 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.noding import Strands, exact_ranks, strands_of
-from plyfold.arrays import Bools, Complexes, Floats, Ints, Reals, freeze
+from plyfold.arrays import Bools, Complexes, Floats, Fractions, Ints, Reals, freeze
 from plyfold.errors import PrecisionError
-from plyfold.mesh.begun import drawings_of
+from plyfold.mesh.begun import drawings_of, exact_visits
 from plyfold.mesh.refine import NodedCurve, borders_passed, is_moved, unit_square
 from plyfold.outline.curve import Outline
+from plyfold.predicates import exact_crossings
 
 __all__ = ["Strips", "as_numbers", "cells_left", "loop_left", "noded_strips", "strips_of", "turns_unseen"]
 
 # Where on a part strands are compared, as shares of its length: at the first one where all are apart.
-_SHARES = (0.4375, 0.59375, 0.296875, 0.71875, 0.515625)
-# Places of crossings are known to within so many roundings of coordinates.
+_SHARES = [0.4375, 0.59375, 0.296875, 0.71875, 0.515625]
+# Where doubles show the moved outline, places of crossings are taken to be known to within so many roundings of
+# coordinates. Where that is wrong, the cells along parts do not agree.
 _ROUNDINGS = 64.0
 
 
@@ -196,14 +199,14 @@ class _Places:
         The edge of the outline.
     axis : (m,) int
         0 if x is given and 1 if y is; in this direction the edge is longer.
-    along : (m,) float
-        What is given.
+    along : (m,) float or object
+        What is given: doubles, or fractions.
     """
 
     row: Ints
     edge: Ints
     axis: Ints
-    along: Floats
+    along: Reals
 
     def of(self, which: Ints) -> _Places:
         return _Places(self.row[which], self.edge[which], self.axis[which], self.along[which])
@@ -211,51 +214,82 @@ class _Places:
 
 def _borders_in_order(arrangement: Arrangement, strands: Strands) -> tuple[Ints, Ints]:
     """Return the arrangement's border at each half-edge of the outline, and all of them part after part, in order."""
-    part = strands.half_edge // 2
+    part, step = strands.half_edge // 2, _steps(strands, _drawn(arrangement.given))
     several = np.bincount(part)[part] > 1
     border, height = np.zeros((2, len(part)), dtype=np.int64)
     left = np.arange(len(part))
-    for share in _SHARES:
-        places = _places(strands, left, share)
+    for share in _shares(arrangement):
+        places = _places(strands, _drawn(arrangement.given), step, left, share)
         border[left], near = _borders_at(arrangement, places)
         beside = np.flatnonzero(several[left])
         height[left[beside]] = _heights(arrangement, places.of(beside))
         near[beside] |= _equal_in_part(part[left[beside]], height[left[beside]])
         left = np.flatnonzero(np.isin(part, part[left[near]]))
         if not len(left):
-            step = _steps(strands)[part]
+            step = step[part]
             # Left of a part that runs up is where x is smaller.
             upward = (np.abs(step[:, 1]) > np.abs(step[:, 0])) & (step[:, 1] > 0)
             return border, np.lexsort((np.where(upward, -height, height), part))
     raise _moved_too_far(strands.noding.points[strands.noding.ends[part[left]]].reshape(-1, 2))
 
 
-def _steps(strands: Strands) -> Floats:
-    """Return how far x and y grow along each part."""
-    start, end = strands.noding.points[strands.noding.ends].swapaxes(0, 1)
-    return np.asarray(end - start)
+def _shares(arrangement: Arrangement) -> list[float] | list[Fraction]:
+    """Return where on parts strands are compared: as fractions, on exact places, where doubles tell too little."""
+    return list(map(Fraction, _SHARES)) if arrangement.is_begun else _SHARES
 
 
-def _places(strands: Strands, row: Ints, share: float) -> _Places:
+def _steps(strands: Strands, given: Outline) -> Floats:
+    """Return how far x and y grow along an edge on which each part lies, from its lower end to its higher one."""
+    part, backward = np.divmod(strands.half_edge, 2)
+    _, row = np.unique(part, return_index=True)
+    edge = _edge_of_rows(strands)[row]
+    step = given.points[given.next_point[edge]] - given.points[edge]
+    return np.asarray(np.where(backward[row, None] == 1, -step, step))
+
+
+def _edge_of_rows(strands: Strands) -> Ints:
+    """Return the edge of the outline that each border on the given points lies on."""
+    return np.repeat(np.arange(len(strands.first) - 1), np.diff(strands.first))
+
+
+def _places(strands: Strands, given: Outline, step: Floats, row: Ints, share: float | Fraction) -> _Places:
     """Return places on borders, where so much of their parts is behind them."""
-    edge = np.repeat(np.arange(len(strands.first) - 1), np.diff(strands.first))
-    part, step = strands.half_edge[row] // 2, _steps(strands)
+    part = strands.half_edge[row] // 2
     axis = (np.abs(step[part, 1]) > np.abs(step[part, 0])).astype(np.int64)
-    start = strands.noding.points[strands.noding.ends[part, 0], axis]
-    return _Places(row, edge[row], axis, start + share * step[part, axis])
+    node, which = np.unique(strands.noding.ends[part], return_inverse=True)
+    nodes = _exact_nodes(strands, given, node) if isinstance(share, Fraction) else strands.noding.points[node]
+    start, end = nodes[which.reshape(-1, 2).T, axis]
+    return _Places(row, _edge_of_rows(strands)[row], axis, start + share * (end - start))
+
+
+def _exact_nodes(strands: Strands, given: Outline, node: Ints) -> Fractions:
+    """Return where some nodes are, shape (m, 2)."""
+    noding, part = strands.noding, strands.half_edge // 2
+    places = np.array([list(map(Fraction, place)) for place in noding.points[node].tolist()], dtype=object)
+    crosses = np.flatnonzero(~noding.is_vertex[node])
+    # Of all the edges through a crossing, the first and the last by direction.
+    at, line, edge = noding.ends[part].ravel(), np.repeat(noding.line[part], 2), np.repeat(_edge_of_rows(strands), 2)
+    order = np.lexsort((line, at))
+    found = [np.searchsorted(at[order], node[crosses], side="left")]
+    found.append(np.searchsorted(at[order], node[crosses], side="right") - 1)
+    one, other = edge[order[found]]
+    ends = given.points[np.stack([one, given.next_point[one], other, given.next_point[other]])]
+    for axis in (0, 1):
+        places[crosses, axis] = exact_crossings(ends, axis)
+    return places
 
 
 def _borders_at(arrangement: Arrangement, places: _Places) -> tuple[Ints, Bools]:
     """Return the borders of the arrangement at places, and which of these are too near a visit to tell."""
-    border, near = np.zeros_like(places.row), np.zeros(len(places.row), dtype=bool)
+    visits_before = _exact_visits_before if places.along.dtype == object else _visits_before
+    passed, near = np.zeros_like(places.row), np.zeros(len(places.row), dtype=bool)
     for axis in (0, 1):
         here = np.flatnonzero(places.axis == axis)
-        passed, near[here] = _visits_before(arrangement, axis, places.edge[here], places.along[here])
-        border[here] = borders_passed(arrangement, passed, places.edge[here])
-    return border, near
+        passed[here], near[here] = visits_before(arrangement, axis, places.edge[here], places.along[here])
+    return borders_passed(arrangement, passed, places.edge), near
 
 
-def _visits_before(arrangement: Arrangement, axis: int, edge: Ints, along: Floats) -> tuple[Ints, Bools]:
+def _visits_before(arrangement: Arrangement, axis: int, edge: Ints, along: Reals) -> tuple[Ints, Bools]:
     """Return how many visits come before places on edges, on earlier edges too, and whether one may be there."""
     outline = _drawn(arrangement.outline)
     sign = np.sign((outline.points[outline.next_point] - outline.points)[:, axis])
@@ -273,13 +307,29 @@ def _visits_before(arrangement: Arrangement, axis: int, edge: Ints, along: Float
     return passed[len(visits) :], near[len(visits) :]
 
 
+def _exact_visits_before(arrangement: Arrangement, axis: int, edge: Ints, along: Reals) -> tuple[Ints, Bools]:
+    """Return the same for places in fractions, and whether a visit is there. Exact."""
+    outline = _drawn(arrangement.outline)
+    sign = np.sign((outline.points[outline.next_point] - outline.points)[:, axis]).astype(np.int64).astype(object)
+    visits = np.flatnonzero(np.isin(arrangement.visit_edge, edge))
+    on_edge = arrangement.visit_edge[visits]
+    value = (sign[on_edge] * exact_visits(arrangement, visits)[:, axis]).tolist()
+    first, last = (np.searchsorted(on_edge, edge, side).tolist() for side in ("left", "right"))
+    wanted = (sign[edge] * along).tolist()
+    before = [bisect_left(value, *row) for row in zip(wanted, first, last, strict=True)]
+    near = [at < end and value[at] == there for at, end, there in zip(before, last, wanted, strict=True)]
+    passed = np.searchsorted(arrangement.visit_edge, edge) + np.array(before, dtype=np.int64) - first
+    return passed, np.array(near, dtype=bool)
+
+
 def _heights(arrangement: Arrangement, places: _Places) -> Ints:
     """Return ranks of y where x is given, or of x where y is. Exact."""
     outline = _drawn(arrangement.outline)
     edges = np.stack([places.edge, outline.next_point[places.edge]])
     a, b, p, q = _along_and_across(outline.points[edges], places.axis)
-    value = p + (places.along - a) / (b - a) * (q - p)
-    error = 16 * np.finfo(np.float64).eps * (np.abs(p) + np.abs(q)) + np.finfo(np.float64).tiny
+    along = places.along.astype(np.float64)
+    value = p + (along - a) / (b - a) * (q - p)
+    error = 16 * np.finfo(np.float64).eps * (np.abs(p) + np.abs(q) + np.abs(along)) + np.finfo(np.float64).tiny
 
     def exact(which: Ints) -> list[Fraction]:
         ends = _along_and_across(arrangement.exact_points[edges[:, which]], places.axis[which])
