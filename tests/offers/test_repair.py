@@ -71,6 +71,31 @@ def test_neither_start_nor_direction_nor_unit_matters(seed):
         assert np.array_equal(mirrored.outline.points, found.outline.points * [-1, 1])
 
 
+@pytest.mark.parametrize("seed", [*range(20), 71])
+def test_no_power_of_two_matters(seed):
+    rng = np.random.default_rng(10_000 + seed)
+    polygon = rng.normal(size=(int(rng.integers(3, 12)) + 3, 2))
+    caps = [(0.05, 0.5), (0.3, 1.0), (1.0, 1.0)][(seed + 1) % 3]
+    found = pf.repair(polygon, *caps)
+    for power in (-300, -20, 17, 20, 300):
+        scaled = pf.repair(polygon * 2.0**power, *caps)
+        assert bool(scaled) == bool(found)
+        if found:
+            assert np.array_equal(scaled.outline.points, found.outline.points * 2.0**power)
+            assert scaled.region_change == found.region_change
+            assert scaled.layer_change == found.layer_change
+        else:
+            assert scaled.value == found.value
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1, 1e4])
+def test_wide_lenses_of_large_coordinates_are_no_hairs(scale):
+    star = [(231, 512), (414, 33), (0, 324), (512, 359), (139, 0)]
+    found = pf.repair(np.array(star) * scale)
+    assert not found
+    assert found.value["region"] > 0.2
+
+
 def test_of_equal_loops_the_one_furthest_left_goes_first():
     half = [(0, 0), (40, 0), (40, 6), (36, 6), (36, -4), (44, -4), (44, 0), (80, 0)]
     polygon = np.array([*half, *((80 - x, 60 - y) for x, y in half)], dtype=float)

@@ -5,7 +5,7 @@ Bounds decide nearly always. Where two sums of areas are equal, or too near for 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -37,12 +37,18 @@ class CellAreas:
     rounded, error : (cells,) float
     moment : (borders,) float
         The area between each border and the middle of the drawing, rounded; negative if it is passed clockwise.
+    places : (points + crossings, 2) float
+        Where they are, in the unit whose square is that of the areas.
+    grain : float
+        How far the greatest coordinate of a crossing is from the next double, in this unit.
     """
 
     drawn: Arrangement
     rounded: list[float]
     error: list[float]
     moment: Floats
+    places: Floats
+    grain: float
     _exact: dict[int, Fraction] = field(default_factory=dict)
     _moments: dict[int, Fraction] = field(default_factory=dict)
     _crossings: dict[int, tuple[Fraction, Fraction]] = field(default_factory=dict)
@@ -58,10 +64,20 @@ class CellAreas:
 
     def _moment(self, border: int) -> Fraction:
         if border not in self._moments:
-            points, following, border_of = self._pieces
-            low, high = np.searchsorted(border_of, [border, border + 1])
-            self._moments[border] = self._crosses_along(np.append(points[low:high], following[low:high][-1:]))
+            self._moments[border] = self._crosses_along(self.chain(border))
         return self._moments[border]
+
+    def chain(self, border: int) -> Ints:
+        """Return the points along a border, from crossing to crossing, numbered as in :meth:`place`."""
+        points, following, border_of = self._pieces
+        low, high = np.searchsorted(border_of, [border, border + 1])
+        return np.append(points[low:high], following[low:high][-1:])
+
+    def swept(self, darts: Iterable[int]) -> float:
+        """Return the area that a ray from the start of a way to places along it sweeps over, whichever way it turns."""
+        chain = np.concatenate([self.chain(dart // 2)[:: -1 if dart % 2 else 1] for dart in darts])
+        (x, y), (u, v) = ((self.places[each] - self.places[chain[0]]).T for each in (chain[:-1], chain[1:]))
+        return float(np.abs(x * v - y * u).sum()) / 2
 
     def _crosses_along(self, chain: Ints) -> Fraction:
         """Return the sum of the cross products of points and the next ones; whole numbers do but beside crossings."""
@@ -158,7 +174,7 @@ def areas_of(drawn: Arrangement) -> CellAreas:
     -----
     O(n + k). Each cell is measured from a place of its own, so that small ones far away come out right.
     """
-    places, error = _places(drawn)
+    places, error, unit = _places(drawn)
     points, border, first = chain_of(drawn)
     start, end = points, points[next_in_rows(first)]
     area, bound = np.zeros((2, drawn.n_cells))
@@ -175,11 +191,12 @@ def areas_of(drawn: Arrangement) -> CellAreas:
     bound *= 2 + count / 4
     middle = places.min(axis=0) / 2 + places.max(axis=0) / 2
     moment = np.bincount(border, _crosses(places, error, start, end, middle)[0], drawn.n_borders)
-    return CellAreas(drawn, (area / 2).tolist(), (bound / 2).tolist(), moment / 2)
+    grain = float(np.ldexp(np.spacing(np.abs(drawn.crossings).max(initial=0.0)), unit))
+    return CellAreas(drawn, (area / 2).tolist(), (bound / 2).tolist(), moment / 2, places, grain)
 
 
-def _places(drawn: Arrangement) -> tuple[Floats, Floats]:
-    """Return all points and crossings, and how far these may be from where they are said to be.
+def _places(drawn: Arrangement) -> tuple[Floats, Floats, int]:
+    """Return all points and crossings, how far these may be from where they are said to be, and the power of two.
 
     The unit is a power of two in which the drawing has size one: so areas of the smallest drawings are doubles, too.
     """
@@ -191,7 +208,7 @@ def _places(drawn: Arrangement) -> tuple[Floats, Floats]:
         off = np.maximum(high - drawn.crossings, drawn.crossings - low)
         error[len(outline) :] = off.max(axis=1) + _UNDERFLOW
     unit = -int(np.frexp(np.ptp(outline.points, axis=0).max())[1])
-    return np.ldexp(places, unit), np.ldexp(error, unit)
+    return np.ldexp(places, unit), np.ldexp(error, unit), unit
 
 
 def _crosses(places: Floats, error: Floats, start: Ints, end: Ints, centre: Floats) -> tuple[Floats, Floats]:

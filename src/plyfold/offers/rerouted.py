@@ -5,7 +5,7 @@ Nothing is arranged anew: the cells stay those of the drawing, and each move cha
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -158,13 +158,17 @@ class Plan:
         """Tell whether the leftmost point of a loop is on a strand of it."""
         return self.leftmost[self.loop[strand.start]] in self.places(strand)
 
-    def is_hair(self, strand: Run, inside: Mapping[int, int]) -> bool:
-        """Tell whether the cells beside a strand are so narrow, all together, that rounding may confuse their sides."""
-        drawn = self.drawn
-        start, end = drawn.crossings[drawn.crossing_of_visit[[*strand]]]
-        rounding = float(np.spacing(np.abs(drawn.crossings).max()))
-        area = Measure.of(self.areas, {cell: abs(times) for cell, times in inside.items()})
-        return area.most <= _HAIR * rounding * (float(np.hypot(*(end - start))) + _HAIR * rounding)
+    def is_hair(self, strand: Run, ways: Sequence[list[int]], inside: Mapping[int, int]) -> bool:
+        """Tell whether two ways from end to end of a strand are so near a straight one that rounding may confuse them.
+
+        So are the cells between them, and what lies between each and a straight way, all together: what is cut off if
+        both are cut short is as little as what the corners are off when rounded.
+        """
+        areas, drawn = self.areas, self.drawn
+        start, end = areas.places[drawn.crossing_of_visit[[*strand]] - drawn.n_crossings]
+        narrow = _HAIR * areas.grain * (float(np.hypot(*(end - start))) + _HAIR * areas.grain)
+        between = Measure.of(areas, {cell: abs(times) for cell, times in inside.items()})
+        return between.most <= narrow and all(areas.swept(way) <= narrow for way in ways if way)
 
 
 def plan_of(drawn: Arrangement) -> Plan:
@@ -313,7 +317,7 @@ class Rerouted:
         ways = [self.darts(strand) for strand in (other, one)]
         if self.runs_back(lens):
             ways = [[dart ^ 1 for dart in reversed(way)] for way in ways]
-        is_hair = self.plan.is_hair(one, inside)
+        is_hair = self.plan.is_hair(one, ways, inside)
         for strand, way in zip((one, other), ways, strict=True):
             for place in self.plan.places(strand):
                 self.path[place] = []
