@@ -39,6 +39,8 @@ class CellAreas:
         The area between each border and the middle of the drawing, rounded; negative if it is passed clockwise.
     places : (points + crossings, 2) float
         Where they are, in the unit whose square is that of the areas.
+    unit : int
+        The power of two by which coordinates are taken.
     grain : float
         How far the greatest coordinate of a crossing is from the next double, in this unit.
     """
@@ -48,6 +50,7 @@ class CellAreas:
     error: list[float]
     moment: Floats
     places: Floats
+    unit: int
     grain: float
     _exact: dict[int, Fraction] = field(default_factory=dict)
     _moments: dict[int, Fraction] = field(default_factory=dict)
@@ -192,7 +195,7 @@ def areas_of(drawn: Arrangement) -> CellAreas:
     middle = places.min(axis=0) / 2 + places.max(axis=0) / 2
     moment = np.bincount(border, _crosses(places, error, start, end, middle)[0], drawn.n_borders)
     grain = float(np.ldexp(np.spacing(np.abs(drawn.crossings).max(initial=0.0)), unit))
-    return CellAreas(drawn, (area / 2).tolist(), (bound / 2).tolist(), moment / 2, places, grain)
+    return CellAreas(drawn, (area / 2).tolist(), (bound / 2).tolist(), moment / 2, places, unit, grain)
 
 
 def _places(drawn: Arrangement) -> tuple[Floats, Floats, int]:

@@ -6,7 +6,7 @@ that is wanted, how often it is covered counts first.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import NamedTuple, TypeVar
@@ -15,11 +15,22 @@ import numpy as np
 
 from plyfold.arrays import Ints
 from plyfold.clock import Clock
-from plyfold.offers.areas import Measure
+from plyfold.offers.areas import CellAreas, Measure
 from plyfold.offers.changes import Change, Changes
 from plyfold.offers.rerouted import Move, Plan, Rerouted, Run
 
-__all__ = ["Aim", "Caps", "flips", "is_within", "made_until", "may_bound", "numbers_allow", "rerouted_by", "wholes"]
+__all__ = [
+    "Aim",
+    "Caps",
+    "covered",
+    "flips",
+    "is_within",
+    "made_until",
+    "may_bound",
+    "numbers_allow",
+    "rerouted_by",
+    "wholes",
+]
 
 _T = TypeVar("_T")
 
@@ -82,8 +93,13 @@ def is_within(left: Rerouted, caps: Caps) -> bool:
 
 def wholes(plan: Plan) -> tuple[Measure, Measure]:
     """Return the covered area, and the areas of all cells, each as often as it is covered."""
-    layers = {cell: abs(times) for cell, times in enumerate(plan.drawn.winding.tolist()) if times}
-    return Measure.of(plan.areas, dict.fromkeys(layers, 1)), Measure.of(plan.areas, layers)
+    return covered(plan.areas, plan.drawn.winding.tolist())
+
+
+def covered(areas: CellAreas, winding: Sequence[int]) -> tuple[Measure, Measure]:
+    """Return the same, given the winding numbers of the cells."""
+    layers = {cell: abs(times) for cell, times in enumerate(winding) if times}
+    return Measure.of(areas, dict.fromkeys(layers, 1)), Measure.of(areas, layers)
 
 
 def rerouted_by(plan: Plan, moves: Iterable[Move]) -> Rerouted | None:

@@ -19,6 +19,7 @@ from plyfold.errors import CurveError, GeneralPositionError, InputError, TimeLim
 from plyfold.immersion.solve import bounds_disk, find_immersion
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.offers.areas import Measure
+from plyfold.offers.confirmed import confirm
 from plyfold.offers.greedy import Aim, Caps, flips, made_until, wholes
 from plyfold.offers.redrawn import Pen, pen_for, redrawn, traced
 from plyfold.offers.rerouted import Move, Plan, Rerouted, Run, plan_of
@@ -151,6 +152,8 @@ def repair(
         If it is a Gauss code, which has no points, or a cap is no number from 0 on.
     GeneralPositionError
         If strands touch, and cusps that stay hold them together.
+    PrecisionError
+        If what was drawn covers another area than it should, or not as often. That has not been seen.
 
     Notes
     -----
@@ -269,6 +272,8 @@ def _found(plan: Plan, caps: Caps, all_lenses: bool, clock: Clock) -> Repaired |
     assert trial.outline is not None
     before = [repair for repair in trial.pen.given.repairs if repair.kind != SPIKE]
     changes, left = _changes(plan, trial.pen, moves)
+    anew = watched_arrangement(trial.outline, "perturb", Watch(clock))
+    confirm(left, anew, trial.pen.opening, tuple(change.where for change in changes))
     changes = (*_spikes(trial.pen.given), *changes)
     return Repaired(outline_with(trial.outline, repairs=(*before, *changes)), changes, *_in_all(plan, left))
 

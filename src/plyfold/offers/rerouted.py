@@ -158,15 +158,24 @@ class Plan:
         """Tell whether the leftmost point of a loop is on a strand of it."""
         return self.leftmost[self.loop[strand.start]] in self.places(strand)
 
+    def length(self, strand: Run) -> float:
+        """Return how long the straight way from end to end of a strand is, in the unit of areas."""
+        drawn = self.drawn
+        start, end = self.areas.places[drawn.crossing_of_visit[[*strand]] - drawn.n_crossings]
+        return float(np.hypot(*(end - start)))
+
+    def narrow(self, length: float) -> float:
+        """Return the area of what is so long and as narrow as rounding."""
+        width = _HAIR * self.areas.grain
+        return width * (length + width)
+
     def is_hair(self, strand: Run, ways: Sequence[list[int]], inside: Mapping[int, int]) -> bool:
         """Tell whether two ways from end to end of a strand are so near a straight one that rounding may confuse them.
 
         So are the cells between them, and what lies between each and a straight way, all together: what is cut off if
         both are cut short is as little as what the corners are off when rounded.
         """
-        areas, drawn = self.areas, self.drawn
-        start, end = areas.places[drawn.crossing_of_visit[[*strand]] - drawn.n_crossings]
-        narrow = _HAIR * areas.grain * (float(np.hypot(*(end - start))) + _HAIR * areas.grain)
+        areas, narrow = self.areas, self.narrow(self.length(strand))
         between = Measure.of(areas, {cell: abs(times) for cell, times in inside.items()})
         return between.most <= narrow and all(areas.swept(way) <= narrow for way in ways if way)
 
@@ -210,6 +219,8 @@ class Rerouted:
     is_live : list of bool
     parted : set of int
         The crossings at which two runs touch now, and are to come apart.
+    cut_short : float
+        How long all strands are, from end to end, that were cut short, in the unit of areas.
     """
 
     plan: Plan
@@ -221,6 +232,7 @@ class Rerouted:
     before: list[int]
     is_live: list[bool]
     parted: set[int]
+    cut_short: float = 0.0
 
     @classmethod
     def of(cls, plan: Plan) -> Rerouted:
@@ -318,6 +330,7 @@ class Rerouted:
         if self.runs_back(lens):
             ways = [[dart ^ 1 for dart in reversed(way)] for way in ways]
         is_hair = self.plan.is_hair(one, ways, inside)
+        self.cut_short += 2 * self.plan.length(one) * is_hair
         for strand, way in zip((one, other), ways, strict=True):
             for place in self.plan.places(strand):
                 self.path[place] = []
