@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.clock import Clock
+from plyfold.errors import PrecisionError
 from plyfold.offers.cusps import SuggestedCusps, suggest_cusps
 from plyfold.offers.repair import Repaired, repair
 
@@ -52,7 +54,9 @@ def offers(
     True
     """
     clock = Clock(time_limit)
-    repaired = repair(arranged, allow, allow_layers, clock.left)
+    repaired = None
+    with suppress(PrecisionError):  # what doubles cannot show is not offered
+        repaired = repair(arranged, allow, allow_layers, clock.left)
     cusps = suggest_cusps(arranged, time_limit=clock.left)
     return Offers(
         repaired if isinstance(repaired, Repaired) else None, cusps if isinstance(cusps, SuggestedCusps) else None
