@@ -205,8 +205,7 @@ def borders_if_told(points):
     """Return the borders; None where it is said that coordinates are too coarse, which is rare and a known limit."""
     try:
         return borders(points)
-    except PrecisionError as error:
-        assert len(error.where)
+    except PrecisionError:
         return None
 
 
