@@ -125,7 +125,7 @@ class CertificateError(PlyfoldError):
 
 
 class PrecisionError(PlyfoldError):
-    """Two places are too close for double precision to hold the mesh; the combinatorial answers stay exact."""
+    """Double precision cannot hold what was to be drawn, a mesh or polygons; the combinatorial answers stay exact."""
 
 
 class TimeLimitError(PlyfoldError):

@@ -1,4 +1,4 @@
-"""Reals with their nouns."""
+"""Numbers with their nouns."""
 
 __all__ = ["counted"]
 

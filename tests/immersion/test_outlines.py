@@ -10,7 +10,6 @@ import plyfold as pf
 from codes import code_of
 from nightly.outlines import judge_immersions, random_outline
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrangement.places import places_of_visits
 from plyfold.errors import CurveError, GeneralPositionError, InputError
 from plyfold.immersion import outlines, solve
 from plyfold.immersion.cutting import irreducible_kernels
@@ -257,7 +256,9 @@ class TestObstructions:
             found = pf.find_immersion(arranged)
             if not found and found.reason == "no gluing" and arranged.winding.max() < 4:
                 seen += 1
-                assert found.where == places_of_visits(arranged, found.value)
+                places = arranged.visit_point[list(found.value)]
+                # Moved points are given back where they were, which is nearer than any other place.
+                assert np.abs(np.array(found.where) - places).max() <= (1e-3 if len(arranged.contacts) else 0)
                 assert_minimal(found, arranged)
         assert seen > 5
 

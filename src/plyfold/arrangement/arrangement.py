@@ -279,6 +279,11 @@ class Arrangement:
         return cast("Fractions", self.begun) if self.is_begun else self._drawn().points
 
     @cached_property
+    def first_visits(self) -> Ints:
+        """The first visit to each crossing, shape (k,), in the order of crossings."""
+        return np.flatnonzero(np.arange(len(self.partner)) < self.partner)
+
+    @cached_property
     def crossing_visits(self) -> Ints:
         """The visits to crossings, shape (2k,): all but the marks."""
         return np.flatnonzero(self.partner != np.arange(len(self.partner)))

@@ -45,10 +45,8 @@ def drawn_map(placed: GeneralPosition, watch: Watch) -> DrawnMap:
 def _drawn_curve(placed: GeneralPosition) -> DrawnMap:
     outline, given, numbers, visits = placed.outline, placed.given, placed.numbers, placed.visits
     edge, point = visits.edge, visits.point
-    outer, is_directed = (
-        outer_dart(outline.points if placed.exact is None else placed.exact, edge),
-        placed.turned_round is not None,
-    )
+    outer = outer_dart(outline.points if placed.exact is None else placed.exact, edge)
+    is_directed = placed.turned_round is not None
     used, turning, turned_round = oriented(visits.partner, visits.ccw, outer, is_directed)
     if turned_round:
         outline = given = outline.reversed()

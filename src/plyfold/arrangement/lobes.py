@@ -47,7 +47,7 @@ def lobe_turning_numbers(curve: CurveLike) -> Ints:
     """
     drawn = arrange(curve)
     require_one_loop(drawn)
-    first = np.flatnonzero(np.arange(len(drawn.partner)) < drawn.partner)
+    first = drawn.first_visits
     second = drawn.partner[first]
     along = np.concatenate([[0], np.cumsum(quarter_turns(drawn))])
     corner = np.where(drawn.ccw[second], 1, -1)

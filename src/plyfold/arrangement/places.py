@@ -34,8 +34,7 @@ def places_of_visits(arranged: Arrangement, visits: Iterable[int]) -> tuple[tupl
 
 def places_of_crossings(arranged: Arrangement, crossings: Iterable[int]) -> tuple[tuple[float, float], ...]:
     """Return where crossings are, if points in contact are where they were given; none if there is no drawing."""
-    first = np.flatnonzero(np.arange(len(arranged.partner)) < arranged.partner)
-    return places_of_visits(arranged, first[list(crossings)].tolist())
+    return places_of_visits(arranged, arranged.first_visits[list(crossings)].tolist())
 
 
 def place_in_cell(arranged: Arrangement, cell: int) -> tuple[float, float]:

@@ -40,7 +40,7 @@ class ExactPlaces:
     near : (n, 2) float
         The vertices as doubles.
     edges : (n, 2) int
-        Reals of edges of the curve that each place is on, exactly; −1 for none.
+        Numbers of edges of the curve that each place is on, exactly; −1 for none.
     off : (n,) float
         No coordinate of the place differs more from the double; 0 if the double is the place. Otherwise the place is
         where its two edges cross, or the point of its only edge that is nearest to the double.

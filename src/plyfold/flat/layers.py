@@ -24,7 +24,7 @@ __all__ = ["signed_layers"]
 
 # Triangles of a polygon fill it but for roundings of this share of its area.
 _AREA_ERROR = 1e-9
-# Reals between 2 to the power of this and its inverse have a fourth power, with room for sums.
+# Numbers between 2 to the power of this and its inverse have a fourth power, with room for sums.
 _EXPONENTS = 240
 
 

@@ -104,15 +104,15 @@ def _simple_loops(boundary: Ints, following: Ints, start: Ints) -> Iterator[list
     """Yield closed walks of half-edges along the boundary, split whenever they come back to a node."""
     after = dict(zip(boundary.tolist(), following.tolist(), strict=True))
     node = dict(zip(after, start[boundary].tolist(), strict=True))
-    for half_edge in boundary.tolist():
+    for start_of_walk in boundary.tolist():
         path: list[int] = []
         place: dict[int, int] = {}
-        here = half_edge
-        while here in after:
-            path.append(here)
-            place[node[here]] = len(path) - 1
-            here = after.pop(here)
-            if (first := place.get(node[here])) is not None:
+        half_edge = start_of_walk
+        while half_edge in after:
+            path.append(half_edge)
+            place[node[half_edge]] = len(path) - 1
+            half_edge = after.pop(half_edge)
+            if (first := place.get(node[half_edge])) is not None:
                 loop = path[first:]
                 yield loop
                 del path[first:]

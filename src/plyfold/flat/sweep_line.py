@@ -61,7 +61,7 @@ def sweep_plan(arrangement: Arrangement, bridges: Ints, tilt: float = TILTS[0]) 
         points = np.concatenate([points, points[start], np.column_stack([place[:, 0], points[start, 1]])])
         exact = np.concatenate([exact, exact[start], _ends_of_bridges(exact[start], place)])
     following = np.concatenate([outline.next_point, n + count + np.arange(count), n + np.arange(count)])
-    visit = np.flatnonzero(np.arange(len(arrangement.partner)) < arrangement.partner)
+    visit = arrangement.first_visits
     edge, other = arrangement.visit_edge[visit], arrangement.visit_edge[arrangement.partner[visit]]
     return SweepPlan(
         points=points,

@@ -104,7 +104,7 @@ def _is_inside(drawn: Arrangement, lobe: _Lobe) -> Bools:
 
 def _shorter_lobes(drawn: Arrangement) -> _Lobes:
     """Return the shorter one of the two lobes at each crossing, the shortest first."""
-    first = np.flatnonzero(np.arange(len(drawn.partner)) < drawn.partner)
+    first = drawn.first_visits
     second = drawn.partner[first]
     along, whole = _places_along(drawn)
     inner = along[second] - along[first]

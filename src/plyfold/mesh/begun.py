@@ -41,9 +41,8 @@ def _as_begun(arrangement: Arrangement) -> Arrangement:
     outline, given = cast("Outline", arrangement.outline), cast("Outline", arrangement.given)
     cusps = np.concatenate(outline.cusps)
     drawn = outline_of_points(given.points, given.loop_of_point, cusps, given.rows, outline.repairs)
-    visits = np.arange(len(arrangement.partner))
-    which = visits < arrangement.partner, visits == arrangement.partner
-    crossings, marks = (exact_visits(arrangement, visits[some]).astype(np.float64) for some in which)
+    visits = arrangement.first_visits, np.flatnonzero(arrangement.crossing_of_visit < 0)
+    crossings, marks = (exact_visits(arrangement, some).astype(np.float64) for some in visits)
     return replace(arrangement, outline=drawn, crossings=crossings, marks=marks)
 
 
@@ -63,7 +62,8 @@ def exact_visits(arrangement: Arrangement, visits: Ints) -> Fractions:
     ends = begun[np.stack([edge, next_point[edge], other, next_point[other]])[:, crosses]]
     for axis in (0, 1):
         places[crosses, axis] = exact_crossings(ends, axis)
-    corner, foot = feet(arrangement).reshape(2, -1)[:, np.isin(feet(arrangement)[len(arrangement.bridges) :], visits)]
+    corner, foot = feet(arrangement).reshape(2, -1)
+    corner, foot = (side[np.isin(foot, visits)] for side in (corner, foot))
     start, end = begun[arrangement.visit_edge[foot]], begun[next_point[arrangement.visit_edge[foot]]]
     height, at = begun[arrangement.visit_edge[corner], 1], np.searchsorted(visits, foot)
     places[at, 0] = start[:, 0] + (height - start[:, 1]) / (end[:, 1] - start[:, 1]) * (end[:, 0] - start[:, 0])

@@ -164,8 +164,7 @@ class Measure:
 
 def _edges_that_cross(drawn: Arrangement, points: Reals) -> Reals:
     """Return the ends of the two edges at each crossing, shape (4, k, 2), given the points of the outline."""
-    first = np.flatnonzero(np.arange(len(drawn.partner)) < drawn.partner)
-    edge, other = drawn.visit_edge[first], drawn.visit_edge[drawn.partner[first]]
+    edge, other = (drawn.visit_edge[visits] for visits in (drawn.first_visits, drawn.partner[drawn.first_visits]))
     following = drawn_outline(drawn).next_point
     return points[np.stack([edge, following[edge], other, following[other]])]
 

@@ -1,6 +1,6 @@
 """GLB, the binary form of glTF 2.0: materials, texture coordinates, and the way from the lifted surface to the disk.
 
-Reals are 32 bits wide. Places are therefore stored relative to the middle of the drawing, and the middle in double
+Numbers are 32 bits wide. Places are therefore stored relative to the middle of the drawing, and the middle in double
 precision. In glTF, y points up: (x, y, z) is stored as (x, z, −y).
 """
 
