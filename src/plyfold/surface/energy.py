@@ -24,8 +24,8 @@ from plyfold.clock import UNWATCHED, Watch
 from plyfold.graphs import ways_from
 from plyfold.halfedges import ends_of
 from plyfold.matrices import diagonal_matrix, factorised, summed
-from plyfold.ragged import next_in_rows
 from plyfold.surface.glue import LiftedMesh, numbers_of_copies
+from plyfold.surface.grading import ClothMesh, double_areas
 
 __all__ = ["Cloth", "Response", "cloth_of", "held_response", "response"]
 
@@ -84,36 +84,33 @@ class Cloth:
         return factorised(diagonal_matrix(self.area) + self.bending * self.laplacian, watch)
 
 
-def cloth_of(points: Floats, mesh: LiftedMesh, stiffness: float, flat: float, watch: Watch = UNWATCHED) -> Cloth:
-    """Return the energy of a mesh in the drawing's units of length, whatever they are.
+def cloth_of(fine: ClothMesh, mesh: LiftedMesh, stiffness: float, flat: float, watch: Watch = UNWATCHED) -> Cloth:
+    """Return the energy of a surface, of the heights of all vertices of a finer mesh.
 
     Parameters
     ----------
-    points : (p, 2) float
-        The points of the planar triangulation.
+    fine : ClothMesh
+        In units of the drawing, whatever those are.
     mesh : LiftedMesh
+        The surface.
     stiffness : float
         ℓ as a fraction of the mean width of the cloth.
     flat : float
         How many times as stiff the cloth is where nothing overlaps; the change is gradual.
     watch : Watch, optional
     """
-    corners = points[mesh.planar_vertex]
-    corners = (corners - corners[0]) / np.ptp(corners, axis=0).max()
-    outline = corners[mesh.boundary]
-    perimeter = np.hypot(*(outline[next_in_rows(mesh.first_boundary)] - outline).T).sum()
-    weight = np.where(np.isin(mesh.faces, mesh.cusps).any(axis=1), _AT_CUSPS, 1.0)
-    laplacian, area = watch.wait_for(lambda: _cotangent_laplacian(corners, mesh.faces, weight), len(weight))
+    places, faces, length = fine.places, fine.faces, stiffness * fine.width
+    weight = np.where(np.isin(faces, mesh.cusps).any(axis=1), _AT_CUSPS, 1.0)
+    laplacian, area = watch.wait_for(lambda: _cotangent_laplacian(places, faces, weight), len(weight))
     if len(mesh.first_boundary) > 2:
-        laplacian = laplacian + _ties(mesh, area, _ATTRACTION * (perimeter / area.sum()) ** 2)
-    mean_width = 2 * area.sum() / perimeter
-    plain = Cloth(laplacian, area, (stiffness * mean_width) ** 2)
+        laplacian = laplacian + _ties(mesh, fine, _ATTRACTION * (2 / fine.width) ** 2)
+    plain = Cloth(laplacian, area, length**2)
     if len(mesh.cusps):
-        plain = replace(plain, area=area * _softness(corners, mesh, stiffness * mean_width))
+        plain = replace(plain, area=area * _softness(fine, mesh, length))
     if flat == 1:
         return plain
-    share = plain.smoothed(_alone(mesh).astype(np.float64), watch).clip(0, 1)
-    weighted, _ = _cotangent_laplacian(corners, mesh.faces, weight * flat ** share[mesh.faces].mean(axis=1))
+    share = plain.smoothed(_alone(fine, mesh), watch).clip(0, 1)
+    weighted, _ = _cotangent_laplacian(places, faces, weight * flat ** share[faces].mean(axis=1))
     return Cloth(weighted, plain.area * flat**share, plain.bending)
 
 
@@ -160,7 +157,7 @@ def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[
     return laplacian, np.maximum(area, _SMALLEST * area.mean())
 
 
-def _softness(corners: Floats, mesh: LiftedMesh, length: float) -> Floats:
+def _softness(fine: ClothMesh, mesh: LiftedMesh, length: float) -> Floats:
     """Return by which factor the cloth bends more easily at each vertex than elsewhere, where the outline has cusps.
 
     A spiral stair bends more and more towards its middle, and all of the cloth would yield to that. So near a cusp the
@@ -168,25 +165,25 @@ def _softness(corners: Floats, mesh: LiftedMesh, length: float) -> Floats:
     on average: they would rather stand upright than bend in their width. So where triangles are narrower than usual,
     the bending length is as much shorter.
     """
-    start, end = ends_of(mesh.faces)
-    side = np.hypot(*(corners[start] - corners[end]).T)
+    places, faces = fine.places, fine.faces
+    start, end = ends_of(faces)
+    side = np.hypot(*(places[start] - places[end]).T)
     reach = length / _BENDING_AT_CUSPS
-    way = ways_from(mesh.cusps, len(corners), np.stack([start, end], axis=1), side, reach)
+    way = ways_from(mesh.cusps, len(places), np.stack([start, end], axis=1), side, reach)
     way[mesh.cusps] = side.min()
-    (ux, uy), (vx, vy) = (corners[mesh.faces[:, i]].T - corners[mesh.faces[:, 0]].T for i in (1, 2))
-    area = ux * vy - uy * vx
+    area = double_areas(places, faces)
     width = area / side.reshape(-1, 3).max(axis=1)
     usual = area @ width / area.sum()
-    around = np.bincount(mesh.faces.ravel(), np.repeat(width, 3)) / np.bincount(mesh.faces.ravel())
+    around = np.bincount(faces.ravel(), np.repeat(width, 3)) / np.bincount(faces.ravel())
     return np.asarray(np.maximum(1.0, np.maximum(reach / way, usual / around)) ** 2)
 
 
-def _ties(mesh: LiftedMesh, area: Floats, strength: float) -> Any:
+def _ties(mesh: LiftedMesh, fine: ClothMesh, strength: float) -> Any:
     """Return the matrix of the energy that draws pieces together which lie over each other, in a linear system alone.
 
     Pieces that lie apart from all others are tied by one vertex each, so that their heights are known.
     """
-    n = len(area)
+    n, area = len(fine.places), _shares(np.ones(len(mesh.faces)), fine.places, mesh.faces)
     lower, upper = mesh.stacked[mesh.piece[mesh.stacked[:, 0]] != mesh.piece[mesh.stacked[:, 1]]].T
     apart = np.unique(mesh.heap, return_index=True)[1][1:]
     ends = np.concatenate([lower, np.zeros_like(apart)]), np.concatenate([upper, apart])
@@ -196,9 +193,15 @@ def _ties(mesh: LiftedMesh, area: Floats, strength: float) -> Any:
     return summed(signs, rows, columns, (n, n))
 
 
-def _alone(mesh: LiftedMesh) -> Bools:
-    """Tell which vertices lie where nothing overlaps: above and below all triangles around them is no other one."""
+def _alone(fine: ClothMesh, mesh: LiftedMesh) -> Floats:
+    """Return which share of the cloth around each vertex lies where nothing overlaps."""
     copies = numbers_of_copies(mesh)
-    alone = np.ones(len(mesh.level), dtype=bool)
-    alone[mesh.faces[np.repeat(copies > 1, copies)]] = False
-    return alone
+    alone = np.repeat(copies == 1, copies)[fine.origin]
+    around = _shares(np.ones(len(alone)), fine.places, fine.faces)
+    return _shares(alone.astype(np.float64), fine.places, fine.faces) / np.maximum(around, np.finfo(float).tiny)
+
+
+def _shares(values: Floats, places: Floats, faces: Ints) -> Floats:
+    """Return the integral of values of triangles times the share of each vertex there, (v,)."""
+    integral = np.abs(values * double_areas(places, faces) / 6)
+    return np.asarray(np.bincount(faces.ravel(), np.repeat(integral, 3), minlength=len(places)), dtype=np.float64)

@@ -20,7 +20,7 @@ sheets to that place, if this is less than the gap.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -31,6 +31,7 @@ from plyfold.errors import InputError, PrecisionError
 from plyfold.surface.contact import Distances, Problem, forced_heights, sprung_heights
 from plyfold.surface.energy import cloth_of
 from plyfold.surface.glue import LiftedMesh, shares_of_gap
+from plyfold.surface.grading import ClothMesh, cloth_mesh
 
 __all__ = [
     "DEFAULT_STIFFNESS",
@@ -118,20 +119,34 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
     shares = shares_of_gap(points, mesh, gap)
     room = room_between(given, points, mesh, gap * shares)
     held, fixed = _without_room(given, room, gap)
-    cloth = cloth_of(points, mesh, stiffness, flat, watch)
+    fine = cloth_mesh(points, mesh, stiffness)
+    cloth = cloth_of(fine, mesh, stiffness, flat, watch)
     # With the gap as the unit of height, the numbers are of the order of 1.
     tolerance = max(_TOLERANCE, _RELATIVE * float(np.abs([*fixed, *given.heights]).max()) / gap)
     wanted = _distances(mesh, shares + tolerance, given, held, gap)
-    problem = Problem(cloth, wanted, held, fixed / gap, tolerance)
+    problem = _on_finer_mesh(fine, Problem(cloth, wanted, held, fixed / gap, tolerance))
     z = forced_heights(problem, watch)
     if z is None:
         z = sprung_heights(problem, watch)
+    z = z[: len(held)]
     if pins and np.max(missing := wanted.missing(z), initial=0.0) > _LARGEST_REST:
         place = points[mesh.planar_vertex[wanted.rows[[int(np.argmax(missing))]].indices[:1]]]
         raise InputError("the pins leave less room than the gap", where=place, hint="move the pinned heights apart")
     heights = _kept_apart(_settled(gap * z, mesh, given, held, fixed), mesh, gap * shares, held)
     _require_order(heights, points, mesh)
     return heights
+
+
+def _on_finer_mesh(fine: ClothMesh, problem: Problem) -> Problem:
+    """Return a problem for the vertices of the surface as one for those of a finer mesh, which may have more."""
+    if not fine.added:
+        return problem
+    rows = problem.wanted.rows.copy()
+    rows.resize(rows.shape[0], rows.shape[1] + fine.added)
+    # In the middle between held vertices, vertices are held.
+    held = fine.continued(problem.held.astype(np.float64)) == 1
+    given = np.where(held, fine.continued(problem.given), 0.0)
+    return replace(problem, wanted=replace(problem.wanted, rows=rows), held=held, given=given)
 
 
 def _require_order(heights: Floats, points: Floats, mesh: LiftedMesh) -> None:
