@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from scipy.optimize import nnls
 
+from cloths import energy_matrix
 from coarse import CURVES
 from plyfold import find_layering, immersions
 from plyfold.clock import Watch
 from plyfold.mesh.cells import triangulate_cells
-from plyfold.surface.energy import cloth_of
 from plyfold.surface.glue import stack_sheets
-from plyfold.surface.heights import DEFAULT_STIFFNESS, smooth_heights
+from plyfold.surface.heights import smooth_heights
 from plyfold.surface.lift import lift
 from reference import random_curves
 
@@ -50,10 +50,6 @@ def dual_energy(energy, rows, least):
     return least @ force - ((columns @ force) ** 2).sum() / 2
 
 
-def plain_cloth(points, mesh, stiffness=DEFAULT_STIFFNESS, flat=1.0):
-    return cloth_of(points, mesh, stiffness, flat)
-
-
 def differences(mesh):
     rows = np.zeros((len(mesh.stacked), len(mesh.level)))
     rows[np.arange(len(rows)), mesh.stacked[:, 0]] = -1
@@ -65,7 +61,7 @@ def differences(mesh):
 @pytest.mark.parametrize("options", [{}, {"stiffness": 2.0}, {"flat": 30.0}], ids=str)
 def test_least_energy(name, options):
     points, mesh = glued(CURVES[name].curve.points)
-    energy = plain_cloth(points, mesh, **options).stiffness.toarray()
+    energy = energy_matrix(points, mesh, **options)
     z = smooth_heights(points, mesh, 1.0, **options)
     assert kept_apart(z, mesh, 1.0)
     assert z @ energy @ z / 2 == pytest.approx(
@@ -79,7 +75,7 @@ def test_least_energy_of_long_stacks(turns):
     z = smooth_heights(points, mesh, 1.0)
     assert kept_apart(z, mesh, 1.0)
     assert mesh.level.max() >= turns - 1
-    energy = plain_cloth(points, mesh).stiffness.toarray()
+    energy = energy_matrix(points, mesh)
     least = dual_energy(energy, differences(mesh), np.ones(len(mesh.stacked)))
     assert z @ energy @ z / 2 == pytest.approx(least, rel=3e-6)
 
@@ -169,7 +165,7 @@ def test_energy_of_a_plane():
     points, mesh = glued(CURVES["stacked-spiral"].curve.points, triangles=2000)
     x, y = points[mesh.planar_vertex].T
     size = max(np.ptp(x), np.ptp(y))
-    energy = plain_cloth(points, mesh).stiffness
+    energy = energy_matrix(points, mesh)
     boundary_free = np.setdiff1d(np.arange(len(x)), _two_rings(mesh))
     pull = energy @ ((3 * x - 4 * y) / size)
     assert np.abs(pull[boundary_free]).max() < 1e-2 * np.abs(pull).max()

@@ -20,6 +20,7 @@ from plyfold.mesh.refine import constrained, noded_curve, refine, usual_area
 from plyfold.surface.contact import Distances, Problem, least_forces, sprung_heights
 from plyfold.surface.energy import cloth_of, held_response, response
 from plyfold.surface.glue import stack_sheets
+from plyfold.surface.grading import cloth_mesh
 from plyfold.surface.heights import smooth_heights
 
 STAGES = [
@@ -126,8 +127,8 @@ class TestNothingGoesOn:
         _, cells, mesh = glued()
         with pytest.raises(TimeLimitError, match="smoothing"):
             smooth_heights(cells.points, mesh, 1.0, watch=self.late)
-        cloth = cloth_of(cells.points, mesh, 0.5, 1.0)
-        force = np.zeros(len(mesh.level))
+        cloth = cloth_of(cloth_mesh(cells.points, mesh, 0.5), mesh, 0.5, 1.0)
+        force = np.zeros(len(cloth.area))
         nothing = np.zeros(len(force), dtype=bool)
         with pytest.raises(TimeLimitError):
             response(cloth, self.late)

@@ -54,7 +54,7 @@ def halve_towards(mesh: HalvedMesh, finest: float, growth: float, excess: RealBu
     Returns
     -------
     int
-        How many vertices there are.
+        How many of the numbers have been come down to.
     """
     for step in range(len(excess)):
         halved = True
@@ -64,12 +64,12 @@ def halve_towards(mesh: HalvedMesh, finest: float, growth: float, excess: RealBu
             while triangle < mesh.triangles:
                 while _is_too_long(mesh, triangle, finest, growth, excess[step]):
                     if mesh.triangles >= most:
-                        return mesh.vertices
+                        return step
                     if not _halve_at(mesh, triangle):
                         break
                     halved = True
                 triangle += 1
-    return mesh.vertices
+    return len(excess)
 
 
 def _is_too_long(mesh: HalvedMesh, triangle: int, finest: float, growth: float, excess: float) -> bool:

@@ -32,11 +32,11 @@ __all__ = ["Cloth", "Response", "cloth_of", "held_response", "response"]
 # Heights that balance forces; several columns at a time if need be.
 Response: TypeAlias = Callable[[Floats], Floats]
 
-# Every side of a triangle ties its ends together a little: the only hold across a strip as thin as rounding errors.
-_TIE = 1e-3
 # Thinner triangles (double area by longest side squared) and smaller areas (by the mean) count as if they were not,
 # for their numbers would drown all others.
 _THINNEST = 1e-2
+# Every side of such a triangle ties its ends together a little: the only hold along a strip as thin as rounding errors.
+_TIE = 1e-3
 _SMALLEST = 1e-4
 # Triangles at cusps have next to no energy: there is a hole in the cloth, round which it may climb.
 _AT_CUSPS = 1e-6
@@ -147,9 +147,11 @@ def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[
     edges = np.roll(triangle, -1, axis=1) - np.roll(triangle, 1, axis=1)
     lengths = np.einsum("tix,tix->ti", edges, edges)
     double_area = edges[:, 0, 0] * edges[:, 1, 1] - edges[:, 0, 1] * edges[:, 1, 0]
-    double_area = np.maximum(double_area, _THINNEST * lengths.max(axis=1))
+    least = _THINNEST * lengths.max(axis=1)
+    tie = np.where(double_area < least, _TIE, 0.0)
+    double_area = np.maximum(double_area, least)
     local = np.einsum("tix,tjx->tij", edges, edges) / (2 * double_area)[:, None, None]
-    local += _TIE * (3 * np.eye(3) - 1)
+    local += tie[:, None, None] * (3 * np.eye(3) - 1)
     local *= weight[:, None, None]
     rows, columns = np.repeat(faces, 3, axis=1).ravel(), np.tile(faces, (1, 3)).ravel()
     laplacian = summed(local.ravel(), rows, columns, (n, n))

@@ -36,8 +36,8 @@ _WIDEST = 5 / 4 * np.pi
 _GROWTH, _FINEST = 0.5, 1e-3
 # Triangles so many steps from a corner stay as they are; so far off, they are small enough in any case.
 _STEPS = 12
-# By how much sides may be too long, squared: the worst first, for there may be no room for all.
-_EXCESS = 4.0 ** np.arange(10, -1, -1)
+# By how much sides may be too long, squared, where there is no room for more.
+_EXCESS = 2.0 ** np.arange(20, -1, -1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,16 +185,22 @@ def graded(
 def _halved(
     faces: Ints, twin: Ints, fields: tuple[Floats, Floats, Ints, Floats], finest: float, room: int
 ) -> tuple[Ints, Ints, Floats, Floats, Ints]:
-    """Return finer triangles, the one that each is a part of, x and y of added vertices, and what they are between."""
-    triangles, vertices = len(faces), len(fields[0])
-    wider = partial(_with_room, room=room + 1)
-    corner, opposite, origin = wider(faces), wider(twin.reshape(-1, 3)), wider(np.arange(triangles))
-    x, y, target, way = map(wider, fields)
-    ends = np.zeros((room + 1, 2), dtype=np.int64)
-    mesh = HalvedMesh(triangles, vertices, *all_flat(corner, opposite, origin, x, y, target, way, ends))
-    last = halve_towards(mesh, finest**2, _GROWTH**2, flat(_EXCESS), triangles + room)
-    there, added = slice(mesh.triangles), slice(vertices, last)
-    return corner[there], origin[there], x[added], y[added], ends[: last - vertices]
+    """Return finer triangles, the one that each is a part of, x and y of added vertices, and what they are between.
+
+    Where there is no room for all, those that would be too many are left out at all corners alike.
+    """
+    excess, given, wider = _EXCESS, len(fields[0]), partial(_with_room, room=room + 1)
+    while True:
+        corner, opposite, origin = wider(faces), wider(twin.reshape(-1, 3)), wider(np.arange(len(faces)))
+        x, y, target, way = map(wider, fields)
+        ends = np.zeros((room + 1, 2), dtype=np.int64)
+        mesh = HalvedMesh(len(faces), given, *all_flat(corner, opposite, origin, x, y, target, way, ends))
+        reached = halve_towards(mesh, finest**2, _GROWTH**2, flat(excess), len(faces) + room)
+        if reached == len(excess):
+            break
+        excess = excess[:reached]
+    there, added = slice(mesh.triangles), slice(given, mesh.vertices)
+    return corner[there], origin[there], x[added], y[added], ends[: mesh.vertices - given]
 
 
 def _with_room(values: npt.NDArray[_Number], room: int) -> npt.NDArray[_Number]:
