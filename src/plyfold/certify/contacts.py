@@ -165,6 +165,8 @@ def check_pieces(  # noqa: PLR0913, PLR0917 - an outline, a mesh, and where it i
     cusps: _Loops | None = None,
     boundary: npt.ArrayLike | None = None,
     along: npt.ArrayLike | None = None,
+    *,
+    twins: npt.ArrayLike | None = None,
 ) -> None:
     """Check that a flat mesh is what an outline that touches itself bounds, cut where it has no width.
 
@@ -183,6 +185,8 @@ def check_pieces(  # noqa: PLR0913, PLR0917 - an outline, a mesh, and where it i
         The vertices on the boundary, and the edge of the outline along which it leaves each of them. Then a vertex
         stands for the exact point of its edge that is nearest to it, as in :func:`check_immersed_surface`; without
         these, it must be on the outline as it is.
+    twins : array_like of int, shape (3 m,), optional
+        How the triangles are glued, as in :func:`check_immersed_surface`.
 
     Raises
     ------
@@ -211,8 +215,8 @@ def check_pieces(  # noqa: PLR0913, PLR0917 - an outline, a mesh, and where it i
     >>> check_pieces(neck, neck, [(0, 1, 7), (0, 7, 8), (2, 3, 4)])
     """
     outline, near = as_loops(loops, cusps), finite(vertices_xy, 2)
-    triangles, vertex = corners_of_fans(faces, len(near))
-    sides = surface_sides(triangles, len(vertex))
+    triangles, vertex = corners_of_fans(faces, len(near), twins)
+    sides = surface_sides(triangles, len(vertex), twins)
     rim = np.flatnonzero(sides.twin < 0)
     start, end = sides.start[rim], sides.end[rim]
     if boundary is None:

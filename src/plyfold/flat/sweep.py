@@ -36,6 +36,7 @@ from plyfold.flat.monotone import (
     close,
     count_up,
     empty_triangles,
+    new_edge,
     new_polygon,
 )
 from plyfold.flat.sweep_line import (
@@ -48,6 +49,7 @@ from plyfold.flat.sweep_line import (
     sweep_plan,
     unlink,
 )
+from plyfold.halfedges import GluedTriangles
 from plyfold.immersion.immersion import Immersion
 from plyfold.mesh.begun import drawings_of
 from plyfold.mesh.refine import borders_at_points, drawn_outline, given_outline, is_moved
@@ -127,7 +129,7 @@ class _Sweep(NamedTuple):
     polygons: MonotonePolygons
 
 
-def sweep_triangles(immersion: Immersion) -> Ints:
+def sweep_triangles(immersion: Immersion) -> GluedTriangles:
     """Return triangles on the points of an immersion's outline, by number, that make the immersed surface.
 
     Parameters
@@ -137,9 +139,9 @@ def sweep_triangles(immersion: Immersion) -> Ints:
 
     Returns
     -------
-    (n − 2χ, 3) int
-        Counter-clockwise, exactly, where the outline's points were given; only if strands touch there, some may have no
-        area. χ is the Euler characteristic.
+    GluedTriangles
+        n − 2χ triangles, where χ is the Euler characteristic; counter-clockwise, exactly, where the outline's points
+        were given; only if strands touch there, some may have no area. Several edges may join two cusps.
 
     Notes
     -----
@@ -148,21 +150,22 @@ def sweep_triangles(immersion: Immersion) -> Ints:
     Examples
     --------
     >>> from plyfold import find_immersion
-    >>> sweep_triangles(find_immersion([(0, 0), (4, 0), (1, 1), (0, 4)])).tolist()
-    [[0, 2, 3], [0, 1, 2]]
+    >>> found = sweep_triangles(find_immersion([(0, 0), (4, 0), (1, 1), (0, 4)]))
+    >>> found.faces.tolist(), found.twin.tolist()
+    ([[0, 2, 3], [0, 1, 2]], [5, -1, -1, -1, -1, 0])
     """
     given = given_outline(immersion.arrangement).points
     triangles = len(given) - 2 * immersion.arrangement.euler_characteristic
     if not is_moved(immersion.arrangement):
-        faces = _swept_triangles(immersion, TILTS[0])
-        if len(faces) == triangles:
-            return faces
+        found = _swept_triangles(immersion, TILTS[0])
+        if len(found.faces) == triangles:
+            return found
         raise PlyfoldError("internal check failed: the triangles make the surface", where=given[:1])
     for drawn in drawings_of(immersion.arrangement):
         for tilt in TILTS:
-            faces = _swept_triangles(replace(immersion, arrangement=drawn), tilt)
-            if len(faces) == triangles and (orient(*given[faces].swapaxes(0, 1)) >= 0).all():
-                return faces
+            found = _swept_triangles(replace(immersion, arrangement=drawn), tilt)
+            if len(found.faces) == triangles and (orient(*given[found.faces].swapaxes(0, 1)) >= 0).all():
+                return found
     raise PrecisionError(
         "touching strands were moved apart by more than there is room for",
         where=given[(given != immersion.arrangement.exact_points).any(axis=1)][:1],
@@ -170,7 +173,7 @@ def sweep_triangles(immersion: Immersion) -> Ints:
     )
 
 
-def _swept_triangles(immersion: Immersion, tilt: float) -> Ints:
+def _swept_triangles(immersion: Immersion, tilt: float) -> GluedTriangles:
     """Return the triangles that are found by a line of some tilt: all, unless moved strands confuse it."""
     plan = sweep_plan(immersion.arrangement, twisted_bridges(immersion), tilt)
     drawing = _drawing(immersion, plan)
@@ -185,7 +188,18 @@ def _swept_triangles(immersion: Immersion, tilt: float) -> Ints:
     # Room for one more: if there were more, that would be seen.
     room = empty_triangles(n - 2 * immersion.arrangement.euler_characteristic + 1)
     output = run_loop(_swept, len(drawing.order), given, room)
-    return output.faces[: output.counts[TRIANGLES]]
+    found = output.counts[TRIANGLES]
+    return GluedTriangles(output.faces[:found], _twins_of_sides(output.sides[:found].ravel()))
+
+
+def _twins_of_sides(edge: Ints) -> Ints:
+    """Return the half-edge on the other side of each half-edge, −1 for none, by the edges that they are sides of."""
+    half_edges = np.arange(len(edge))
+    first, last = np.empty((2, 1 + int(edge.max(initial=-1))), dtype=np.int64)
+    last[edge] = half_edges
+    first[edge[::-1]] = half_edges[::-1]
+    twin = first[edge] + last[edge] - half_edges
+    return np.where(twin == half_edges, -1, twin)
 
 
 def _drawing(immersion: Immersion, plan: SweepPlan) -> _Drawing:
@@ -233,7 +247,7 @@ def _room(n: int, starts: int, turns: int, bridges: int) -> tuple[SkipList, _Str
         empty_skip_list(2 * starts + bridges),
         _Strands(none[0], *rows(2, n + bridges), *rows(1, 2 * starts + bridges + 1)),
         _Intervals(none[1], *rows(1, n + bridges), *rows(3, starts)),
-        Stacks(*rows(2, starts + turns), *rows(2, 3 * (n + turns))),
+        Stacks(*rows(2, starts + turns), *rows(3, 3 * (n + turns))),
     )
 
 
@@ -418,9 +432,11 @@ def _end(sweep: _Sweep, vertex: int, convex: bool) -> None:
     arriving, leaving = sweep.drawing.preceding[vertex], vertex
     lower, upper = intervals.of_edge[leaving], intervals.of_edge[arriving]
     if convex:
-        close(sweep.polygons, intervals.bottom[lower], vertex)
-        if intervals.top[lower] != intervals.bottom[lower]:
-            close(sweep.polygons, intervals.top[lower], vertex)
+        bottom, top = intervals.bottom[lower], intervals.top[lower]
+        edge = new_edge(sweep.polygons)
+        close(sweep.polygons, bottom, vertex, edge, new_edge(sweep.polygons))
+        if top != bottom:
+            close(sweep.polygons, top, vertex, edge, new_edge(sweep.polygons))
     else:
         _meet(sweep, lower, vertex, 1)
         _meet(sweep, upper, vertex, -1)
@@ -542,10 +558,11 @@ def _meet(sweep: _Sweep, interval: int, vertex: int, side: int) -> None:
     intervals = sweep.intervals
     bottom, top = intervals.bottom[interval], intervals.top[interval]
     near, far = (top, bottom) if side > 0 else (bottom, top)
+    edge = new_edge(sweep.polygons)
     if near != far:
-        close(sweep.polygons, near, vertex)
+        close(sweep.polygons, near, vertex, edge, new_edge(sweep.polygons))
         intervals.bottom[interval] = intervals.top[interval] = far
-    add_vertex(sweep.polygons, far, vertex, side)
+    add_vertex(sweep.polygons, far, vertex, side, edge)
 
 
 @called_from_loops
@@ -571,6 +588,7 @@ def _cut(sweep: _Sweep, interval: int, vertex: int) -> None:
             bottom = seen
         else:
             top = seen
-    add_vertex(sweep.polygons, bottom, vertex, 1)
-    add_vertex(sweep.polygons, top, vertex, -1)
+    edge = new_edge(sweep.polygons)
+    add_vertex(sweep.polygons, bottom, vertex, 1, edge)
+    add_vertex(sweep.polygons, top, vertex, -1, edge)
     intervals.bottom[interval], intervals.top[interval] = bottom, top

@@ -9,9 +9,10 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrangement.spikes import without_spikes
 from plyfold.arrays import Floats, Ints
-from plyfold.errors import InputError, NotImmersibleError
+from plyfold.errors import InputError, NotImmersibleError, PrecisionError
 from plyfold.flat.delaunay import delaunay_triangles, flip_edges
-from plyfold.flat.settle import settled_by_points, settled_triangles
+from plyfold.flat.settle import settled_triangles
+from plyfold.halfedges import GluedTriangles, ends_of, split_in_three, split_in_two
 from plyfold.immersion.immersion import Immersion, require_immersion
 from plyfold.immersion.solve import find_immersion
 from plyfold.mesh.cells import refuse_max_area
@@ -185,31 +186,46 @@ def _refined(immersion: Immersion, came_in: _CameIn, max_area: float) -> tuple[F
     if isinstance(max_area, bool) or not isinstance(max_area, int | float | np.number):
         raise InputError(f"the largest area of a triangle must be a number, not {max_area!r}")
     refuse_max_area(given, max_area)
-    point, inside = (settled := settled_by_points(immersion)).point, settled.inside
+    point, inside = (settled := settled_triangles(immersion)).point, settled.inside
     points = np.concatenate([came_in.points, given[point[inside]]])
     number = np.where(inside, len(came_in.points) - 1 + np.cumsum(inside), came_in.number[point])
     # Flips alone would take quadratic time where triangles are long.
-    round_triangles = delaunay_triangles(given[point], settled.faces)
-    return _split_large(points, number[round_triangles], max_area)
+    faces, twin = delaunay_triangles(given[point], settled.triangles)
+    return _split_double(*_split_large(points, GluedTriangles(number[faces], twin), max_area))
 
 
-def _split_large(points: Floats, faces: Ints, max_area: float) -> tuple[Floats, Ints]:
+def _split_large(points: Floats, triangles: GluedTriangles, max_area: float) -> tuple[Floats, GluedTriangles]:
     """Split triangles at their centres until none is larger than allowed, or none of those can be split exactly.
 
     Edges are flipped after each round, so that triangles stay as round as their points allow.
     """
     while True:
-        faces = flip_edges(points, faces)
-        a, b, c = points[faces].swapaxes(0, 1)
+        triangles = flip_edges(points, triangles)
+        a, b, c = points[triangles.faces].swapaxes(0, 1)
         (ux, uy), (vx, vy) = (b - a).T, (c - a).T
         large = np.flatnonzero(ux * vy - uy * vx > 2 * max_area)
         centre = a[large] + ((b - a)[large] + (c - a)[large]) / 3
         inside = [orient(p[large], q[large], centre) > 0 for p, q in ((a, b), (b, c), (c, a))]
         large, centre = large[np.all(inside, axis=0)], centre[np.all(inside, axis=0)]
         if len(large) == 0:
-            return points, faces
-        new = len(points) + np.arange(len(large))
-        first, second, third = faces[large].T
-        parts = [(first, second, new), (second, third, new), (third, first, new)]
-        faces = np.concatenate([np.delete(faces, large, axis=0), *(np.stack(part, axis=1) for part in parts)])
+            return points, triangles
+        triangles = split_in_three(triangles, large, len(points) + np.arange(len(large)))
         points = np.concatenate([points, centre])
+
+
+def _split_double(points: Floats, triangles: GluedTriangles) -> tuple[Floats, Ints]:
+    """Put points in the middle of edges that join the same points as another one; then corners tell what is glued."""
+    while doubles := triangles.doubles:
+        side = int(doubles[0][-1])
+        ends = [ends[side] for ends in ends_of(triangles.faces)]
+        middle = len(points)
+        points = np.concatenate([points, (points[ends] / 2).sum(axis=0, keepdims=True)])
+        triangles = split_in_two(triangles, side, middle)
+        beside = triangles.faces[(triangles.faces == middle).any(axis=1)]
+        if (orient(*points[beside].swapaxes(0, 1)) <= 0).any():
+            raise PrecisionError(
+                "two edges of triangles join the same two cusps, and double precision has no point between these",
+                where=points[ends],
+                hint="put a vertex on an edge near one of them",
+            )
+    return points, triangles.faces
