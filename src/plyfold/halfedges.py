@@ -24,6 +24,7 @@ __all__ = [
     "split_in_three",
     "split_in_two",
     "twins_of",
+    "twins_of_edges",
 ]
 
 _HalfEdge = TypeVar("_HalfEdge", int, Ints)
@@ -112,6 +113,22 @@ def twins_of(triangles: Ints) -> Ints:
     """
     start, end = ends_of(triangles)
     return half_edges_from_to(triangles, end, start)
+
+
+def twins_of_edges(edge: Ints) -> Ints:
+    """Return the half-edge on the other side of each half-edge, −1 for none, by the edges that they are sides of.
+
+    Examples
+    --------
+    >>> twins_of_edges(np.array([0, 1, 2, 2, 4, 3])).tolist()
+    [-1, -1, 3, 2, -1, -1]
+    """
+    half_edges = np.arange(len(edge))
+    first, last = np.empty((2, 1 + int(edge.max(initial=-1))), dtype=np.int64)
+    last[edge] = half_edges
+    first[edge[::-1]] = half_edges[::-1]
+    twin = first[edge] + last[edge] - half_edges
+    return np.where(twin == half_edges, -1, twin)
 
 
 def neighbours_of(triangles: Ints) -> Ints:

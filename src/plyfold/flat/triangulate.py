@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, overload
+from typing import Literal, NamedTuple, overload
 
 import numpy as np
 
@@ -25,16 +25,26 @@ __all__ = ["chosen_immersion", "triangulate"]
 
 
 @overload
-def triangulate(curve: OutlineLike, immersion: Immersion | None = None, refine: None = None) -> Ints: ...
+def triangulate(
+    curve: OutlineLike, immersion: Immersion | None = None, refine: None = None, *, twins: Literal[False] = False
+) -> Ints: ...
 
 
 @overload
-def triangulate(curve: OutlineLike, immersion: Immersion | None = None, *, refine: float) -> tuple[Floats, Ints]: ...
+def triangulate(
+    curve: OutlineLike, immersion: Immersion | None = None, refine: None = None, *, twins: Literal[True]
+) -> tuple[Ints, Ints]: ...
+
+
+@overload
+def triangulate(
+    curve: OutlineLike, immersion: Immersion | None = None, *, refine: float, twins: Literal[False] = False
+) -> tuple[Floats, Ints]: ...
 
 
 def triangulate(
-    curve: OutlineLike, immersion: Immersion | None = None, refine: float | None = None
-) -> Ints | tuple[Floats, Ints]:
+    curve: OutlineLike, immersion: Immersion | None = None, refine: float | None = None, *, twins: bool = False
+) -> Ints | tuple[Ints, Ints] | tuple[Floats, Ints]:
     """Cut the disk that a curve bounds into n − 2 triangles on the curve's own n points, or the surface of any outline.
 
     Parameters
@@ -45,7 +55,9 @@ def triangulate(
         The surface to triangulate, if the outline bounds several; by default the first one.
     refine : float, optional
         Largest area of a triangle, in square units of the drawing. Points are then added inside the surface, none on
-        its boundary.
+        its boundary. ``math.inf`` adds none for the sake of area, so that triangles are round and no more.
+    twins : bool
+        Without ``refine``: tell also which sides are glued.
 
     Returns
     -------
@@ -57,10 +69,16 @@ def triangulate(
 
         A surface that touches itself (``immersion.touches``) is cut there, and falls into pieces. Then n counts every
         corner of every piece, and χ is that of all pieces together. Where a point touches the inside of an edge, it is
-        a corner on both sides.
+        a corner on both sides: faces name points, and a point may be several corners of the surface.
+    twins : (3 (n − 2χ),) int
+        With ``twins``. The side beyond each side of each triangle, −1 on the boundary; side i of triangle t, from its
+        corner i to the next one, is 3 t + i. Faces do not tell that where sides join the same points and are not the
+        same edge: between cusps, round which the surface winds, and along cuts.
     points, faces : (m, 2) float and (m', 3) int
-        With ``refine``. The first points are the outline's, all of them; those that touch the inside of an edge where
-        the surface is cut follow, once more for each corner there, so that pieces have no vertex in common.
+        With ``refine``: a mesh, of which faces tell how it is glued. The first points are the outline's, all of them;
+        those that touch the inside of an edge where the surface is cut follow, once more for each corner there, so that
+        pieces have no vertex in common. Where several edges of triangles join the same two cusps, all but one of them
+        have a vertex in their middle.
 
     Raises
     ------
@@ -69,10 +87,11 @@ def triangulate(
     MemoryLimitError
         If the gluing of the sheets would not fit into memory.
     InputError
-        If ``refine`` is no positive number or makes too many triangles, or the immersion is one of another outline;
-        with ``refine``, also if two sides of triangles join the same two cusps.
-    GeneralPositionError
-        If touching strands cannot be moved apart by as little as it takes to see how the surface lies.
+        If ``refine`` is no positive number or makes too many triangles, or is there together with ``twins``; or the
+        immersion is one of another outline.
+    PrecisionError
+        If touching strands cannot be moved apart by as little as it takes to see how the surface lies; with ``refine``,
+        if there is no double in the middle between two cusps.
 
     Notes
     -----
@@ -116,10 +135,14 @@ def triangulate(
     chosen = chosen_immersion(outline, immersion)
     came_in = _points_that_came_in(outline, chosen.arrangement)
     if refine is not None:
+        if twins:
+            raise InputError("with refine, faces tell which sides are twins", hint="leave out twins")
         return _refined(chosen, came_in, refine)
     settled = settled_triangles(chosen)
     faces = came_in.number[settled.point[settled.faces]]
-    return faces if isinstance(curve, Outline) or not isinstance(outline, Outline) else outline.rows[faces]
+    if isinstance(outline, Outline) and not isinstance(curve, Outline):
+        faces = outline.rows[faces]
+    return (faces, settled.triangles.twin) if twins else faces
 
 
 class _CameIn(NamedTuple):
