@@ -83,7 +83,10 @@ def test_a_hundred_sheets():
 def test_beyond_the_products_of_doubles(factor):
     """The same triangles in fractions, where products of coordinates over- or underflow."""
     points = CURVES["ten-gon"].curve.points
-    assert sweep_triangles(pf.find_immersion(points * factor)).faces.tolist() == certify(pf.find_immersion(points)).tolist()
+    assert (
+        sweep_triangles(pf.find_immersion(points * factor)).faces.tolist()
+        == certify(pf.find_immersion(points)).tolist()
+    )
 
 
 def test_order_is_exact():
