@@ -33,6 +33,12 @@ class Limit(NamedTuple):
         The points that moved in another way: cusps, of which several were in one place.
     twins : (3 m,) int
         The side beyond each side of each triangle, −1 on the boundary.
+
+    Examples
+    --------
+    >>> from plyfold import find_immersion
+    >>> limit_of(find_immersion([(0, 0), (4, 0), (0, 4)])).faces.tolist()
+    [[0, 1, 2]]
     """
 
     loops: tuple[Reals, ...]

@@ -56,7 +56,7 @@ def triangulate(
     refine : float, optional
         Largest area of a triangle, in square units of the drawing. Points are then added inside the surface, none on
         its boundary. ``math.inf`` adds none for the sake of area, so that triangles are round and no more.
-    twins : bool
+    twins : bool, optional
         Without ``refine``: tell also which sides are glued.
 
     Returns
