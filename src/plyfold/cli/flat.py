@@ -23,6 +23,7 @@ from plyfold.cli.inputs import (
     write_texts,
 )
 from plyfold.cli.progress import Stopwatch
+from plyfold.cli.standard_output import say_written
 from plyfold.loading import FOR_MESHES, load_libraries
 from plyfold.wording import counted
 
@@ -168,7 +169,7 @@ def _unwrap(options: argparse.Namespace) -> int:
     sheets = counted(unwound.immersion.n_sheets, "sheet")
     print(f"{len(unwound.faces):,} triangles in {sheets}, none of them flipped in the disk")
     for path in options.output:
-        print(f"  wrote {path}")
+        say_written(path)
     return DISK
 
 
