@@ -25,12 +25,12 @@ cdef class Nesting:
     cdef const int64_t[::1] first_point, first_visit, edge, partner
     cdef const uint8_t[::1] ccw
     cdef object step
-    cdef Py_ssize_t n, loops, leaves
-    cdef int64_t[::1] loop, loop_of_visit, group, first_border, is_known, stack, outer
+    cdef Py_ssize_t n, loops, groups, leaves
+    cdef int64_t[::1] loop, loop_of_visit, group, first_border, is_known, stack, outer, order
     cdef readonly int64_t[::1] leftmost, is_convex
     cdef readonly Numbers corner, unsure
     cdef Numbers near
-    cdef double[::1] box
+    cdef double[::1] box, side
     cdef double x, y, least, low, high
     cdef int64_t own
     cdef bint is_rounded
@@ -44,7 +44,10 @@ cdef class Nesting:
     cdef Py_ssize_t _before(self, Py_ssize_t point) except -1
     cpdef int meet(self, const int64_t[::1] corner, int is_rounded, int64_t[::1] met) except -1
     cdef int _fill_boxes(self) except -1
-    cdef int _fill_leaf(self, Py_ssize_t node) except -1
+    cdef int _fill_group(self, Py_ssize_t group) except -1
+    cdef int _halve(self, Py_ssize_t low, Py_ssize_t high, Py_ssize_t axis) except -1
+    cdef int _select(self, Py_ssize_t low, Py_ssize_t high, Py_ssize_t place, Py_ssize_t axis) except -1
+    cdef double _along(self, Py_ssize_t group, Py_ssize_t axis) except? -2
     cdef int _join_boxes(self, Py_ssize_t node) except -1
     cdef int _put_box(self, Py_ssize_t node, double low_x, double low_y, double high_x, double high_y) except -1
     cdef int _look(self, Py_ssize_t node) except -1

@@ -13,7 +13,7 @@ from plyfold.core.signs import exact_sign, rest_of_difference, rest_of_product
 __all__ = ["Bridges", "Nesting", "share_of_fractions"]
 
 # So many consecutive edges make a leaf of the tree of boxes; after so many rays it is asked whether there is time left.
-_GROUP = 8
+_GROUP = 32
 _RAYS = 1024
 _FAR = float("inf")
 # 16 times the distance of 1 to the next double, and the least double that is not rounded off.
@@ -217,26 +217,74 @@ class Nesting:
             met[ray] = self._first(ray)
 
     def _fill_boxes(self) -> None:
-        """Find the box of each node: its lowest and highest, its leftmost and rightmost coordinate."""
-        self.leaves = 1
-        while self.leaves * _GROUP < self.n:
-            self.leaves *= 2
-        self.box = real_room(8 * self.leaves)
-        for node in range(2 * self.leaves - 1, 0, -1):
-            if node >= self.leaves:
-                self._fill_leaf(node)
-            else:
-                self._join_boxes(node)
+        """Find the box of each node: its left, lower, right and upper side.
 
-    def _fill_leaf(self, node: int) -> None:
+        Each half of a node has the groups of edges whose boxes lie further left, or lower, in turn (a k-d tree).
+        """
+        self.groups, self.leaves = (self.n + _GROUP - 1) // _GROUP, 1
+        while self.leaves < self.groups:
+            self.leaves *= 2
+        self.box, self.side = real_room(8 * self.leaves), real_room(4 * self.groups)
+        self.order = whole_room(self.groups)
+        for group in range(self.groups):
+            self.order[group] = group
+            self._fill_group(group)
+        self._halve(0, self.leaves, 0)
+        for node in range(2 * self.leaves - 1, 0, -1):
+            if node < self.leaves:
+                self._join_boxes(node)
+            elif node < self.leaves + self.groups:
+                at = 4 * self.order[node - self.leaves]
+                self._put_box(node, self.side[at], self.side[at + 1], self.side[at + 2], self.side[at + 3])
+            else:
+                self._put_box(node, _FAR, _FAR, -_FAR, -_FAR)
+
+    def _fill_group(self, group: int) -> None:
+        """Find the sides of the box of consecutive edges."""
         low_x, low_y, high_x, high_y = _FAR, _FAR, -_FAR, -_FAR
-        start = _GROUP * (node - self.leaves)
+        start = _GROUP * group
         for edge in range(start, min(start + _GROUP, self.n)):
             end = self._end(edge)
-            x, y, end_x, end_y = self.points[2 * edge], self.points[2 * edge + 1], self.points[2 * end], self.points[2 * end + 1]
+            x, y = self.points[2 * edge], self.points[2 * edge + 1]
+            end_x, end_y = self.points[2 * end], self.points[2 * end + 1]
             low_x, low_y = min(low_x, x, end_x), min(low_y, y, end_y)
             high_x, high_y = max(high_x, x, end_x), max(high_y, y, end_y)
-        self._put_box(node, low_x, low_y, high_x, high_y)
+        side, at = self.side, 4 * group
+        side[at], side[at + 1], side[at + 2], side[at + 3] = low_x, low_y, high_x, high_y
+
+    def _halve(self, low: int, high: int, axis: int) -> None:
+        """Sort groups of edges in some places into halves along an axis, and those along the other one."""
+        if high - low > 1:
+            middle = (low + high) // 2
+            if middle < self.groups:
+                self._select(low, min(high, self.groups) - 1, middle, axis)
+                self._halve(middle, high, 1 - axis)
+            self._halve(low, middle, 1 - axis)
+
+    def _select(self, low: int, high: int, place: int, axis: int) -> None:
+        """Sort groups in some places until none before one of these lies further along than those from it on (Hoare)."""
+        order = self.order
+        while low < high:
+            pivot = self._along(order[(low + high) // 2], axis)
+            up, down = low, high
+            while up <= down:
+                while self._along(order[up], axis) < pivot:
+                    up += 1
+                while self._along(order[down], axis) > pivot:
+                    down -= 1
+                if up <= down:
+                    order[up], order[down] = order[down], order[up]
+                    up, down = up + 1, down - 1
+            if place <= down:
+                high = down
+            elif place >= up:
+                low = up
+            else:
+                low = high
+
+    def _along(self, group: int, axis: int) -> float:
+        """Return half of about how far along an axis the box of a group lies: nothing overflows."""
+        return self.side[4 * group + axis] / 4 + self.side[4 * group + 2 + axis] / 4
 
     def _join_boxes(self, node: int) -> None:
         box, one, other = self.box, 8 * node, 8 * node + 4
@@ -257,7 +305,7 @@ class Nesting:
         box, at = self.box, 4 * node
         if box[at] < self.x and box[at + 2] >= self.least and box[at + 1] <= self.y < box[at + 3]:
             if node >= self.leaves:
-                start = _GROUP * (node - self.leaves)
+                start = _GROUP * self.order[node - self.leaves]
                 for edge in range(start, min(start + _GROUP, self.n)):
                     self._pass_edge(edge)
             else:
