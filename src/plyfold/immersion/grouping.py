@@ -8,14 +8,16 @@ letters takes a fraction of a second; counting and listing then never enter an i
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from math import prod
 from typing import Any, TypeAlias
 
+import numpy as np
+
+from plyfold.arrays import Ints
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.immersion.propagation import Conflict, Narrowed, narrow
+from plyfold.immersion.propagation import Conflict, narrow
 from plyfold.immersion.word import Word
 
 __all__ = ["Groupings", "count_groupings", "find_groupings", "list_groupings", "nth_grouping"]
@@ -24,7 +26,7 @@ Interval: TypeAlias = tuple[int, int]
 # A chord that opens at a place: the two intervals inside it and behind it up to a given end, and its plus letter.
 Opening: TypeAlias = tuple[int, int, int, int]
 # A grouping: the plus letter of each label.
-Grouping: TypeAlias = dict[int, int]
+Grouping: TypeAlias = Ints
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,8 +38,8 @@ class Groupings:
     Parameters
     ----------
     word : Word
-    chosen : dict of int to int
-        The plus letters of the labels without choice.
+    chosen : (labels,) int
+        The plus letters of the labels without choice, −1 for others.
     regions : list of (int, int)
         First and last place (exclusive) of each region.
     openings : list of list of (int, int, int, int)
@@ -52,7 +54,7 @@ class Groupings:
     """
 
     word: Word
-    chosen: Grouping
+    chosen: Ints
     regions: list[Interval]
     openings: list[list[Opening]]
     bound: list[bool]
@@ -75,17 +77,17 @@ def find_groupings(word: Word, watch: Watch = UNWATCHED) -> Groupings | Conflict
     groupings = Groupings(word, narrowed.chosen, [], [], [], [])
     for region in narrowed.regions:
         first = len(groupings.groupable)
-        _lay_out(groupings, narrowed, region, watch)
+        _lay_out(groupings, word, region, watch)
         if not _has_grouping(groupings, (first, first + len(region))):
             return narrowed.conflict(region)
     return groupings
 
 
-def _lay_out(groupings: Groupings, narrowed: Narrowed, region: list[int], watch: Watch) -> None:
+def _lay_out(groupings: Groupings, word: Word, region: Ints, watch: Watch) -> None:
     """Add the places of a region, and one more that ends it."""
     first = len(groupings.groupable)
-    openings = _openings(narrowed, region, first)
-    minus = [letter == narrowed.word.minus[narrowed.word.label[letter]] for letter in region]
+    minus = (word.minus[word.label[region]] == region).tolist()
+    openings = _openings(word, region, minus, first)
     rows = [1] * (len(region) + 1)
     for place in reversed(range(len(region))):
         watch.step()
@@ -100,19 +102,17 @@ def _lay_out(groupings: Groupings, narrowed: Narrowed, region: list[int], watch:
     groupings.groupable.extend(rows)
 
 
-def _openings(narrowed: Narrowed, region: list[int], first: int) -> list[list[Opening]]:
-    word = narrowed.word
-    place_of = {letter: first + place for place, letter in enumerate(region)}
-    openings: list[list[Opening]] = [[] for _ in region]
-    for letter in region:
-        label = word.label[letter]
-        minus = place_of[word.minus[label]]
-        if letter != word.minus[label]:
-            plus, block = place_of[letter], first + bisect_left(region, word.block[letter])
-            if minus < block:
-                openings[minus - first].append((minus + 1, block, plus + 1, letter))
-            elif plus < minus:
-                openings[block - first].append((plus + 1, minus, minus + 1, letter))
+def _openings(word: Word, region: Ints, minus: list[bool], first: int) -> list[list[Opening]]:
+    """Return the chords that open at each place: at their minus letters, or with the blocks of their plus letters."""
+    openings: list[list[Opening]] = [[] for _ in minus]
+    minus_place = (first + np.searchsorted(region, word.minus[word.label[region]])).tolist()
+    block_place = (first + np.searchsorted(region, word.block[region])).tolist()
+    for plus, letter in enumerate(region.tolist(), first):
+        bound, block = minus_place[plus - first], block_place[plus - first]
+        if bound < block:
+            openings[bound - first].append((bound + 1, block, plus + 1, letter))
+        elif plus < bound:
+            openings[block - first].append((plus + 1, bound, bound + 1, letter))
     return openings
 
 
@@ -207,7 +207,10 @@ def _nth_choice(groupings: Groupings, interval: Interval, index: int) -> tuple[i
 
 
 def _grouping(groupings: Groupings, letters: Iterable[int]) -> Grouping:
-    return {**groupings.chosen, **{groupings.word.label[letter]: letter for letter in letters}}
+    plus = np.fromiter(letters, dtype=np.int64)
+    grouping = groupings.chosen.copy()
+    grouping[groupings.word.label[plus]] = plus
+    return grouping
 
 
 def _linked(items: Iterable[Any], rest: Any) -> Any:
