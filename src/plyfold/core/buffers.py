@@ -23,7 +23,11 @@ class Buffer(Protocol[_Number]):
     @overload
     def __getitem__(self, places: slice, /) -> Buffer[_Number]: ...
 
+    @overload
     def __setitem__(self, place: int, number: _Number, /) -> None: ...
+
+    @overload
+    def __setitem__(self, places: slice, numbers: Buffer[_Number], /) -> None: ...
 
 
 RealBuffer: TypeAlias = Buffer[float]

@@ -44,6 +44,8 @@ cdef class Propagation:
         int64_t[::1] room,
     ) except -1
     cpdef int64_t narrow(self) except? -1
+    cpdef int64_t narrow_further(self, const int64_t[::1] letters) except? -1
+    cdef int64_t _settle_all(self) except? -1
     cpdef Py_ssize_t letters_in_play(self) except? -1
     cdef int _close_rings(self) except -1
     cdef int _link(self, int64_t letter, int64_t following) except -1
