@@ -17,6 +17,8 @@ __all__ = ["Intervals"]
 _BITS = 63
 # After so many words it is asked whether there is time left.
 _WORDS = 1_000_000
+# Room for rows grows fourfold up to here; what is not taken, the system does not give.
+_LITTLE = 4_000_000
 
 
 class Intervals:
@@ -72,7 +74,7 @@ class Intervals:
         self.wall, self.first, self.bound, self.plus, self.block = wall, first, bound, plus, block
         self.step, self.ask = step, ask
         self.places = len(first) - 1
-        self.fits, self.right_at = whole_room(len(plus)), whole_room(self.places)
+        self.fits, self.entry, self.next_entry = whole_room(len(plus)), whole_room(len(wall)), whole_room(len(plus))
         self.next_wall, self.row_of = whole_room(self.places), whole_room(self.places)
         self.row, self.low, self.high = whole_room(2 * len(wall) // _BITS + 1), 0, 0
         self.start, self.lowest, self.rows = whole_room(self.places + 1), whole_room(self.places), 0
@@ -90,19 +92,16 @@ class Intervals:
             return True
         if self.wall[wall] == end:
             return self._reaches(start, 2 * wall)
-        return self._reaches(start, 2 * wall - 1) or self._is_entered(start, self.wall[wall - 1] + 1, end)
+        return self._reaches(start, 2 * wall - 1) or self._is_entered(start, wall, end)
 
-    def _is_entered(self, start: int, low: int, high: int) -> bool:
-        """Tell whether a chord that begins at a wall may lead from a place to somewhere between two walls."""
-        for place in range(low, high):
-            chord = self.right_at[place] - 1
-            if (
-                chord >= 0
-                and self.fits[chord]
-                and self.wall[self.bound[chord]] >= start
-                and self._reaches(start, 2 * self.bound[chord])
-            ):
+    def _is_entered(self, start: int, wall: int, end: int) -> bool:
+        """Tell whether a chord that begins at one wall may lead from a place to somewhere before another, and an end."""
+        chord = self.entry[wall] - 1
+        while chord >= 0:
+            bound = self.bound[chord]
+            if self.plus[chord] < end and self.wall[bound] >= start and self._reaches(start, 2 * bound):
                 return True
+            chord = self.next_entry[chord] - 1
         return False
 
     def _reaches(self, place: int, post: int) -> bool:
@@ -115,15 +114,12 @@ class Intervals:
     # ---- rows, from the last place to the first one ------------------------------------------------------------------
 
     def _find_walls(self) -> None:
-        """Find the first wall at each place or behind it, and the chords that end at each place."""
+        """Find the first wall at each place or behind it."""
         wall = len(self.wall) - 1
         for place in range(self.places - 1, -1, -1):
             if wall > 0 and self.wall[wall - 1] >= place:
                 wall -= 1
             self.next_wall[place] = wall
-        for chord in range(len(self.plus)):
-            if self.wall[self.bound[chord]] < self.plus[chord]:
-                self.right_at[self.plus[chord]] = chord + 1
 
     def _fill_row(self, place: int, wall: int) -> None:
         """Find what can be reached from a place; before a wall, what can be from the next place, and by chords."""
@@ -147,6 +143,9 @@ class Intervals:
         if fits:
             self.fits[chord] = 1
             self._add_row(self.row_of[max(bound, plus) + 1])
+            if bound < plus:
+                wall = self.next_wall[plus]
+                self.next_entry[chord], self.entry[wall] = self.entry[wall], chord + 1
         return fits
 
     def _clear_row(self) -> None:
@@ -189,8 +188,9 @@ class Intervals:
             self.step()
 
     def _grow(self, size: int) -> None:
-        """Double the room for rows, of which so much is taken."""
-        self.ask(16 * len(self.words))
-        words = whole_room(2 * len(self.words))
+        """Make room for more rows; so much is taken."""
+        room = (4 if size < _LITTLE else 2) * len(self.words)
+        self.ask(8 * room)
+        words = whole_room(room)
         words[:size] = self.words[:size]
         self.words = words

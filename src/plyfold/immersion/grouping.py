@@ -18,7 +18,7 @@ import numpy as np
 from plyfold.arrays import Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.core.intervals import Intervals
-from plyfold.immersion.intervals import Layout, lay_out
+from plyfold.immersion.intervals import OpenLetters, lay_out
 from plyfold.immersion.propagation import Conflict, Narrowed, narrow
 from plyfold.immersion.word import Word
 
@@ -85,7 +85,7 @@ def find_groupings(word: Word, watch: Watch = UNWATCHED) -> Groupings | Conflict
     return _groupings(*_narrowed_further(narrowed, layout, watch))
 
 
-def _narrowed_further(narrowed: Narrowed, layout: Layout, watch: Watch) -> tuple[Ints, Layout]:
+def _narrowed_further(narrowed: Narrowed, layout: OpenLetters, watch: Watch) -> tuple[Ints, OpenLetters]:
     """Leave out the chords whose inside cannot be grouped, and all that does not fit in with those that are left."""
     misfits = layout.letter[layout.plus[~layout.fits]]
     if not len(misfits):
@@ -94,7 +94,7 @@ def _narrowed_further(narrowed: Narrowed, layout: Layout, watch: Watch) -> tuple
     return chosen, layout.without(gone, watch)
 
 
-def _groupings(chosen: Ints, layout: Layout) -> Groupings:
+def _groupings(chosen: Ints, layout: OpenLetters) -> Groupings:
     openings: list[list[Opening]] = [[] for _ in layout.letter]
     columns = layout.opens_at, layout.minus, layout.plus, layout.block, layout.letter[layout.plus]
     for place, minus, plus, block, letter in np.stack(columns, axis=1)[layout.fits].tolist():

@@ -14,11 +14,11 @@ from plyfold.core.intervals import Intervals
 from plyfold.immersion.word import Word
 from plyfold.memory import require_memory
 
-__all__ = ["Layout", "lay_out"]
+__all__ = ["OpenLetters", "lay_out"]
 
 
 @dataclass(frozen=True, eq=False)
-class Layout:
+class OpenLetters:
     """Letters of a word in places, region after region; behind each region there is one more place, which ends it.
 
     Parameters
@@ -58,29 +58,32 @@ class Layout:
         """Whether each chord's inside can be grouped."""
         return np.asarray(self.table.fits).astype(bool)
 
-    def without(self, gone: Bools, watch: Watch) -> Layout:
+    def without(self, gone: Bools, watch: Watch) -> OpenLetters:
         """Return the layout without the chords of some letters; those that stay begin in the same order."""
         stays = ~np.append(gone, False)[self.letter]
         stays[self.opens_at[stays[self.plus]]] = True
         return _laid(self.word, self.letter[stays], self.region[stays], gone, watch)
 
 
-def lay_out(word: Word, regions: Sequence[Ints], watch: Watch) -> Layout:
+def lay_out(word: Word, regions: Sequence[Ints], watch: Watch) -> OpenLetters:
     """Lay out the letters of some regions, each in order along the curve."""
     letter = np.concatenate([part for region in regions for part in (region, [len(word)])])
     region = np.repeat(np.arange(len(regions)), [len(region) + 1 for region in regions])
     return _laid(word, letter, region, np.zeros(len(word), dtype=bool), watch)
 
 
-def _laid(word: Word, letter: Ints, region: Ints, gone: Bools, watch: Watch) -> Layout:
+def _laid(word: Word, letter: Ints, region: Ints, gone: Bools, watch: Watch) -> OpenLetters:
     ends = letter == len(word)
     label = np.append(word.label, 0)[letter]
     is_minus = ~ends & (word.minus[label] == letter)
     plus = np.flatnonzero(~ends & ~is_minus & ~np.append(gone, False)[letter])
-    # The place of a letter of the same region.
-    key, first = region * (len(word) + 1) + letter, region[plus] * (len(word) + 1)
-    minus = np.searchsorted(key, first + word.minus[label[plus]])
-    block = np.searchsorted(key, first + word.block[letter[plus]])
+    place_of = np.zeros(len(word) + 1, dtype=np.int64)
+    place_of[letter] = np.arange(len(letter))
+    minus, block = place_of[word.minus[label[plus]]], plus.copy()
+    longer = np.flatnonzero(word.block[letter[plus]] < letter[plus])
+    # A block begins with the first letter of the same region that is in it.
+    key, first = region * (len(word) + 1) + letter, region[plus[longer]] * (len(word) + 1)
+    block[longer] = np.searchsorted(key, first + word.block[letter[plus[longer]]])
     opens_at = np.minimum(minus, block)
     chords = np.flatnonzero((minus < block) | (plus < minus))
     chords = chords[np.argsort(opens_at[chords], kind="stable")]
@@ -88,7 +91,7 @@ def _laid(word: Word, letter: Ints, region: Ints, gone: Bools, watch: Watch) -> 
     is_wall = ends | is_minus
     wall, first = np.flatnonzero(is_wall), np.searchsorted(opens_at, np.arange(len(letter) + 1))
     table = _table(wall, all_flat(wall, first, np.searchsorted(wall, minus), plus, block), watch)
-    return Layout(word, letter, region, is_wall, opens_at, minus, plus, block, table)
+    return OpenLetters(word, letter, region, is_wall, opens_at, minus, plus, block, table)
 
 
 def _table(wall: Ints, buffers: list[Buffer[int]], watch: Watch) -> Intervals:
