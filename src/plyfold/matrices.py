@@ -28,6 +28,7 @@ __all__ = [
     "laplacian",
     "one_thread",
     "summed",
+    "without_empty_columns",
 ]
 
 _lock = Lock()
@@ -88,6 +89,21 @@ def diagonal_matrix(values: Floats) -> Any:
     from scipy.sparse import diags_array
 
     return diags_array(values)
+
+
+def without_empty_columns(rows: Any) -> tuple[Any, Ints]:
+    """Return a sparse matrix in rows without its empty columns, and the numbers of the others.
+
+    Examples
+    --------
+    >>> kept, columns = without_empty_columns(summed(np.array([5.0]), np.array([0]), np.array([2]), (1, 9)))
+    >>> kept.toarray().tolist(), columns.tolist()
+    ([[5.0]], [2])
+    """
+    from scipy.sparse import csr_array
+
+    columns, number = np.unique(rows.indices, return_inverse=True)
+    return csr_array((rows.data, number, rows.indptr), shape=(rows.shape[0], len(columns))), columns
 
 
 def laplacian(start: Ints, end: Ints, weight: Floats) -> Any:

@@ -23,7 +23,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
@@ -36,7 +35,7 @@ from plyfold.core.elimination import (
     multiply_paths,
     walk_paths,
 )
-from plyfold.matrices import Factors, diagonal_matrix, dissected_order, factorised
+from plyfold.matrices import Factors, diagonal_matrix, dissected_order, factorised, without_empty_columns
 from plyfold.surface.energy import Cloth
 
 __all__ = ["Answers", "InverseEntries"]
@@ -177,7 +176,7 @@ class Answers:
         some, others : (s, v), (o, v) sparse array
             The weights, in rows. Unless vertices are held, those in each row add up to 0.
         """
-        (weights, here), (other_weights, there) = _compressed(some), _compressed(others)
+        (weights, here), (other_weights, there) = without_empty_columns(some), without_empty_columns(others)
         self._join(np.concatenate([here, there]))
         inverse = np.zeros((len(here), len(there)))
         for part in self._parts:
@@ -190,9 +189,3 @@ class Answers:
         self._number[fresh] = self._number.max(initial=-1) + 1 + np.arange(len(fresh))
         for part in self._parts:
             part.entries.join(part.row[fresh])
-
-
-def _compressed(rows: Any) -> tuple[Any, Ints]:
-    """Return sparse rows without their empty columns, and the numbers of the others."""
-    columns, number = np.unique(rows.indices, return_inverse=True)
-    return csr_array((rows.data, number, rows.indptr), shape=(rows.shape[0], len(columns))), columns
