@@ -3,8 +3,15 @@
 import numpy as np
 
 from plyfold.surface.energy import cloth_of
-from plyfold.surface.grading import cloth_mesh
+from plyfold.surface.grading import ClothMesh, cloth_mesh
 from plyfold.surface.heights import DEFAULT_STIFFNESS
+
+
+def coarse_cloth(points, mesh, stiffness):
+    """The energy on the surface's own mesh, however re-entrant its corners."""
+    fine, own = cloth_mesh(points, mesh, stiffness), len(mesh.level)
+    coarse = ClothMesh(fine.places[:own], mesh.faces, np.arange(len(mesh.faces)), fine.ends[:0], fine.width)
+    return cloth_of(coarse, mesh, stiffness, 1.0)
 
 
 def energy_matrix(points, mesh, stiffness=DEFAULT_STIFFNESS, flat=1.0):

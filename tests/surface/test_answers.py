@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import csr_array
 
+from cloths import coarse_cloth
 from coarse import CURVES
 from plyfold import find_layering, immersions
 from plyfold.core.buffers import all_flat
@@ -16,7 +17,6 @@ from plyfold.matrices import dissected_order, factorised
 from plyfold.mesh.cells import triangulate_cells
 from plyfold.surface import answers
 from plyfold.surface.answers import Answers, InverseEntries
-from plyfold.surface.energy import cloth_of
 from plyfold.surface.glue import stack_sheets
 
 
@@ -90,7 +90,7 @@ def test_answers_of_cloth(held, stiffness, precision, dissected, monkeypatch):
         pytest.importorskip("pymetis")
         monkeypatch.setattr(answers, "_FEW", 0)
     points, mesh = glued("milnor")
-    cloth, rows = cloth_of(points, mesh, stiffness, 1.0), differences(mesh)
+    cloth, rows = coarse_cloth(points, mesh, stiffness), differences(mesh)
     fixed = np.isin(np.arange(len(mesh.level)), mesh.faces[:5]) & held
     inverse, free = np.zeros((len(fixed), len(fixed))), np.flatnonzero(~fixed)
     matrix = cloth.stiffness.toarray()[np.ix_(free, free)]
@@ -107,7 +107,7 @@ def test_answers_of_cloth(held, stiffness, precision, dissected, monkeypatch):
 def test_orders_by_dissection(monkeypatch):
     """A permutation; and none without the library."""
     points, mesh = glued("pretzel", 2000)
-    laplacian = cloth_of(points, mesh, 0.5, 1.0).laplacian
+    laplacian = coarse_cloth(points, mesh, 0.5).laplacian
     if importlib.util.find_spec("pymetis"):
         order = dissected_order(laplacian)
         assert sorted(order.tolist()) == list(range(laplacian.shape[0]))
