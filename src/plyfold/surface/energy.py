@@ -94,16 +94,15 @@ def cloth_of(fine: ClothMesh, mesh: LiftedMesh, stiffness: float, flat: float, w
     places, faces, length = fine.places, fine.faces, stiffness * fine.width
     weight = np.where(np.isin(faces, mesh.cusps).any(axis=1), _AT_CUSPS, 1.0)
     laplacian, area = watch.wait_for(lambda: _cotangent_laplacian(places, faces, weight), len(weight))
-    if len(mesh.first_boundary) > 2:
-        laplacian = laplacian + _ties(mesh, fine, _ATTRACTION * (2 / fine.width) ** 2)
-    plain = Cloth(laplacian, area, length**2)
+    ties = _ties(mesh, fine, _ATTRACTION * (2 / fine.width) ** 2) if len(mesh.first_boundary) > 2 else 0 * laplacian
+    plain = Cloth(laplacian + ties, area, length**2)
     if len(mesh.cusps):
         plain = replace(plain, area=area * _softness(fine, mesh, length))
     if flat == 1:
         return plain
     share = plain.smoothed(_alone(fine, mesh), watch).clip(0, 1)
     weighted, _ = _cotangent_laplacian(places, faces, weight * flat ** share[faces].mean(axis=1))
-    return Cloth(weighted, plain.area * flat**share, plain.bending)
+    return Cloth(weighted + ties, plain.area * flat**share, plain.bending)
 
 
 def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[Any, Floats]:

@@ -90,7 +90,7 @@ def cloth_mesh(points: Floats, mesh: LiftedMesh, stiffness: float) -> ClothMesh:
     Returns
     -------
     ClothMesh
-        At most twice the surface's triangles; none are added where no corner is re-entrant, a few hundred for each one
+        Hardly more than twice the surface's triangles; none are added where no corner is re-entrant, a few hundred for each one
         that is. A few milliseconds for some thousands.
     """
     places = points[mesh.planar_vertex]
