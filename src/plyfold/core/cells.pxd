@@ -26,6 +26,6 @@ cpdef Py_ssize_t walk_joined_cells(
 cdef Py_ssize_t _walk_cycles(const int64_t[::1] following, int64_t[::1] cycle, int64_t[::1] joined) except -1
 cdef int _join_cycles(int64_t[::1] joined, int64_t one, int64_t other) except -1
 @cython.locals(size=int64_t[::1], is_listed=int64_t[::1])
-cdef int _list_darts(
+cpdef int list_darts(
     const int64_t[::1] following, const int64_t[::1] cell, Py_ssize_t cells, int64_t[::1] darts, int64_t[::1] start
 ) except -1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from plyfold.core.buffers import WholeBuffer, whole_room
 
-__all__ = ["follow_darts", "join_lakes", "root_of", "sum_down", "walk_cells", "walk_joined_cells"]
+__all__ = ["follow_darts", "join_lakes", "list_darts", "root_of", "sum_down", "walk_cells", "walk_joined_cells"]
 
 
 def walk_cells(following: WholeBuffer, outer: int, darts: WholeBuffer, start: WholeBuffer, cell: WholeBuffer) -> int:
@@ -143,7 +143,7 @@ def walk_joined_cells(
             count += 1
             number[lake] = count
         cell[dart] = number[lake] - 1
-    _list_darts(following, cell, count, darts, start)
+    list_darts(following, cell, count, darts, start)
     return count
 
 
@@ -166,8 +166,8 @@ def _join_cycles(joined: WholeBuffer, one: int, other: int) -> None:
     joined[root_of(joined, one)] = root_of(joined, other)
 
 
-def _list_darts(following: WholeBuffer, cell: WholeBuffer, cells: int, darts: WholeBuffer, start: WholeBuffer) -> None:
-    """List the darts cell by cell, cycle after cycle, and note where each cell starts."""
+def list_darts(following: WholeBuffer, cell: WholeBuffer, cells: int, darts: WholeBuffer, start: WholeBuffer) -> None:
+    """List the darts cell by cell, cycle after cycle by their lowest darts, and note where each cell starts."""
     size, is_listed = whole_room(cells + 1), whole_room(len(cell))
     for dart in range(len(cell)):
         size[cell[dart] + 1] += 1

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from plyfold.arrays import Ints
-from plyfold.graphs import members_of
+from plyfold.core.buffers import all_flat
+from plyfold.core.cusps import Cusped, wind_round
 from plyfold.immersion.corners import NO_SEAM, corners, corners_at_feet
 from plyfold.ragged import count_each, starts_of
 
@@ -42,15 +43,14 @@ def conditions(immersion: Immersion) -> Iterator[tuple[str, bool]]:
         yield "the gluings agree at the feet of bridges", _agree_at_feet(immersion, rows)
     if arrangement.cusp_index.any():
         yield "the sheets wind round every cusp as often as its index says", _wind_round_cusps(immersion, rows)
-    by_loops = {piece.loops: piece.euler_characteristic for piece in immersion.uncut_pieces}
-    yield "every piece has the Euler characteristic that its curves turn", by_loops == _euler_by_loops(immersion)
-    yield (
-        "no number of handles is negative or half a number",
-        all(
-            piece.genus >= 0 and (len(piece.loops) + piece.euler_characteristic) % 2 == 0
-            for piece in immersion.uncut_pieces
-        ),
-    )
+    chi, pieces = _characteristics(immersion), immersion.piece_of_loop
+    loops = np.bincount(pieces, minlength=len(chi))
+    turns = np.bincount(pieces, arrangement.loop_characteristics, len(chi))
+    fits = (loops > 0) & (turns == chi)
+    yield "every piece has the Euler characteristic that its curves turn", bool(fits.all())
+    handles = 2 - loops - chi
+    is_whole = (handles >= 0) & (handles % 2 == 0)
+    yield "no number of handles is negative or half a number", bool(is_whole.all())
 
 
 def _rows(immersion: Immersion) -> _Rows:
@@ -126,42 +126,18 @@ def _glued_to_or_itself(immersion: Immersion, rows: _Rows, seam: Ints, right_she
 
 
 def _wind_round_cusps(immersion: Immersion, rows: _Rows) -> bool:
-    """Turn counter-clockwise from the border after each cusp to the border before it.
-
-    That begins on the own sheet of the one, goes down over the other and up again as often as the index says, and ends
-    on the own sheet of the other. All other sheets on the right go on to the same sheet on the left over both.
-    """
-    arrangement, own = immersion.arrangement, immersion.own_sheet
+    arrangement, cells = immersion.arrangement, immersion.arrangement.right_cell
     cusps = np.flatnonzero(arrangement.cusp_index)
-    index = arrangement.cusp_index[cusps]
-    before, after = arrangement.border_before[cusps], arrangement.border_after[cusps]
-    sheet = own[after].copy()
-    for turn in range(int(index.max())):
-        turning = np.flatnonzero(turn < index)
-        down = _glued_from(immersion, rows, before[turning], sheet[turning])
-        if (down < 0).any():
-            return False
-        sheet[turning] = _glued_to(immersion, rows, after[turning], down)
-    cells = arrangement.right_cell[after]
-    at = np.repeat(np.arange(len(cusps)), arrangement.winding[cells])
-    right = _sheets_over(immersion, cells)
-    differ = _glued_to(immersion, rows, before[at], right) != _glued_to(immersion, rows, after[at], right)
-    return np.array_equal(sheet, own[before]) and np.array_equal(np.bincount(at, differ, len(cusps)), index)
+    index, before, after = (
+        of_visit[cusps] for of_visit in (arrangement.cusp_index, arrangement.border_before, arrangement.border_after)
+    )
+    sheets, first_sheet = arrangement.winding[cells], immersion.first_sheet[cells]
+    glued = all_flat(immersion.own_sheet, sheets, first_sheet, rows.first, immersion.gluing[:, 2])
+    return wind_round(Cusped(*all_flat(index, before, after), *glued)) == 1
 
 
-def _glued_from(immersion: Immersion, rows: _Rows, seam: Ints, left_sheet: Ints) -> Ints:
-    """Return the sheets on the right that are glued to sheets on the left, −1 for own sheets."""
-    cells = rows.right[seam]
-    right = _sheets_over(immersion, cells)
-    at = np.repeat(np.arange(len(seam)), immersion.arrangement.winding[cells])
-    found = np.full(len(seam), -1)
-    is_it = _glued_to(immersion, rows, seam[at], right) == left_sheet[at]
-    found[at[is_it]] = right[is_it]
-    return found
-
-
-def _euler_by_loops(immersion: Immersion) -> dict[tuple[int, ...], int]:
-    """Return the Euler characteristic of each piece of the glued sheets, by the curves that bound it.
+def _characteristics(immersion: Immersion) -> Ints:
+    """Return the Euler characteristic of each piece of the glued sheets.
 
     Cells cut open along bridges are disks, so a sheet counts 1, and a bridge −1 on each sheet over its cell. A crossing
     counts 1 on each sheet over its top cell, and a border between crossings −1 on each sheet over the cell on its left.
@@ -170,7 +146,7 @@ def _euler_by_loops(immersion: Immersion) -> dict[tuple[int, ...], int]:
     """
     arrangement = immersion.arrangement
     if arrangement.n_loops == 1:
-        return {(0,): arrangement.turning_by_windings() - int(arrangement.cusp_index.sum())}
+        return np.array([arrangement.turning_by_windings() - int(arrangement.cusp_index.sum())])
     piece, cells, visits = immersion.piece_of_sheet, arrangement.left_cell, arrangement.crossing_visits
     counted = partial(np.bincount, minlength=int(piece.max()) + 1)
     cusps = np.flatnonzero(arrangement.cusp_index)
@@ -179,9 +155,7 @@ def _euler_by_loops(immersion: Immersion) -> dict[tuple[int, ...], int]:
     total += counted(piece[over(cells[corners(arrangement)[:, 0]])])
     total -= counted(piece[over(cells[arrangement.border_after[visits]])])
     at_cusps = piece[immersion.own_sheet[arrangement.border_after[cusps]]]
-    total -= counted(np.repeat(at_cusps, arrangement.cusp_index[cusps]))
-    loops = members_of(immersion.piece_of_loop)
-    return {tuple(loops.get(number, ())): value for number, value in enumerate(total.tolist())}
+    return np.asarray(total - counted(np.repeat(at_cusps, arrangement.cusp_index[cusps])))
 
 
 def _sheets_over(immersion: Immersion, cells: Ints) -> Ints:
