@@ -21,7 +21,7 @@ from plyfold.arrangement.maps import numbered_crossings
 from plyfold.arrangement.planar_map import darts_by_cell, next_darts
 from plyfold.arrays import Ints
 from plyfold.core.buffers import all_flat
-from plyfold.core.cusps import Curls, draw_curls
+from plyfold.core.curls import Curls, draw_curls
 from plyfold.immersion.immersion import Immersion
 
 __all__ = ["DrawnOut", "draw_out_cusps", "without_curls"]

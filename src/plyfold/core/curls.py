@@ -1,10 +1,10 @@
-"""Cusps: drawn out as curls, and wound round."""
+"""Cusps drawn out as curls."""
 
 from __future__ import annotations
 
 from plyfold.core.buffers import WholeBuffer, whole_room
 
-__all__ = ["Curls", "Cusped", "draw_curls", "wind_round"]
+__all__ = ["Curls", "draw_curls"]
 
 
 class Curls:
@@ -93,63 +93,3 @@ def _draw_curl(drawn: Curls, index: int, above: int, bottom: int) -> None:
     drawn.visits += 2 * index
     drawn.borders += 2 * index - 1
     drawn.cells += index
-
-
-class Cusped:
-    """The cusps of an immersion, and how its sheets are glued.
-
-    For each cusp its index, the border before and that after it. For each border its own sheet, how many sheets lie on
-    its right, and the first of them. Sheet s on the right of border b is glued to sheet ``upper[first_row[b] + s]``.
-    """
-
-    def __init__(
-        self,
-        index: WholeBuffer,
-        before: WholeBuffer,
-        after: WholeBuffer,
-        own: WholeBuffer,
-        sheets: WholeBuffer,
-        first_sheet: WholeBuffer,
-        first_row: WholeBuffer,
-        upper: WholeBuffer,
-    ) -> None:
-        self.index, self.before, self.after, self.own = index, before, after, own
-        self.sheets, self.first_sheet, self.first_row, self.upper = sheets, first_sheet, first_row, upper
-
-
-def wind_round(cusped: Cusped) -> int:
-    """Tell whether the sheets wind round every cusp as often as its index says; 0 if not.
-
-    Turn counter-clockwise from the border after each cusp to the border before it. That begins on the own sheet of the
-    one, goes down over the other and up again as often as the index says, and ends on the own sheet of the other. All
-    other sheets on the right go on to the same sheet on the left over both.
-    """
-    for cusp in range(len(cusped.index)):
-        before, after = cusped.before[cusp], cusped.after[cusp]
-        sheet = cusped.own[after]
-        for _ in range(cusped.index[cusp]):
-            down = _sheet_below(cusped, before, sheet)
-            if down < 0:
-                return 0
-            sheet = cusped.upper[cusped.first_row[after] + down]
-        if sheet != cusped.own[before] or _count_differing(cusped, before, after) != cusped.index[cusp]:
-            return 0
-    return 1
-
-
-def _sheet_below(cusped: Cusped, border: int, upper: int) -> int:
-    """Return the sheet on the right that is glued to one on the left of a border, −1 if that is the own sheet."""
-    first = cusped.first_sheet[border]
-    for sheet in range(first, first + cusped.sheets[border]):
-        if cusped.upper[cusped.first_row[border] + sheet] == upper:
-            return sheet
-    return -1
-
-
-def _count_differing(cusped: Cusped, before: int, after: int) -> int:
-    """Return how many sheets on the right of two borders are glued to different sheets along them."""
-    count = 0
-    for sheet in range(cusped.first_sheet[after], cusped.first_sheet[after] + cusped.sheets[after]):
-        if cusped.upper[cusped.first_row[before] + sheet] != cusped.upper[cusped.first_row[after] + sheet]:
-            count += 1
-    return count

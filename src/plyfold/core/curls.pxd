@@ -1,4 +1,4 @@
-# C types of `cusps.py`.
+# C types of `curls.py`.
 cimport cython
 from libc.stdint cimport int64_t, uint8_t
 
@@ -6,9 +6,6 @@ cdef class Curls:
     cdef int64_t[::1] partner, first_visit, cell, winding, border
     cdef uint8_t[::1] ccw
     cdef Py_ssize_t cells, borders, visits
-
-cdef class Cusped:
-    cdef const int64_t[::1] index, before, after, own, sheets, first_sheet, first_row, upper
 
 @cython.locals(moved=int64_t[::1])
 cpdef int draw_curls(
@@ -21,6 +18,3 @@ cpdef int draw_curls(
     const int64_t[::1] winding,
 ) except -1
 cdef int _draw_curl(Curls drawn, int64_t index, int64_t above, int64_t bottom) except -1
-cpdef int wind_round(Cusped cusped) except -1
-cdef int64_t _sheet_below(Cusped cusped, Py_ssize_t border, int64_t upper) except? -2
-cdef int64_t _count_differing(Cusped cusped, Py_ssize_t before, Py_ssize_t after) except -1
