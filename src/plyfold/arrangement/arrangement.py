@@ -269,6 +269,12 @@ class Arrangement:
         return self.turning_number - int(self.cusp_index.sum())
 
     @property
+    def loop_characteristics(self) -> Ints:
+        """What each loop adds to that: how often it turns, less the indices of its cusps, shape (loops,)."""
+        passed = np.append(0, self.cusp_index.cumsum())[self.first_visit]
+        return np.asarray(np.array(self.turning_numbers) - passed[1:] + passed[:-1])
+
+    @property
     def is_begun(self) -> bool:
         """Whether points have only begun to move, so that doubles do not tell them from the given ones."""
         return self.begun is not None and np.array_equal(self._drawn().points, cast("Outline", self.given).points)

@@ -12,15 +12,14 @@ import numpy.typing as npt
 
 from plyfold.arrays import Bools, Ints
 from plyfold.core.buffers import all_flat, flat
-from plyfold.core.cells import follow_darts, walk_cells, walk_joined_cells
+from plyfold.core.cells import follow_darts, list_darts, walk_cells, walk_joined_cells
 from plyfold.errors import GaussCodeError
-from plyfold.ragged import count_each
 
 __all__ = [
     "borders_at_visits",
     "cell_boundaries",
     "checked_code",
-    "cycles_by_cell",
+    "darts_by_cell",
     "joined_cells",
     "left_windings",
     "next_darts",
@@ -156,12 +155,12 @@ def joined_cells(following: Ints, outside: Ints, same_cell: Ints) -> tuple[Ints,
     return np.concatenate([start[:cells], [len(following)]]), darts, cell
 
 
-def cycles_by_cell(cycle_start: Ints, cycle_darts: Ints, cell: Ints) -> tuple[Ints, Ints]:
-    """Return the boundaries of cells as :func:`joined_cells` does, given the cell of each orbit."""
-    size = np.diff(cycle_start)
-    order = np.lexsort((cycle_darts[cycle_start[:-1]], cell))
-    darts = cycle_darts[np.repeat(cycle_start[order], size[order]) + count_each(size[order])]
-    return np.append(0, np.cumsum(np.bincount(cell, weights=size).astype(np.int64))), darts
+def darts_by_cell(following: Ints, cell_of_dart: Ints, cells: int) -> tuple[Ints, Ints]:
+    """Return the boundaries of cells that have numbers already, as :func:`cell_boundaries` does."""
+    darts, start = np.empty_like(following), np.empty(cells + 1, dtype=np.int64)
+    list_darts(flat(following), flat(cell_of_dart), cells, flat(darts), flat(start))
+    start[cells] = len(following)
+    return start, darts
 
 
 def left_windings(ccw: Bools, outer: int) -> Ints:

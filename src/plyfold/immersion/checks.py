@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
-from plyfold.graphs import members_of
-from plyfold.immersion.corners import NO_SEAM, corners, corners_at_feet
-from plyfold.ragged import count_each, starts_of
+from plyfold.core.buffers import all_flat, flat, whole_room
+from plyfold.core.gluing import Gluing, agree_around, first_wrong_seam, wind_round
+from plyfold.immersion.corners import corners, corners_at_feet
+from plyfold.ragged import count_each
 
 if TYPE_CHECKING:
     from plyfold.immersion.immersion import Immersion
@@ -19,149 +21,55 @@ if TYPE_CHECKING:
 __all__ = ["conditions"]
 
 
-class _Rows(NamedTuple):
-    """The cells on both sides of all borders, and then of all bridges; where the rows of the gluing start.
-
-    Sheet s on the right of seam e is glued in row ``first[e] + s``.
-    """
-
-    left: Ints
-    right: Ints
-    first: Ints
-
-
 def conditions(immersion: Immersion) -> Iterator[tuple[str, bool]]:
     """Yield in words what has to hold, and whether it does; each relies on those before it. Cost: O(Σ w)."""
     arrangement = immersion.arrangement
     sheet_cell = np.repeat(np.arange(arrangement.n_cells), arrangement.winding)
     yield "as many sheets as windings", np.array_equal(immersion.sheet_cell, sheet_cell)
-    rows = _rows(immersion)
-    yield from _along_borders(immersion, rows)
-    yield "the gluings agree around every crossing", _agree_at_crossings(immersion, rows)
+    left, right = _sides(arrangement)
+    gluing = _as_glued(immersion, left, right)
+    wrong = first_wrong_seam(gluing, whole_room(int(arrangement.winding[left].sum())))
+    yield "every sheet on the right is glued once", wrong != 1
+    yield "sheets are glued to sheets on the left", wrong != 2
+    yield "every sheet on the left is glued once or has the border for its own", wrong != 3
+    yield "the gluings agree around every crossing", agree_around(gluing, flat(corners(arrangement))) == 1
     if len(arrangement.bridges):
-        yield "the gluings agree at the feet of bridges", _agree_at_feet(immersion, rows)
+        yield "the gluings agree at the feet of bridges", agree_around(gluing, flat(corners_at_feet(arrangement))) == 1
     if arrangement.cusp_index.any():
-        yield "the sheets wind round every cusp as often as its index says", _wind_round_cusps(immersion, rows)
-    by_loops = {piece.loops: piece.euler_characteristic for piece in immersion.uncut_pieces}
-    yield "every piece has the Euler characteristic that its curves turn", by_loops == _euler_by_loops(immersion)
-    yield (
-        "no number of handles is negative or half a number",
-        all(
-            piece.genus >= 0 and (len(piece.loops) + piece.euler_characteristic) % 2 == 0
-            for piece in immersion.uncut_pieces
-        ),
-    )
+        yield "the sheets wind round every cusp as often as its index says", _wind_round_cusps(arrangement, gluing)
+    chi, pieces = _characteristics(immersion), immersion.piece_of_loop
+    loops = np.bincount(pieces, minlength=len(chi))
+    turns = np.bincount(pieces, arrangement.loop_characteristics, len(chi))
+    fits = (loops > 0) & (turns == chi)
+    yield "every piece has the Euler characteristic that its curves turn", bool(fits.all())
+    handles = 2 - loops - chi
+    is_whole = (handles >= 0) & (handles % 2 == 0)
+    yield "no number of handles is negative or half a number", bool(is_whole.all())
 
 
-def _rows(immersion: Immersion) -> _Rows:
-    arrangement = immersion.arrangement
+def _sides(arrangement: Arrangement) -> tuple[Ints, Ints]:
+    """Return the cells on both sides of all borders, and then of all bridges."""
     left, right = arrangement.left_cell, arrangement.right_cell
-    if len(arrangement.bridges):
-        bridged = arrangement.cell_of_dart[arrangement.bridges[:, 0]]
-        left, right = np.append(left, bridged), np.append(right, bridged)
-    return _Rows(left, right, starts_of(arrangement.winding[right]) - immersion.first_sheet[right])
+    if not len(arrangement.bridges):
+        return left, right
+    bridged = arrangement.cell_of_dart[arrangement.bridges[:, 0]]
+    return np.append(left, bridged), np.append(right, bridged)
 
 
-def _along_borders(immersion: Immersion, rows: _Rows) -> Iterator[tuple[str, bool]]:
-    arrangement, first_sheet = immersion.arrangement, immersion.first_sheet
-    left, right, _ = rows
-    lower, upper = arrangement.winding[right], arrangement.winding[left]
-    seam = np.repeat(np.arange(len(right)), lower)
-    glued = np.stack([seam, first_sheet[right[seam]] + count_each(lower)], axis=1)
-    yield "every sheet on the right is glued once", np.array_equal(immersion.gluing[:, :2], glued)
-    inside = left[seam] == immersion.sheet_cell[immersion.gluing[:, 2]]
-    inside_own = arrangement.left_cell == immersion.sheet_cell[immersion.own_sheet]
-    yield "sheets are glued to sheets on the left", bool(inside.all() and inside_own.all())
-    taken = np.zeros(int(upper.sum()), dtype=np.int64)
-    first_taken = starts_of(upper) - first_sheet[left]
-    np.add.at(taken, first_taken[seam] + immersion.gluing[:, 2], 1)
-    np.add.at(taken, first_taken[: arrangement.n_borders] + immersion.own_sheet, 1)
-    yield "every sheet on the left is glued once or has the border for its own", bool((taken == 1).all())
+def _as_glued(immersion: Immersion, left: Ints, right: Ints) -> Gluing:
+    winding, first = immersion.arrangement.winding, immersion.first_sheet
+    beside = first[left], winding[left], first[right], winding[right]
+    return Gluing(*all_flat(immersion.own_sheet, immersion.gluing, *beside))
 
 
-def _agree_at_crossings(immersion: Immersion, rows: _Rows) -> bool:
-    """Compare the two ways from the bottom cell to the top cell, and follow the own sheets of both strands."""
-    around, own = corners(immersion.arrangement), immersion.own_sheet
-    a_top, a_bottom, b_top, b_bottom = around.T
-    up = partial(_glued_to, immersion, rows)
-    return (
-        _same_both_ways(immersion, rows, around, up)
-        and np.array_equal(up(b_top, own[a_bottom]), own[a_top])
-        and np.array_equal(up(a_top, own[b_bottom]), own[b_top])
-    )
-
-
-def _agree_at_feet(immersion: Immersion, rows: _Rows) -> bool:
-    """Do the same at the feet of bridges, where one of the two strands is a loop."""
-    around, own = corners_at_feet(immersion.arrangement), immersion.own_sheet
-    if not _same_both_ways(immersion, rows, around, partial(_glued_to_or_itself, immersion, rows)):
-        return False
-    for loop, across in (([0, 1], 2), ([2, 3], 0)):
-        is_loop = around[:, loop].max(axis=1) < immersion.arrangement.n_borders
-        top, bottom = around[is_loop][:, loop].T
-        above = _glued_to_or_itself(immersion, rows, around[is_loop, across], own[bottom])
-        if not np.array_equal(above, own[top]):
-            return False
-    return True
-
-
-def _same_both_ways(immersion: Immersion, rows: _Rows, around: Ints, up: Callable[[Ints, Ints], Ints]) -> bool:
-    a_top, a_bottom, b_top, b_bottom = around.T
-    bottom = rows.right[np.maximum(a_bottom, b_bottom)]
-    sheets = _sheets_over(immersion, bottom)
-    at = np.repeat(np.arange(len(around)), immersion.arrangement.winding[bottom])
-    one_way = up(b_top[at], up(a_bottom[at], sheets))
-    return np.array_equal(one_way, up(a_top[at], up(b_bottom[at], sheets)))
-
-
-def _glued_to(immersion: Immersion, rows: _Rows, seam: Ints, right_sheet: Ints) -> Ints:
-    """Return the sheets on the left that are glued to sheets on the right of seams."""
-    return np.asarray(immersion.gluing[rows.first[seam] + right_sheet, 2])
-
-
-def _glued_to_or_itself(immersion: Immersion, rows: _Rows, seam: Ints, right_sheet: Ints) -> Ints:
-    """Return the same, and where there is no seam the sheets themselves."""
-    glued = immersion.gluing[:, 2].take(rows.first[seam] + right_sheet, mode="clip")
-    return np.where(seam == NO_SEAM, right_sheet, glued)
-
-
-def _wind_round_cusps(immersion: Immersion, rows: _Rows) -> bool:
-    """Turn counter-clockwise from the border after each cusp to the border before it.
-
-    That begins on the own sheet of the one, goes down over the other and up again as often as the index says, and ends
-    on the own sheet of the other. All other sheets on the right go on to the same sheet on the left over both.
-    """
-    arrangement, own = immersion.arrangement, immersion.own_sheet
+def _wind_round_cusps(arrangement: Arrangement, gluing: Gluing) -> bool:
     cusps = np.flatnonzero(arrangement.cusp_index)
-    index = arrangement.cusp_index[cusps]
-    before, after = arrangement.border_before[cusps], arrangement.border_after[cusps]
-    sheet = own[after].copy()
-    for turn in range(int(index.max())):
-        turning = np.flatnonzero(turn < index)
-        down = _glued_from(immersion, rows, before[turning], sheet[turning])
-        if (down < 0).any():
-            return False
-        sheet[turning] = _glued_to(immersion, rows, after[turning], down)
-    cells = arrangement.right_cell[after]
-    at = np.repeat(np.arange(len(cusps)), arrangement.winding[cells])
-    right = _sheets_over(immersion, cells)
-    differ = _glued_to(immersion, rows, before[at], right) != _glued_to(immersion, rows, after[at], right)
-    return np.array_equal(sheet, own[before]) and np.array_equal(np.bincount(at, differ, len(cusps)), index)
+    of_visits = arrangement.cusp_index, arrangement.border_before, arrangement.border_after
+    return wind_round(gluing, *all_flat(*(of_visit[cusps] for of_visit in of_visits))) == 1
 
 
-def _glued_from(immersion: Immersion, rows: _Rows, seam: Ints, left_sheet: Ints) -> Ints:
-    """Return the sheets on the right that are glued to sheets on the left, −1 for own sheets."""
-    cells = rows.right[seam]
-    right = _sheets_over(immersion, cells)
-    at = np.repeat(np.arange(len(seam)), immersion.arrangement.winding[cells])
-    found = np.full(len(seam), -1)
-    is_it = _glued_to(immersion, rows, seam[at], right) == left_sheet[at]
-    found[at[is_it]] = right[is_it]
-    return found
-
-
-def _euler_by_loops(immersion: Immersion) -> dict[tuple[int, ...], int]:
-    """Return the Euler characteristic of each piece of the glued sheets, by the curves that bound it.
+def _characteristics(immersion: Immersion) -> Ints:
+    """Return the Euler characteristic of each piece of the glued sheets.
 
     Cells cut open along bridges are disks, so a sheet counts 1, and a bridge −1 on each sheet over its cell. A crossing
     counts 1 on each sheet over its top cell, and a border between crossings −1 on each sheet over the cell on its left.
@@ -170,7 +78,7 @@ def _euler_by_loops(immersion: Immersion) -> dict[tuple[int, ...], int]:
     """
     arrangement = immersion.arrangement
     if arrangement.n_loops == 1:
-        return {(0,): arrangement.turning_by_windings() - int(arrangement.cusp_index.sum())}
+        return np.array([arrangement.turning_by_windings() - int(arrangement.cusp_index.sum())])
     piece, cells, visits = immersion.piece_of_sheet, arrangement.left_cell, arrangement.crossing_visits
     counted = partial(np.bincount, minlength=int(piece.max()) + 1)
     cusps = np.flatnonzero(arrangement.cusp_index)
@@ -179,9 +87,7 @@ def _euler_by_loops(immersion: Immersion) -> dict[tuple[int, ...], int]:
     total += counted(piece[over(cells[corners(arrangement)[:, 0]])])
     total -= counted(piece[over(cells[arrangement.border_after[visits]])])
     at_cusps = piece[immersion.own_sheet[arrangement.border_after[cusps]]]
-    total -= counted(np.repeat(at_cusps, arrangement.cusp_index[cusps]))
-    loops = members_of(immersion.piece_of_loop)
-    return {tuple(loops.get(number, ())): value for number, value in enumerate(total.tolist())}
+    return np.asarray(total - counted(np.repeat(at_cusps, arrangement.cusp_index[cusps])))
 
 
 def _sheets_over(immersion: Immersion, cells: Ints) -> Ints:

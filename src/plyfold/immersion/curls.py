@@ -18,10 +18,11 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.maps import numbered_crossings
-from plyfold.arrangement.planar_map import cell_boundaries, cycles_by_cell, next_darts
-from plyfold.arrays import Bools, Ints
-from plyfold.immersion.immersion import Immersion, loop_characteristics
-from plyfold.ragged import count_each, starts_of
+from plyfold.arrangement.planar_map import darts_by_cell, next_darts
+from plyfold.arrays import Ints
+from plyfold.core.buffers import all_flat
+from plyfold.core.curls import Curls, draw_curls
+from plyfold.immersion.immersion import Immersion
 
 __all__ = ["DrawnOut", "draw_out_cusps", "without_curls"]
 
@@ -50,15 +51,21 @@ def draw_out_cusps(arrangement: Arrangement) -> DrawnOut:
     """Draw all cusps out as curls. Cost: O(k + Σ m); nothing where there is no cusp."""
     if not arrangement.cusp_index.any():
         return DrawnOut(arrangement, np.arange(arrangement.n_borders))
-    copies = np.maximum(2 * arrangement.cusp_index, 1)
-    more = np.zeros(arrangement.n_borders, dtype=np.int64)
-    more[arrangement.border_after] = copies - 1
-    border = np.arange(arrangement.n_borders) + np.cumsum(more)
-    partner, ccw = _visits(arrangement, copies)
-    first_visit = np.append(0, np.cumsum(copies))[arrangement.first_visit]
-    cell_of_dart, winding = _cells(arrangement, border)
+    cusps, turns = np.count_nonzero(arrangement.cusp_index), int(arrangement.cusp_index.sum())
+    visits, borders = (size + 2 * turns - cusps for size in (len(arrangement.partner), arrangement.n_borders))
+    partner, ccw, first_visit = (
+        np.empty(visits, dtype=np.int64),
+        np.empty(visits, dtype=bool),
+        arrangement.first_visit.copy(),
+    )
+    cell_of_dart, winding, border = (
+        np.empty(size, dtype=np.int64) for size in (2 * borders, arrangement.n_cells + turns, arrangement.n_borders)
+    )
+    curls = Curls(*all_flat(partner, ccw.view(np.uint8), first_visit, cell_of_dart, winding, border))
+    given = (arrangement.first_visit, arrangement.cell_of_dart, arrangement.winding)
+    draw_curls(curls, *all_flat(arrangement.partner, arrangement.ccw.view(np.uint8), arrangement.cusp_index, *given))
     following, outer = next_darts(partner, ccw, first_visit), _renumbered(arrangement.outer, border)
-    cell_start, cell_darts = _boundaries(following, int(outer), cell_of_dart)
+    cell_start, cell_darts = darts_by_cell(following, cell_of_dart, len(winding))
     drawn_out = replace(
         arrangement,
         partner=partner,
@@ -70,7 +77,7 @@ def draw_out_cusps(arrangement: Arrangement) -> DrawnOut:
         cell_start=cell_start,
         cell_darts=cell_darts,
         winding=winding,
-        turning_numbers=tuple(loop_characteristics(arrangement)),
+        turning_numbers=tuple(arrangement.loop_characteristics.tolist()),
         crossing_of_visit=numbered_crossings(partner),
         bridges=_renumbered(arrangement.bridges, border),
         cusp_index=np.zeros(len(partner), dtype=np.int64),
@@ -81,42 +88,6 @@ def draw_out_cusps(arrangement: Arrangement) -> DrawnOut:
         visit_edge=np.empty(0, dtype=np.int64),
     )
     return DrawnOut(drawn_out, border)
-
-
-def _visits(arrangement: Arrangement, copies: Ints) -> tuple[Ints, Bools]:
-    """Return partners and signs, with 2 m visits in place of each cusp: to x₁, …, x_m and back."""
-    first = starts_of(copies)
-    index, step = np.repeat(arrangement.cusp_index, copies), count_each(copies)
-    here = np.repeat(first, copies)
-    partner = np.where(index > 0, here + 2 * index - 1 - step, np.repeat(first[arrangement.partner], copies))
-    return partner, np.where(index > 0, step < index, np.repeat(arrangement.ccw, copies))
-
-
-def _cells(arrangement: Arrangement, border: Ints) -> tuple[Ints, Ints]:
-    """Return the cell on the left of each dart, and the winding numbers of all cells.
-
-    Between the visits of a cusp are 2 m − 1 new borders; the i-th of them lies ``depth`` = min(i, 2m − i) turns deep,
-    between the new cell number ``depth`` on its right and the one before it on its left.
-    """
-    cusps = np.flatnonzero(arrangement.cusp_index)
-    index, after = arrangement.cusp_index[cusps], arrangement.border_after[cusps]
-    borders = 2 * index - 1
-    i = 1 + count_each(borders)
-    depth = np.minimum(i, 2 * np.repeat(index, borders) - i)
-    right = np.repeat(arrangement.n_cells - 1 + starts_of(index), borders) + depth
-    left = np.where(depth > 1, right - 1, np.repeat(arrangement.right_cell[after], borders))
-    new = np.repeat(border[after] - 2 * index, borders) + i
-    cell_of_dart = np.empty(2 * (arrangement.n_borders + int(borders.sum())), dtype=np.int64)
-    cell_of_dart[2 * border], cell_of_dart[2 * border + 1] = arrangement.left_cell, arrangement.right_cell
-    cell_of_dart[2 * new], cell_of_dart[2 * new + 1] = left, right
-    above = np.repeat(arrangement.winding[arrangement.left_cell[after]], index)
-    return cell_of_dart, np.append(arrangement.winding, above - 2 - count_each(index))
-
-
-def _boundaries(following: Ints, outer: int, cell_of_dart: Ints) -> tuple[Ints, Ints]:
-    """Return the boundaries of cells that have numbers already, cycles by their lowest darts."""
-    start, darts, _ = cell_boundaries(following, outer)
-    return cycles_by_cell(start, darts, cell_of_dart[darts[start[:-1]]])
 
 
 def _renumbered(darts: Ints | int, border: Ints) -> Ints:

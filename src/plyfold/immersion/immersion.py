@@ -24,7 +24,6 @@ __all__ = [
     "Group",
     "Immersion",
     "Piece",
-    "loop_characteristics",
     "require_disk",
     "require_immersion",
     "require_memory_for_gluing",
@@ -187,7 +186,7 @@ class Immersion:
         In the order of their first curves. What these are together is what the outline bounds, if only as a limit.
         Cost: O(Σ w).
         """
-        turns, loops_of = loop_characteristics(self.arrangement), members_of(self.piece_of_loop)
+        turns, loops_of = self.arrangement.loop_characteristics.tolist(), members_of(self.piece_of_loop)
         return tuple(Piece(tuple(loops), sum(turns[loop] for loop in loops)) for loops in loops_of.values())
 
     @property
@@ -266,12 +265,6 @@ class Immersion:
         for condition, holds in conditions(self):
             if not holds:
                 raise PlyfoldError(f"internal check failed: {condition}")
-
-
-def loop_characteristics(arrangement: Arrangement) -> list[int]:
-    """Return what each loop adds to the Euler characteristic: how often it turns, less the indices of its cusps."""
-    at_cusps = np.diff(np.append(0, np.cumsum(arrangement.cusp_index))[arrangement.first_visit])
-    return [turns - index for turns, index in zip(arrangement.turning_numbers, at_cusps.tolist(), strict=True)]
 
 
 def require_immersion(value: object) -> Immersion:

@@ -12,7 +12,6 @@ from plyfold.arrangement.spikes import tips
 from plyfold.arrays import Ints
 from plyfold.errors import InputError
 from plyfold.graphs import components
-from plyfold.immersion.immersion import loop_characteristics
 from plyfold.immersion.shorter_lobes import place_of_turning
 from plyfold.obstruction import Obstruction
 
@@ -118,7 +117,7 @@ def impossible_turning(arranged: Arrangement, connected: bool = False) -> Obstru
     The outline of a connected surface that lies flat turns 2 times less 2 for each handle and 1 for each of its loops.
     So c loops bound something only if they turn c times, or less by an even number; one piece, if 2 − c times, or less.
     """
-    turns, cluster = np.array(loop_characteristics(arranged)), clusters_of_loops(arranged)
+    turns, cluster = arranged.loop_characteristics, clusters_of_loops(arranged)
     loops, chi = np.bincount(cluster), np.zeros(int(cluster.max()) + 1, dtype=np.int64)
     np.add.at(chi, cluster, turns)
     wrong = np.flatnonzero((chi > (2 - loops if connected else loops)) | ((loops - chi) % 2 == 1))
@@ -131,7 +130,7 @@ def impossible_turning(arranged: Arrangement, connected: bool = False) -> Obstru
 def _turning_in_words(arranged: Arrangement, members: Ints, connected: bool) -> str:
     loops = len(members)
     turning = sum(arranged.turning_numbers[loop] for loop in members.tolist())
-    cusps = turning - sum(loop_characteristics(arranged)[loop] for loop in members.tolist())
+    cusps = turning - int(arranged.loop_characteristics[members].sum())
     some = f" of {arranged.n_loops}" if loops < arranged.n_loops else ""
     who = "curve turns" if arranged.n_loops == 1 else f"{loops}{some} curves together turn"
     at_cusps = f", {cusps} of them at cusps" if cusps else ""
