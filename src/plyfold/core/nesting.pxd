@@ -18,7 +18,7 @@ cdef class Bridges:
         self, Py_ssize_t foot, int64_t edge, double along, int64_t tie, int64_t at, int64_t loop, double x, double y
     ) except -1
 
-cdef double share_along(double start, double end, double between) except? -2
+cpdef double share_along(double start, double end, double between) except? -2
 
 cdef class Nesting:
     cdef const double[::1] points

@@ -10,7 +10,7 @@ from plyfold.core.cells import follow_darts, root_of
 from plyfold.core.numbers import Numbers
 from plyfold.core.signs import exact_sign, rest_of_difference, rest_of_product
 
-__all__ = ["Bridges", "Nesting", "share_of_fractions"]
+__all__ = ["Bridges", "Nesting", "share_along", "share_of_fractions"]
 
 # So many consecutive edges make a leaf of the tree of boxes; after so many rays it is asked whether there is time left.
 _GROUP = 32
