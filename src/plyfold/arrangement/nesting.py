@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -404,27 +404,44 @@ def _rounded_places(ends: Floats, height: Floats) -> tuple[Floats, Floats]:
 
 
 def _exactly_first(plan: _Plan, corner: Ints, ray: Ints, edge: Ints, asked: Ints) -> Ints:
-    """Return which edge some rays to the left meet first, by fractions; −1 of all others, and if all are on the right.
+    """Return which edge some rays to the left meet first, in whole numbers; −1 of all others, and if none is there.
 
     ``ray`` and ``edge`` are what the rays may meet.
     """
     first = np.full(len(corner), -1)
-    for number in asked.tolist():
-        here, level = plan.place(corner[number])
-        places = {
-            other: _place_and_slope(plan.place(other), plan.place(other + 1), level)
-            for other in edge[ray == number].tolist()
-        }
-        passed = [other for other, (place, _) in places.items() if place < here]
-        first[number] = max(passed, key=places.__getitem__, default=-1)
+    is_asked = np.isin(ray, asked)
+    ray, edge = ray[is_asked], edge[is_asked]
+    met: dict[int, _Meeting] = {}
+    for number, other, meeting in zip(ray.tolist(), edge.tolist(), _meetings(plan, corner[ray], edge), strict=True):
+        if meeting.is_passed and (number not in met or meeting.is_beyond(met[number])):
+            met[number], first[number] = meeting, other
     return first
 
 
-def _place_and_slope(start: Place, end: Place, height: Fraction) -> tuple[Fraction, Fraction]:
-    """Return the x at which an edge passes a height, and the growth of x with the height."""
-    (x, y), (end_x, end_y) = start, end
-    slope = (end_x - x) / (end_y - y)
-    return x + (height - y) * slope, slope
+class _Meeting(NamedTuple):
+    """Where a ray meets an edge: so far right, and by how much further a little higher, both divided by a number."""
+
+    place: int
+    slope: int
+    below: int
+    is_passed: bool
+
+    def is_beyond(self, other: _Meeting) -> bool:
+        """Tell whether it is further to the right than another one."""
+        here, there = self.place * other.below, other.place * self.below
+        return here > there or (here == there and self.slope * other.below > other.slope * self.below)
+
+
+def _meetings(plan: _Plan, corner: Ints, edge: Ints) -> Iterator[_Meeting]:
+    """Yield where rays from vertices to the left meet edges, in whole numbers; they pass those that are on the left."""
+    needed, which = np.unique(np.stack([corner, edge, edge + 1]), return_inverse=True)
+    places = whole_numbers((plan.joined.points if plan.exact is None else plan.exact)[needed])[0]
+    (here, level), (x, y), (end_x, end_y) = places[which.reshape(3, -1)].transpose(0, 2, 1)
+    below, slope = end_y - y, end_x - x
+    sign = np.where(below > 0, 1, -1)
+    below, slope = sign * below, sign * slope
+    place = x * below + (level - y) * slope
+    yield from map(_Meeting, place.tolist(), slope.tolist(), below.tolist(), (place < here * below).tolist())
 
 
 def _visits_passed(plan: _Plan, edge: Ints, corner: Ints) -> Ints:
