@@ -16,6 +16,7 @@ import numpy.typing as npt
 import shapely
 
 from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrangement.places import places_of_crossings, places_of_visits
 from plyfold.arrays import Bools, Ints
 from plyfold.errors import InputError
 from plyfold.layering.layering import Layering, borders_beside_top, layering_of_levels
@@ -110,7 +111,7 @@ def _casing(strip: LaidStrip) -> Bools:
     for visit, mine in height.items():
         other = height[int(arranged.partner[visit])]
         if mine == other:
-            raise _same_height(arranged.visit_point[visit])
+            raise _same_height(places_of_visits(arranged, [visit])[0])
         casing[visit] = mine > other
     return casing
 
@@ -233,6 +234,7 @@ def _first_fault(arranged: Arrangement, level: Ints, casing: Bools) -> Obstructi
     if not len(faults):
         return None
     crossing = int(arranged.crossing_of_visit[faults].min())
-    x, y = arranged.crossings[crossing].tolist()
-    sentence = f"No cloth follows these heights: around crossing {crossing}, the ribbon would pass through itself."
-    return Obstruction("heights", sentence, ((x, y),), crossing, arranged)
+    # The drawing as given has other crossings where points in contact were moved apart.
+    name = f"crossing {crossing}" if arranged.given is arranged.outline else "the crossing there"
+    sentence = f"No cloth follows these heights: around {name}, the ribbon would pass through itself."
+    return Obstruction("heights", sentence, places_of_crossings(arranged, [crossing]), crossing, arranged)
