@@ -17,7 +17,7 @@ import shapely
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.places import places_of_crossings, places_of_visits
-from plyfold.arrays import Bools, Ints
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import InputError
 from plyfold.layering.layering import Layering, borders_beside_top, layering_of_levels
 from plyfold.layering.levels.courses import first_disobeyed
@@ -144,7 +144,7 @@ def _levels(strip: LaidStrip) -> Ints:
         height = height_on_edge(strip, stretch.edge, stretch.share)
         others = [_height_in_face(strip, face, place) for face in faces if face != strip.own_face[stretch.edge]]
         if height in others:
-            raise _same_height([float(x) for x in place])
+            raise _same_height(_place_as_given(strip, stretch))
         level[stretch.borders] = 1 + sum(other is not None and other < height for other in others)
     return level
 
@@ -181,6 +181,14 @@ def _place(strip: LaidStrip, stretch: _Stretch) -> Place:
     start, end = strip.points[[stretch.edge, strip.next_point[stretch.edge]]].tolist()
     x, y = ((1 - stretch.share) * Fraction(a) + stretch.share * Fraction(b) for a, b in zip(start, end, strict=True))
     return x, y
+
+
+def _place_as_given(strip: LaidStrip, stretch: _Stretch) -> Floats:
+    """Return the place on its edge, if points in contact are where they were given."""
+    given = strip.arranged.given
+    assert given is not None
+    start, end = given.points[[stretch.edge, strip.next_point[stretch.edge]]]
+    return np.asarray(start + float(stretch.share) * (end - start))
 
 
 def _faces_around(strip: LaidStrip, places: list[Place]) -> list[list[int]]:
