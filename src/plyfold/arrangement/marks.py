@@ -9,7 +9,7 @@ from math import inf
 import numpy as np
 
 from plyfold.arrangement.maps import Code, Map
-from plyfold.arrangement.planar_map import borders_at_visits
+from plyfold.arrangement.planar_map import borders_at_visits, number_of_borders
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.core.buffers import all_flat
 from plyfold.core.marks import Marked, insert_marks
