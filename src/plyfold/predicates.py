@@ -112,7 +112,7 @@ def counted_cross_sign(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: 
     Parameters
     ----------
     a, b, c, d : array_like, shape (..., 2)
-        Points, broadcast against each other.
+        Points, broadcast against each other: doubles, or fractions by powers of two.
 
     Returns
     -------
@@ -137,9 +137,10 @@ def counted_cross_sign(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: 
     >>> counted_cross_sign([0.1, 0.1], [0.7, 0.7], [0.1, 0.1], [1e9, 1e9])
     (array(0, dtype=int8), 1)
     """
-    if isinstance(a, np.ndarray) and a.dtype.hasobject:
-        return _whole_cross_sign(*map(np.asarray, (a, b, c, d)))
-    a, b, c, d = (np.asarray(p, dtype=np.float64) for p in (a, b, c, d))
+    places = [np.asarray(place) for place in (a, b, c, d)]
+    if any(place.dtype.hasobject for place in places):
+        return _whole_cross_sign(*places)
+    a, b, c, d = (place.astype(np.float64, copy=False) for place in places)
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         along, across = b - a, d - c
         left = np.asarray(along[..., 0] * across[..., 1])

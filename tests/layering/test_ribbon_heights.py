@@ -108,3 +108,15 @@ def test_several_lines_obey_together():
     assert layering.casing.tolist() == [False] * 4 + [True] * 4
     passed = [course.faces_along(0).tolist() for course in ribbon.courses]
     assert passed == [[0, 1], [2, 3]]
+
+
+def test_places_are_those_of_the_drawing_as_given():
+    """Of a ribbon that touches itself, points are moved apart by a millionth, which nobody wants to read."""
+    flat = [(0, 0, 0), (6, 0, 0), (6, 6, 0), (2, 6, 0), (2, -1, 0)]
+    with pytest.raises(pf.errors.InputError, match="at the same height") as caught:
+        pf.ribbon_layering(flat, 2, join_style="mitre")
+    assert caught.value.where[0][1] == -1
+    steep = [(0, 0, 1), (-5, 0, 2), (-5, -3, 2), (-1, -3, 2), (-1, 2, 0), (2, 2, 2)]
+    found = pf.ribbon_layering(steep, 2, join_style="mitre")
+    assert found.where == ((0, -1),)
+    assert "around the crossing there" in found.sentence

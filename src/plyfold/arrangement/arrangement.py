@@ -11,6 +11,7 @@ from typing import Any, Literal, cast
 import numpy as np
 import numpy.typing as npt
 
+from plyfold.arrangement.as_given import crossings_as_given
 from plyfold.arrangement.drawn import DrawnMap, drawn_map
 from plyfold.arrangement.general_position import in_general_position, touching_points
 from plyfold.arrangement.leftmost import leftmost_crossing
@@ -481,7 +482,7 @@ class Arrangement:
         cusps = f", {np.count_nonzero(self.cusp_index)} cusps" if self.cusp_index.any() else ""
         exact = f", {self.exact_signs} exact signs" if self.exact_signs else ""
         turning = f"turning number {self.turning_number}"
-        return f"<Arrangement of {kind}: {self.n_crossings} crossings, {turning}{cusps}{exact}>"
+        return f"<Arrangement of {kind}: {crossings_as_given(self)} crossings, {turning}{cusps}{exact}>"
 
     def _drawn(self) -> Outline:
         if self.outline is None:

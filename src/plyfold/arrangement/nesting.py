@@ -21,7 +21,7 @@ from plyfold.arrays import Bools, Floats, Ints, Reals
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.core.buffers import all_flat, flat, whole_room
 from plyfold.core.nesting import Bridges, Nesting, share_of_fractions
-from plyfold.predicates import Place, exact_cross, orient
+from plyfold.predicates import Place, exact_cross, orient, whole_numbers
 
 __all__ = ["Nest", "nest", "same_nest"]
 
@@ -168,23 +168,27 @@ def _met_on_the_left(plan: _Plan, found: Nesting, corner: Ints) -> Ints:
     found.meet(flat(corner), int(plan.exact is None), flat(met))
     ray, edge = found.unsure.as_array().reshape(-1, 2).T
     for number in dict.fromkeys(ray.tolist()):
-        met[number] = _exactly_first(plan, int(corner[number]), edge[ray == number].tolist())
+        met[number] = _exactly_first(plan, int(corner[number]), edge[ray == number])
     return met
 
 
-def _exactly_first(plan: _Plan, corner: int, edges: list[int]) -> int:
-    """Return which of some edges the ray from a vertex to the left meets first; −1 if all are on the right."""
-    here, level = plan.place(corner)
-    places = {edge: _place_and_slope(*plan.ends(edge), level) for edge in edges}
-    passed = [edge for edge, (place, _) in places.items() if place < here]
-    return max(passed, key=places.__getitem__, default=-1)
+def _exactly_first(plan: _Plan, corner: int, edge: Ints) -> int:
+    """Return which of some edges the ray from a vertex to the left meets first; −1 if all are on the right.
 
-
-def _place_and_slope(start: Place, end: Place, height: Fraction) -> tuple[Fraction, Fraction]:
-    """Return the x at which an edge passes a height, and the growth of x with the height."""
-    (x, y), (end_x, end_y) = start, end
-    slope = (end_x - x) / (end_y - y)
-    return x + (height - y) * slope, slope
+    The ray runs a little higher than the vertex. Where it meets an edge, and by how much further right a little higher,
+    are whole numbers divided by one.
+    """
+    points = np.concatenate([[corner], edge, plan.following(edge)])
+    (here, level), *ends = whole_numbers(plan.reals[points])[0].tolist()
+    first, best = -1, (0, 0, 1)
+    for number, (x, y), (end_x, end_y) in zip(edge.tolist(), ends[: len(edge)], ends[len(edge) :], strict=True):
+        sign = 1 if end_y > y else -1
+        below, slope = sign * (end_y - y), sign * (end_x - x)
+        place = x * below + (level - y) * slope
+        there = best[0] * below, best[1] * below
+        if place < here * below and (first < 0 or (place * best[2], slope * best[2]) > there):
+            first, best = number, (place, slope, below)
+    return first
 
 
 def _visits_passed(plan: _Plan, edge: Ints, corner: Ints) -> Ints:

@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrangement.as_given import given_windings
 from plyfold.arrays import Ints, freeze
 from plyfold.errors import InputError, NotImmersibleError, PlyfoldError
 from plyfold.graphs import components, members_of
@@ -117,7 +118,8 @@ class Immersion:
         freeze(self)
 
     def __repr__(self) -> str:
-        sheets, cells = counted(self.n_sheets, "sheet"), counted(self.arrangement.n_cells - 1, "cell")
+        windings = given_windings(self.arrangement)[1:]
+        sheets, cells = counted(int(windings.sum()), "sheet"), counted(len(windings), "cell")
         places = f", touches itself in {counted(len(self.touches), 'place')}" if self.touches else ""
         return f"<Immersion: {sheets} over {cells}{places}>"
 

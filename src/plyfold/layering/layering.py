@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrangement.as_given import given_windings
 from plyfold.arrangement.base_visit import visits_from_base
 from plyfold.arrays import Bools, Ints, freeze
 from plyfold.errors import PlyfoldError
@@ -60,7 +61,8 @@ class Layering:
         freeze(self)
 
     def __repr__(self) -> str:
-        sheets, levels = counted(self.immersion.n_sheets, "sheet"), counted(self.level.max(initial=0), "level")
+        windings = given_windings(self.immersion.arrangement)
+        sheets, levels = counted(int(windings.sum()), "sheet"), counted(int(windings.max()), "level")
         return f"<Layering: {sheets} on up to {levels}>"
 
     def _repr_svg_(self) -> str | None:

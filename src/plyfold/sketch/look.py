@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
+from plyfold.arrangement.as_given import contacts_of, crossings_as_given, given_windings
 from plyfold.arrangement.gauss import GaussCode
 from plyfold.draw.placement import border_line, cusps_drawn, label_circle, outer_ring_first
 from plyfold.immersion.blank_word import blank_word
@@ -20,10 +21,7 @@ from plyfold.outline.direction import even_odd_directions, sense
 from plyfold.report import (
     A_DISK,
     Words,
-    contacts_of,
-    crossings_as_given,
     cut_in_words,
-    given_windings,
     surface_in_words,
     touches_of,
     words,

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from plyfold.arrays import Bools, Floats, Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.graphs import ways_from
 from plyfold.halfedges import ends_of

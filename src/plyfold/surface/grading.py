@@ -90,8 +90,8 @@ def cloth_mesh(points: Floats, mesh: LiftedMesh, stiffness: float) -> ClothMesh:
     Returns
     -------
     ClothMesh
-        Hardly more than twice the surface's triangles; none are added where no corner is re-entrant, a few hundred for each one
-        that is. A few milliseconds for some thousands.
+        Hardly more than twice the surface's triangles; none are added where no corner is re-entrant, a few hundred for
+        each one that is. A few milliseconds for some thousands.
     """
     places = points[mesh.planar_vertex]
     places = (places - places[0]) / np.ptp(places, axis=0).max()

@@ -16,7 +16,8 @@ import numpy.typing as npt
 import shapely
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrays import Bools, Ints
+from plyfold.arrangement.places import places_of_crossings, places_of_visits
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import InputError
 from plyfold.layering.layering import Layering, borders_beside_top, layering_of_levels
 from plyfold.layering.levels.courses import first_disobeyed
@@ -110,7 +111,7 @@ def _casing(strip: LaidStrip) -> Bools:
     for visit, mine in height.items():
         other = height[int(arranged.partner[visit])]
         if mine == other:
-            raise _same_height(arranged.visit_point[visit])
+            raise _same_height(places_of_visits(arranged, [visit])[0])
         casing[visit] = mine > other
     return casing
 
@@ -143,7 +144,7 @@ def _levels(strip: LaidStrip) -> Ints:
         height = height_on_edge(strip, stretch.edge, stretch.share)
         others = [_height_in_face(strip, face, place) for face in faces if face != strip.own_face[stretch.edge]]
         if height in others:
-            raise _same_height([float(x) for x in place])
+            raise _same_height(_place_as_given(strip, stretch))
         level[stretch.borders] = 1 + sum(other is not None and other < height for other in others)
     return level
 
@@ -180,6 +181,14 @@ def _place(strip: LaidStrip, stretch: _Stretch) -> Place:
     start, end = strip.points[[stretch.edge, strip.next_point[stretch.edge]]].tolist()
     x, y = ((1 - stretch.share) * Fraction(a) + stretch.share * Fraction(b) for a, b in zip(start, end, strict=True))
     return x, y
+
+
+def _place_as_given(strip: LaidStrip, stretch: _Stretch) -> Floats:
+    """Return the place on its edge, if points in contact are where they were given."""
+    given = strip.arranged.given
+    assert given is not None
+    start, end = given.points[[stretch.edge, strip.next_point[stretch.edge]]]
+    return np.asarray(start + float(stretch.share) * (end - start))
 
 
 def _faces_around(strip: LaidStrip, places: list[Place]) -> list[list[int]]:
@@ -233,6 +242,7 @@ def _first_fault(arranged: Arrangement, level: Ints, casing: Bools) -> Obstructi
     if not len(faults):
         return None
     crossing = int(arranged.crossing_of_visit[faults].min())
-    x, y = arranged.crossings[crossing].tolist()
-    sentence = f"No cloth follows these heights: around crossing {crossing}, the ribbon would pass through itself."
-    return Obstruction("heights", sentence, ((x, y),), crossing, arranged)
+    # The drawing as given has other crossings where points in contact were moved apart.
+    name = f"crossing {crossing}" if arranged.given is arranged.outline else "the crossing there"
+    sentence = f"No cloth follows these heights: around {name}, the ribbon would pass through itself."
+    return Obstruction("heights", sentence, places_of_crossings(arranged, [crossing]), crossing, arranged)
