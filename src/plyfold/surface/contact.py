@@ -2,7 +2,8 @@
 
 Cloth rests on cloth in few places, mostly at single points where an edge lies on a sheet. So the unknowns are not the
 heights but the forces there. They start at none; in each round the worst places join, the forces that keep all places
-apart follow from a small dense problem, and heights answer to forces at the cost of two sparse systems.
+apart follow from a small dense problem, and heights answer to forces at the cost of two sparse systems. Places that no
+longer need a force leave.
 
 It ends when distances asked for a little too large are kept to within that little: then all distances are kept, and
 no other heights that keep them have less energy but for this little.
