@@ -36,6 +36,8 @@ _WORTH_A_FORCE = 0.05
 _FIRST_PLACES = 16
 # Places without a force for so many rounds are left out.
 _IDLE = 2
+# Every round proves a higher least energy, so no places come back all together; but rounding errors might bring them.
+_MOST_ROUNDS = 1000
 _ROUNDS_PER_PLACE = 5
 _PATIENCE = 3
 
@@ -180,7 +182,9 @@ def forced_heights(problem: Problem, watch: Watch) -> Balance | None:
     added = (
         np.arange(wanted.exact) if wanted.exact else _worst(wanted, wanted.missing(base), contacts.places, tolerance)
     )
-    while len(added):
+    for _ in range(_MOST_ROUNDS):
+        if not len(added):
+            return found
         contacts = contacts.joined(added, wanted.rows, answers)
         if len(contacts.places) > _MOST_PLACES:
             return None
@@ -193,7 +197,7 @@ def forced_heights(problem: Problem, watch: Watch) -> Balance | None:
         done = max(done, _share_done(missing, tolerance))
         watch.step(done)
         added = _worst(wanted, missing, contacts.places, tolerance)
-    return found
+    return None
 
 
 def _pushed(contacts: _Contacts, wanted: Distances, z: Floats, watch: Watch) -> _Contacts | None:
