@@ -157,9 +157,9 @@ def graded(
     Examples
     --------
     >>> square, faces = np.array([(0.0, 0.0), (1, 0), (1, 1), (0, 1)]), np.array([(0, 1, 2), (0, 2, 3)])
-    >>> places, finer, _, _ = graded(square, faces, np.array([0]), np.array([1, 2, 3, 0]), 0.1)
-    >>> bool(np.hypot(*places[1:].T).min() <= 0.1), len(finer)
-    (True, 42)
+    >>> places, finer, origin, ends = graded(square, faces, np.array([0]), np.array([1, 2, 3, 0]), 1.0)
+    >>> places[4:].tolist(), finer.tolist(), origin.tolist()
+    ([[0.5, 0.5]], [[4, 1, 2], [0, 4, 3], [4, 0, 1], [4, 2, 3]], [0, 1, 0, 1])
     """
     if not len(corners):
         return places, faces, np.arange(len(faces)), np.empty((0, 2), dtype=np.int64)
