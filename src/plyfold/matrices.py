@@ -8,15 +8,28 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from threading import Lock
 from typing import Any
 
+import numpy as np
+
 from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 
-__all__ = ["diagonal_matrix", "factorised", "laplacian", "one_thread", "summed"]
+__all__ = [
+    "Factors",
+    "definite_solution",
+    "diagonal_matrix",
+    "dissected_order",
+    "factorised",
+    "laplacian",
+    "one_thread",
+    "summed",
+    "without_empty_columns",
+]
 
 _lock = Lock()
 # Gives the threads back, once for each who wants one thread: the numbers that the first one found come first.
@@ -78,6 +91,21 @@ def diagonal_matrix(values: Floats) -> Any:
     return diags_array(values)
 
 
+def without_empty_columns(rows: Any) -> tuple[Any, Ints]:
+    """Return a sparse matrix in rows without its empty columns, and the numbers of the others.
+
+    Examples
+    --------
+    >>> kept, columns = without_empty_columns(summed(np.array([5.0]), np.array([0]), np.array([2]), (1, 9)))
+    >>> kept.toarray().tolist(), columns.tolist()
+    ([[5.0]], [2])
+    """
+    from scipy.sparse import csr_array
+
+    columns, number = np.unique(rows.indices, return_inverse=True)
+    return csr_array((rows.data, number, rows.indptr), shape=(rows.shape[0], len(columns))), columns
+
+
 def laplacian(start: Ints, end: Ints, weight: Floats) -> Any:
     """Return the Laplacian of a graph whose edges have weights; sparse.
 
@@ -93,10 +121,67 @@ def laplacian(start: Ints, end: Ints, weight: Floats) -> Any:
     return (diagonal_matrix(whole.sum(axis=1)) - whole).tocsr()
 
 
-def factorised(matrix: Any, watch: Watch = UNWATCHED) -> Any:
+@dataclass(frozen=True, eq=False)
+class Factors:
+    """The factors of a sparse symmetric matrix, A = C D Cᵀ with rows in the order of elimination.
+
+    Parameters
+    ----------
+    lu : scipy.sparse.linalg.SuperLU
+        Of the matrix with its rows and columns in ``order``.
+    order : (n,) int or None
+        None where they are as they were.
+    """
+
+    lu: Any
+    order: Ints | None = None
+
+    def solve(self, right: Any) -> Any:
+        """Return x with Ax = b, for one column b or several."""
+        if self.order is None:
+            return self.lu.solve(right)
+        solution = np.empty_like(right)
+        solution[self.order] = self.lu.solve(right[self.order])
+        return solution
+
+    @property
+    def time(self) -> Ints:
+        """When each row of the matrix is eliminated, (n,)."""
+        if self.order is None:
+            return np.asarray(self.lu.perm_r)
+        time = np.empty_like(self.lu.perm_r)
+        time[self.order] = self.lu.perm_r
+        return np.asarray(time)
+
+
+def definite_solution(matrix: Floats, right: Floats) -> Floats:
+    """Return x with Ax = b for a full symmetric positive definite matrix A, which is overwritten (Cholesky).
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        If the matrix is not positive definite.
+
+    Examples
+    --------
+    >>> definite_solution(np.array([[4.0, 0.0], [0.0, 1.0]]), np.array([2.0, 3.0])).tolist()
+    [0.5, 3.0]
+    """
+    from scipy.linalg import lapack
+
+    if not len(right):
+        return np.empty(0)
+    _, solution, info = lapack.dposv(matrix.T, right, lower=1, overwrite_a=1)
+    if info:
+        raise np.linalg.LinAlgError("the matrix is not positive definite")
+    return np.asarray(solution)
+
+
+def factorised(matrix: Any, watch: Watch = UNWATCHED, order: Ints | None = None) -> Factors:
     """Return the factors of a sparse symmetric matrix, real or complex, with its pivots on the diagonal.
 
-    Raises RuntimeError if one of them is 0, as none is of a positive definite matrix.
+    Rows are eliminated in the given order, nearly, or else in one of least degree. Raises RuntimeError if a pivot is 0,
+    as none is of a positive definite matrix.
 
     Examples
     --------
@@ -107,7 +192,28 @@ def factorised(matrix: Any, watch: Watch = UNWATCHED) -> Any:
     """
     from scipy.sparse.linalg import splu
 
-    columns, options = matrix.tocsc(), {"SymmetricMode": True}
-    return watch.wait_for(
-        lambda: splu(columns, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options), columns.shape[0]
+    columns, options = (
+        matrix.tocsc() if order is None else matrix.tocsr()[order][:, order].tocsc(),
+        {"SymmetricMode": True},
     )
+    kind = "MMD_AT_PLUS_A" if order is None else "NATURAL"
+    lu = watch.wait_for(
+        lambda: splu(columns, permc_spec=kind, diag_pivot_thresh=0.0, options=options), columns.shape[0]
+    )
+    return Factors(lu, order)
+
+
+def dissected_order(matrix: Any, watch: Watch = UNWATCHED) -> Ints | None:
+    """Return an order of a sparse symmetric matrix's rows by nested dissection, or None without the library for it.
+
+    All rows on both sides of a short line across the graph come before those on the line; on each side, likewise.
+    """
+    try:
+        pymetis = import_module("pymetis")
+    except ImportError:
+        return None
+    graph = matrix.tocsr(copy=True)
+    graph.setdiag(0)
+    graph.eliminate_zeros()
+    adjacency = pymetis.CSRAdjacency(graph.indptr, graph.indices)
+    return np.array(watch.wait_for(lambda: pymetis.nested_dissection(adjacency), graph.shape[0])[0])

@@ -18,21 +18,24 @@ import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.matrices import factorised, one_thread
-from plyfold.surface.energy import Cloth, Response, held_response, response
+from plyfold.matrices import definite_solution, factorised, one_thread
+from plyfold.surface.answers import Answers
+from plyfold.surface.energy import Cloth
 
 __all__ = ["Distances", "Problem", "forced_heights", "least_forces", "sprung_heights"]
 
 
-# More places than this are left to springs: the dense problem would outgrow the sparse ones.
-_MOST_PLACES = 3000
+# More places than this are left to springs: the dense problem would take gigabytes.
+_MOST_PLACES = 8000
 # Forces below this fraction of the largest are rounding errors.
 _NO_FORCE = 1e-11
 # Places that miss less than this part of the worst are left for later: mostly, they come right without a force.
-_WORTH_A_FORCE = 0.3
+_WORTH_A_FORCE = 0.05
+# So many places join in a round, at most, and as many again as there are.
+_FIRST_PLACES = 16
+# Places without a force for so many rounds are left out.
+_IDLE = 2
 _ROUNDS_PER_PLACE = 5
-# Answers found together: of more, the caches and the threads of BLAS make up to eight times as slow work.
-_AT_ONCE = 8
 _PATIENCE = 3
 
 
@@ -86,8 +89,76 @@ class Problem:
     tolerance: float
 
 
+@dataclass(frozen=True, eq=False)
+class Balance:
+    """Heights that balance forces on the distances of a problem: of all heights these forces ask for the least energy.
+
+    Parameters
+    ----------
+    heights : (v,) float
+    force : (c,) float
+        None of them pulls, but on exact distances.
+    """
+
+    heights: Floats
+    force: Floats
+
+    def least_energy(self, problem: Problem) -> float:
+        """Return an energy that no heights which keep the distances have less than (the Lagrangian dual)."""
+        room = problem.wanted.rows @ self.heights - problem.wanted.least
+        return problem.cloth.energy(self.heights) - float(self.force @ room)
+
+
+@dataclass(frozen=True, eq=False)
+class _Contacts:
+    """Places where a force may act; those that had none for some rounds are left out again.
+
+    Parameters
+    ----------
+    places : (p,) int
+        Rows of the distances.
+    force : (p,) float
+    idle : (p,) int
+        For how many rounds there was no force.
+    flexibility : (p, p) float
+        How distances grow with forces.
+    """
+
+    places: Ints
+    force: Floats
+    idle: Ints
+    flexibility: Floats
+
+    @classmethod
+    def none(cls) -> _Contacts:
+        """Return no places."""
+        return cls(np.empty(0, dtype=np.int64), np.empty(0), np.empty(0, dtype=np.int64), np.empty((0, 0)))
+
+    def joined(self, added: Ints, rows: Any, answers: Answers) -> _Contacts:
+        """Return the contacts with more of them, with no force as yet."""
+        if not len(added):
+            return self
+        places, none = np.append(self.places, added), np.zeros(len(added))
+        flexibility = _bordered(self.flexibility, answers.between(rows[places], rows[added]))
+        return _Contacts(places, np.append(self.force, none), np.append(self.idle, none.astype(np.int64)), flexibility)
+
+    def with_forces(self, force: Floats, exact: int) -> _Contacts:
+        """Return the contacts with other forces, without the places that are idle for long."""
+        idle = np.where(force == 0, self.idle + 1, 0)
+        kept = np.flatnonzero((idle < _IDLE) | (np.arange(len(idle)) < exact))
+        if len(kept) == len(idle):
+            return _Contacts(self.places, force, idle, self.flexibility)
+        return _Contacts(self.places[kept], force[kept], idle[kept], self.flexibility[np.ix_(kept, kept)])
+
+    def forces(self, count: int) -> Floats:
+        """Return the forces on all distances, of which there are so many."""
+        force = np.zeros(count)
+        force[self.places] = self.force
+        return force
+
+
 @one_thread()
-def forced_heights(problem: Problem, watch: Watch) -> Floats | None:
+def forced_heights(problem: Problem, watch: Watch) -> Balance | None:
     """Return the heights of least energy, from the forces that keep the distances.
 
     Parameters
@@ -97,33 +168,41 @@ def forced_heights(problem: Problem, watch: Watch) -> Floats | None:
 
     Returns
     -------
-    (v,) float or None
-        Up to a constant if no vertex is held. None where there are too many places of contact, or where no forces keep
-        them apart. Cost: two or three answers to forces for each place of contact.
+    Balance or None
+        Heights up to a constant if no vertex is held. None where there are too many places of contact, or where no
+        forces keep them apart. Cost: an answer to forces in each of some dozens of rounds.
     """
-    cloth, held, wanted, tolerance = problem.cloth, problem.held, problem.wanted, problem.tolerance
-    respond = held_response(cloth, held, watch) if held.any() else response(cloth, watch)
-    base = problem.given - respond(cloth.stiffness @ problem.given) if held.any() else problem.given
-    places, force, flexibility, done = np.empty(0, dtype=np.int64), np.empty(0), np.empty((0, 0)), 0.0
-    z, short = base, wanted.least - wanted.rows @ base
-    added = np.arange(wanted.exact) if wanted.exact else _worst(wanted, short, places, tolerance)
+    held, wanted, tolerance = problem.held, problem.wanted, problem.tolerance
+    answers, across = Answers(problem.cloth, held, watch), wanted.rows.T.tocsr()
+    base = problem.given - (answers.heights(problem.cloth.stiffness @ problem.given) if held.any() else 0.0)
+    found, contacts, done = Balance(base, np.zeros(len(wanted.least))), _Contacts.none(), 0.0
+    added = (
+        np.arange(wanted.exact) if wanted.exact else _worst(wanted, wanted.missing(base), contacts.places, tolerance)
+    )
     while len(added):
-        places = np.concatenate([places, added])
-        if len(places) > _MOST_PLACES:
+        contacts = contacts.joined(added, wanted.rows, answers)
+        if len(contacts.places) > _MOST_PLACES:
             return None
-        there = wanted.rows[places]
-        flexibility = _bordered(flexibility, _columns(there, respond, len(added)))
-        pressing = np.append(force != 0, np.ones(len(added), dtype=bool))
-        found = least_forces(flexibility, short[places], wanted.exact, pressing, watch)
-        if found is None:
+        pushed = _pushed(contacts, wanted, found.heights, watch)
+        if pushed is None:
             return None
-        force = found
-        z = base + respond(there.T @ force)
-        missing = wanted.missing(z)
+        contacts, force = pushed, pushed.forces(len(wanted.least))
+        found = Balance(base + answers.heights(across @ force), force)
+        missing = wanted.missing(found.heights)
         done = max(done, _share_done(missing, tolerance))
         watch.step(done)
-        added = _worst(wanted, missing, places, tolerance)
-    return z
+        added = _worst(wanted, missing, contacts.places, tolerance)
+    return found
+
+
+def _pushed(contacts: _Contacts, wanted: Distances, z: Floats, watch: Watch) -> _Contacts | None:
+    """Return the contacts with the forces that keep their distances, given the heights at their present forces."""
+    # What is missing without forces, from what is missing now: so rounding errors do not add up.
+    missing = wanted.least[contacts.places] - wanted.rows[contacts.places] @ z
+    short = missing + contacts.flexibility @ contacts.force
+    pressing = (contacts.force != 0) | (contacts.idle == 0)
+    force = least_forces(contacts.flexibility, short, wanted.exact, pressing, watch)
+    return None if force is None else contacts.with_forces(force, wanted.exact)
 
 
 def _worst(wanted: Distances, missing: Floats, places: Ints, tolerance: float) -> Ints:
@@ -137,13 +216,7 @@ def _worst(wanted: Distances, missing: Floats, places: Ints, tolerance: float) -
     peaks = np.flatnonzero(peak)
     by_size = peaks[np.argsort(-missing[peaks], kind="stable")]
     large = by_size[missing[by_size] >= _WORTH_A_FORCE * missing[by_size[:1]]]
-    return np.asarray(large[: 1 + len(places) // 2])
-
-
-def _columns(rows: Any, respond: Response, count: int) -> Floats:
-    """Return how the distances in all rows answer to forces at the last ones, each in a column."""
-    parts = np.array_split(np.arange(rows.shape[0] - count, rows.shape[0]), -(-count // _AT_ONCE))
-    return np.concatenate([rows @ respond(rows[part[0] : part[-1] + 1].T.toarray()) for part in parts], axis=1)
+    return np.asarray(large[: _FIRST_PLACES + len(places)])
 
 
 def _bordered(block: Floats, columns: Floats) -> Floats:
@@ -186,15 +259,15 @@ def least_forces(
 
     Examples
     --------
-    >>> least_forces(np.array([[2.0, 1.0], [1.0, 2.0]]), np.array([3.0, -9.0]), 0, np.array([True, True])).tolist()
-    [1.5, 0.0]
+    >>> least_forces(np.array([[4.0, 1.0], [1.0, 4.0]]), np.array([3.0, -9.0]), 0, np.array([True, True])).tolist()
+    [0.75, 0.0]
     """
     fewest, patience = len(short) + 1, _PATIENCE
     for _ in range(_ROUNDS_PER_PLACE * len(short) + 100):
         watch.step()
         force = np.zeros(len(short))
         try:
-            force[pressing] = np.linalg.solve(flexibility[np.ix_(pressing, pressing)], short[pressing])
+            force[pressing] = definite_solution(flexibility[np.ix_(pressing, pressing)], short[pressing])
         except np.linalg.LinAlgError:
             return None
         wrong = _wrong(flexibility, short, force, pressing)
@@ -224,12 +297,15 @@ def _wrong(flexibility: Floats, short: Floats, force: Floats, pressing: Bools) -
 # quadratic, so Newton's method ends after a few steps. (Stiff springs alone would leave a rest, above all where sheets
 # touch in a single point, and removing it afterwards would draw a spike there.)
 
-# Stiffness of the springs, with membrane energy and gap as units, for one round after the other.
-_STIFFNESS = (1.0, 1e1, 1e2, *[1e3] * 6, *[1e4] * 6)
+# Stiffness of the springs, with membrane energy and gap as units, at first and at most; how much stiffer they become
+# where a round does not leave a small part of what was missing.
+_SOFT, _STIFF, _STIFFER = 1.0, 1e9, 10.0
+_LEFT = 0.25
+_SPRING_ROUNDS = 60
 _NEWTON_STEPS = 25
 
 
-def sprung_heights(problem: Problem, watch: Watch) -> Floats:
+def sprung_heights(problem: Problem, watch: Watch) -> Balance:
     """Return the heights of least energy that keep all distances as well as can be.
 
     Parameters
@@ -239,25 +315,28 @@ def sprung_heights(problem: Problem, watch: Watch) -> Floats:
 
     Returns
     -------
-    (v,) float
-        Cost: 15 to 25 factorisations of K with the springs; all of them only where no heights keep the distances.
+    Balance
+        Cost: some dozens of factorisations of K with the springs; hundreds only where no heights keep the distances.
     """
-    wanted = problem.wanted
-    z, force = problem.given, np.zeros(len(wanted.least))
-    for done, stiffness in enumerate(_STIFFNESS):
-        for step, better in enumerate(_newton_steps(problem, z, force, stiffness, watch)):
-            z = better
-            watch.step((done + step / _NEWTON_STEPS) / len(_STIFFNESS))
-        if np.max(wanted.missing(z), initial=0.0) <= problem.tolerance:
+    wanted, tolerance = problem.wanted, problem.tolerance
+    found, stiffness, before = Balance(problem.given, np.zeros(len(wanted.least))), _SOFT, np.inf
+    for done in range(_SPRING_ROUNDS):
+        for step, better in enumerate(_newton_steps(problem, found, stiffness, watch)):
+            sprung = better
+            watch.step((done + step / _NEWTON_STEPS) / _SPRING_ROUNDS)
+        found = sprung
+        missing = float(np.max(wanted.missing(found.heights), initial=0.0))
+        if missing <= tolerance:
             break
-        force = force + stiffness * (wanted.least - wanted.rows @ z)
-        force[wanted.exact :] = np.maximum(0, force[wanted.exact :])
-    return z
+        if missing > _LEFT * before:
+            stiffness = min(_STIFFER * stiffness, _STIFF)
+        before = missing
+    return found
 
 
-def _newton_steps(problem: Problem, z: Floats, force: Floats, stiffness: float, watch: Watch) -> Iterator[Floats]:
+def _newton_steps(problem: Problem, found: Balance, stiffness: float, watch: Watch) -> Iterator[Balance]:
     """Yield ever better minimisers of the energy with springs and forces, until the same contacts press again."""
-    wanted, held = problem.wanted, problem.held.copy()
+    wanted, held, z, force = problem.wanted, problem.held.copy(), found.heights, found.force
     # Heights may be known up to a constant only: hold one vertex.
     held[0] |= not held.any()
     free, matrix = np.flatnonzero(~held), problem.cloth.stiffness
@@ -268,7 +347,10 @@ def _newton_steps(problem: Problem, z: Floats, force: Floats, stiffness: float, 
         load = contact.T @ (force + stiffness * wanted.least)[pressing] - sprung @ np.where(held, z, 0.0)
         z = z.copy()
         z[free] = factorised(sprung[free][:, free], watch).solve(load[free])
-        yield z
+        # What the springs carry, forces take over.
+        carried = np.where(pressing, force + stiffness * (wanted.least - wanted.rows @ z), 0.0)
+        carried[wanted.exact :] = np.maximum(0, carried[wanted.exact :])
+        yield Balance(z, carried)
         before, pressing = pressing, _pressing(wanted, z, force, stiffness)
         if (before == pressing).all():
             return

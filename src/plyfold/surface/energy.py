@@ -1,25 +1,23 @@
-"""The energy of the cloth: a thin plate that bends and a membrane that slopes, and how heights answer to forces.
+"""The energy of the cloth: a thin plate that bends and a membrane that slopes.
 
 With the cotangent Laplacian L and the area M that belongs to each vertex (a diagonal), the energy of heights z is
 
     E(z) = ½ ∫ ℓ² (Δz)² + |∇z|²  ≈  ½ zᵀ K z,    K = ℓ² L M⁻¹ L + L = L M⁻¹ (M + ℓ² L).
 
-So K is a product of two matrices as sparse as L, and heights answer to forces by two systems of that kind, which cost
-a tenth of one with K itself. Only where heights are held in whole regions K has to be factorised.
+So K is a product of two matrices as sparse as L, which :mod:`plyfold.surface.answers` takes apart.
 
 Cloth that is w times as stiff in a region has the weight w in both integrals there: ½ ∫ ℓ² (div w∇z)²/w + w |∇z|².
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
-from plyfold.arrays import Bools, Floats, Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.graphs import ways_from
 from plyfold.halfedges import ends_of
@@ -27,10 +25,7 @@ from plyfold.matrices import diagonal_matrix, factorised, summed
 from plyfold.surface.glue import LiftedMesh, numbers_of_copies
 from plyfold.surface.grading import ClothMesh, double_areas
 
-__all__ = ["Cloth", "Response", "cloth_of", "held_response", "response"]
-
-# Heights that balance forces; several columns at a time if need be.
-Response: TypeAlias = Callable[[Floats], Floats]
+__all__ = ["Cloth", "cloth_of"]
 
 # Thinner triangles (double area by longest side squared) and smaller areas (by the mean) count as if they were not,
 # for their numbers would drown all others.
@@ -77,11 +72,8 @@ class Cloth:
 
     def smoothed(self, values: Floats, watch: Watch = UNWATCHED) -> Floats:
         """Return values that change within the bending length ℓ instead of at once."""
-        return np.asarray(self.near(watch).solve(self.area * values))
-
-    def near(self, watch: Watch) -> Any:
-        """Return the factors of M + ℓ² L."""
-        return factorised(diagonal_matrix(self.area) + self.bending * self.laplacian, watch)
+        near = diagonal_matrix(self.area) + self.bending * self.laplacian
+        return np.asarray(factorised(near, watch).solve(self.area * values))
 
 
 def cloth_of(fine: ClothMesh, mesh: LiftedMesh, stiffness: float, flat: float, watch: Watch = UNWATCHED) -> Cloth:
@@ -112,32 +104,6 @@ def cloth_of(fine: ClothMesh, mesh: LiftedMesh, stiffness: float, flat: float, w
     share = plain.smoothed(_alone(fine, mesh), watch).clip(0, 1)
     weighted, _ = _cotangent_laplacian(places, faces, weight * flat ** share[faces].mean(axis=1))
     return Cloth(weighted, plain.area * flat**share, plain.bending)
-
-
-def response(cloth: Cloth, watch: Watch = UNWATCHED) -> Response:
-    """Return the heights that balance forces whose sum is 0, up to a constant."""
-    # Hold one vertex: heights are known up to a constant.
-    far, near = factorised(cloth.laplacian[1:, 1:], watch), cloth.near(watch)
-
-    def balance(force: Floats) -> Floats:
-        curved = np.zeros(force.shape)
-        curved[1:] = watch.wait_for(lambda: far.solve(force[1:]), force.size)
-        return np.asarray(watch.wait_for(lambda: near.solve((cloth.area * curved.T).T), force.size))
-
-    return balance
-
-
-def held_response(cloth: Cloth, held: Bools, watch: Watch = UNWATCHED) -> Response:
-    """Return the heights that balance forces on vertices that are not held; those that are stay at 0."""
-    free = np.flatnonzero(~held)
-    inner = factorised(cloth.stiffness[free][:, free], watch)
-
-    def balance(force: Floats) -> Floats:
-        z = np.zeros(force.shape)
-        z[free] = watch.wait_for(lambda: inner.solve(force[free]), force.size)
-        return z
-
-    return balance
 
 
 def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[Any, Floats]:

@@ -70,10 +70,15 @@ class ClothMesh:
 
     def continued(self, values: Floats) -> Floats:
         """Return values of the surface's vertices, and of each further one the mean of those it is the middle of."""
-        whole = [*values.tolist()]
-        for start, end in self.ends.tolist():
-            whole.append((whole[start] + whole[end]) / 2)
-        return np.array(whole)
+        whole = np.concatenate([values, np.zeros(self.added)])
+        known = len(values)
+        while known < len(whole):
+            # As many at once as lie between vertices that are known already.
+            ends = self.ends[known - len(values) :]
+            count = int(np.argmax(np.append((ends >= known).any(axis=1), True)))
+            whole[known : known + count] = whole[ends[:count]].mean(axis=1)
+            known += count
+        return whole
 
 
 def cloth_mesh(points: Floats, mesh: LiftedMesh, stiffness: float) -> ClothMesh:

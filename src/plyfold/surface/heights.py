@@ -28,7 +28,7 @@ import numpy as np
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import InputError, PrecisionError
-from plyfold.surface.contact import Distances, Problem, forced_heights, sprung_heights
+from plyfold.surface.contact import Balance, Distances, Problem, forced_heights, sprung_heights
 from plyfold.surface.energy import cloth_of
 from plyfold.surface.glue import LiftedMesh, shares_of_gap
 from plyfold.surface.grading import ClothMesh, cloth_mesh
@@ -60,6 +60,8 @@ _FLAT, _FLATTEST = 100.0, 1e6
 _HIGHEST_PIN = 1000.0
 # Vertices between pins that have less room than this part of the gap are held too.
 _NO_ROOM = 1e-3
+# Of the energy: heights that may have so much more than the least are an error.
+_LARGEST_EXCESS = 1e-3
 # Where the springs leave more of a gap, the pins contradict each other.
 _LARGEST_REST = 1e-3
 
@@ -105,7 +107,8 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
     InputError
         If the pins leave less room than the gap; it names the place.
     PrecisionError
-        If the gap is less than rounding errors of heights; it names the place.
+        If the gap is less than rounding errors of heights, or if these leave it open whether other heights have a
+        thousandth less energy; it names the place.
 
     Notes
     -----
@@ -125,15 +128,17 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
     tolerance = max(_TOLERANCE, _RELATIVE * float(np.abs([*fixed, *given.heights]).max()) / gap)
     wanted = _distances(mesh, shares + tolerance, given, held, gap)
     problem = _on_finer_mesh(fine, Problem(cloth, wanted, held, fixed / gap, tolerance))
-    z = forced_heights(problem, watch)
-    if z is None:
-        z = sprung_heights(problem, watch)
-    z = z[: len(held)]
+    found = forced_heights(problem, watch) or sprung_heights(problem, watch)
+    z = found.heights[: len(held)]
     if pins and np.max(missing := wanted.missing(z), initial=0.0) > _LARGEST_REST:
         place = points[mesh.planar_vertex[wanted.rows[[int(np.argmax(missing))]].indices[:1]]]
         raise InputError("the pins leave less room than the gap", where=place, hint="move the pinned heights apart")
-    heights = _kept_apart(_settled(gap * z, mesh, given, held, fixed), mesh, gap * shares, held)
+    settled = _settled(gap * z, mesh, given, held, fixed)
+    heights = _kept_apart(settled, mesh, gap * shares, held)
     _require_order(heights, points, mesh)
+    _require_least(
+        found.heights + fine.continued((heights - settled) / gap), found, problem, points[mesh.planar_vertex]
+    )
     return heights
 
 
@@ -157,6 +162,18 @@ def _require_order(heights: Floats, points: Floats, mesh: LiftedMesh) -> None:
             "the gap of sheets is lost in rounding their heights",
             where=points[mesh.planar_vertex[lower[equal[:1]]]],
             hint="make the gap larger, or the pinned heights smaller",
+        )
+
+
+def _require_least(z: Floats, found: Balance, problem: Problem, places: Floats) -> None:
+    """Raise PrecisionError where forces do not prove that these heights have next to no more energy than needed."""
+    energy = problem.cloth.energy(z)
+    above = energy - found.least_energy(problem)
+    if not above <= _LARGEST_EXCESS * max(energy, problem.tolerance):
+        raise PrecisionError(
+            f"the heights of least energy were not found: these may have {above / energy:.1%} more than needed",
+            where=places[[int(np.argmax(np.abs(z - found.heights)[: len(places)]))]],
+            hint="ask for other triangles, or for softer cloth",
         )
 
 
