@@ -4,7 +4,7 @@ import importlib
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.sparse import csr_array
 
@@ -40,6 +40,7 @@ def parents_by_definition(matrix, order):
     return [int(rows[0]) if len(rows) else -1 for rows in below]
 
 
+@settings(deadline=None)
 @given(definite_matrices())
 def test_elimination_tree(case):
     matrix, order = case
@@ -51,6 +52,7 @@ def test_elimination_tree(case):
     assert parent.tolist() == parents_by_definition(matrix, order)
 
 
+@settings(deadline=None)
 @given(definite_matrices(), st.booleans())
 def test_entries_of_inverses(case, in_order):
     matrix, order = case

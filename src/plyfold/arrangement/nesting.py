@@ -132,11 +132,7 @@ def nest(
     found.join(*all_flat(corner, met, passed), bridges, whole_room(2 * n_borders))
     turning = np.empty(len(first_point) - 1, dtype=np.int64)
     found.count_turns(flat(turning))
-    (edge, tie, at, loop), along, point = (
-        whole.reshape(4, -1),
-        real[: 2 * n_bridges],
-        real[2 * n_bridges :].reshape(-1, 2),
-    )
+    (edge, tie, at, loop), along, point = whole.reshape(4, -1), real[: 2 * n_bridges], real[2 * n_bridges :].reshape(-1, 2)
     if exact is not None:
         _place_feet(plan, met[is_met], corner[is_met], point)
     return Nest(

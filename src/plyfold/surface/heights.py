@@ -11,7 +11,7 @@ anything that pulls z towards a plane makes spikes where sheets cross.
 The distance is kept by forces at the places of contact, or, where these are thousands, by springs; both are in
 :mod:`plyfold.surface.contact`. Both keep a distance that is a millionth of the gap too large,
 to within that millionth; so no other heights have less energy but for two millionths, and what remains to be done in
-the end is the work of rounding errors.
+the end is the work of rounding errors. The forces prove it each time: they bound the energy from below.
 
 Where two sheets pass through each other, their distance may shrink to nothing: near there it is half the way along the
 sheets to that place, if this is less than the gap.
