@@ -27,7 +27,7 @@ from plyfold.matrices import diagonal_matrix, factorised, summed
 from plyfold.ragged import next_in_rows
 from plyfold.surface.glue import LiftedMesh, numbers_of_copies
 
-__all__ = ["Cloth", "Response", "cloth_of", "held_response", "response"]
+__all__ = ["Cloth", "Response", "cloth_of", "cotangent_laplacian", "held_response", "response"]
 
 # Heights that balance forces; several columns at a time if need be.
 Response: TypeAlias = Callable[[Floats], Floats]
@@ -103,7 +103,7 @@ def cloth_of(points: Floats, mesh: LiftedMesh, stiffness: float, flat: float, wa
     outline = corners[mesh.boundary]
     perimeter = np.hypot(*(outline[next_in_rows(mesh.first_boundary)] - outline).T).sum()
     weight = np.where(np.isin(mesh.faces, mesh.cusps).any(axis=1), _AT_CUSPS, 1.0)
-    laplacian, area = watch.wait_for(lambda: _cotangent_laplacian(corners, mesh.faces, weight), len(weight))
+    laplacian, area = watch.wait_for(lambda: cotangent_laplacian(corners, mesh.faces, weight), len(weight))
     if len(mesh.first_boundary) > 2:
         laplacian = laplacian + _ties(mesh, area, _ATTRACTION * (perimeter / area.sum()) ** 2)
     mean_width = 2 * area.sum() / perimeter
@@ -113,7 +113,7 @@ def cloth_of(points: Floats, mesh: LiftedMesh, stiffness: float, flat: float, wa
     if flat == 1:
         return plain
     share = plain.smoothed(_alone(mesh).astype(np.float64), watch).clip(0, 1)
-    weighted, _ = _cotangent_laplacian(corners, mesh.faces, weight * flat ** share[mesh.faces].mean(axis=1))
+    weighted, _ = cotangent_laplacian(corners, mesh.faces, weight * flat ** share[mesh.faces].mean(axis=1))
     return Cloth(weighted, plain.area * flat**share, plain.bending)
 
 
@@ -143,7 +143,7 @@ def held_response(cloth: Cloth, held: Bools, watch: Watch = UNWATCHED) -> Respon
     return balance
 
 
-def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[Any, Floats]:
+def cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[Any, Floats]:
     """Return the matrix of ½ ∫ w |∇z|² and the area that belongs to each vertex."""
     triangle = corners[faces]
     n = len(corners)

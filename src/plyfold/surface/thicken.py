@@ -1,4 +1,4 @@
-"""A solid from a surface: cloth of some thickness, watertight, to be printed."""
+"""A solid from a surface: what lies round it in some thickness, watertight, to be printed."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from plyfold.surface.left import kinds_of, may_touch
 if TYPE_CHECKING:
     from plyfold.surface.lift import Surface
 
-__all__ = ["Solid", "thicken"]
+__all__ = ["Solid", "solid_round", "thicken"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,15 +32,16 @@ class Solid:
     ----------
     surface : Surface
         In the middle of the solid.
-    thickness : float
-        Measured vertically, in units of the drawing.
-    vertices : (2n, 3) float
-        The upper side, vertex by vertex as in the surface, then the lower side. At a cusp, where all steps of a stair
-        meet, the solid ends in a tip, and the lower side has no vertex of its own.
-    faces : (2m + 2b, 3) int
+    thickness : (n,) float
+        At each vertex of the surface, measured vertically, in units of the drawing; straight between them. It is 0
+        at *tips*: at cusps, where all steps of a stair meet, and along the outline of a round body.
+    vertices : (2n - t, 3) float
+        The upper side, vertex by vertex as in the surface, then the lower side without the t tips: there the two sides
+        have a vertex in common.
+    faces : (2m + w, 3) int
         Counter-clockwise seen from the outside: the upper side, the lower side, and two triangles of the vertical wall
-        for each edge of the boundary; one where that ends in a tip.
-    sheet : (2m + 2b,) int
+        for each edge of the boundary; one where that ends in a tip, and none between tips.
+    sheet : (2m + w,) int
         The sheet that each triangle belongs to.
 
     Examples
@@ -53,7 +54,7 @@ class Solid:
     """
 
     surface: Surface
-    thickness: float
+    thickness: Floats
     vertices: Floats
     faces: Ints
     sheet: Ints
@@ -62,12 +63,22 @@ class Solid:
         freeze(self)
 
     def __repr__(self) -> str:
-        return f"<Solid: {len(self.faces)} triangles, {self.thickness:g} thick>"
+        return f"<Solid: {len(self.faces)} triangles, {self.height:g} thick>"
 
     def _repr_png_(self) -> bytes:
         from plyfold.draw.notebook import solid_png
 
         return solid_png(self)
+
+    @property
+    def height(self) -> float:
+        """The largest thickness."""
+        return float(self.thickness.max())
+
+    @property
+    def tips(self) -> Ints:
+        """The vertices at which the upper and the lower side meet."""
+        return np.flatnonzero(self.thickness == 0)
 
     def check(self) -> None:
         """Prove with the independent checker :func:`plyfold.certify.check_solid` that it is a solid.
@@ -81,8 +92,10 @@ class Solid:
             Naming the condition and the place.
         """
         pieces = [euler for _, euler in kinds_of(self.surface)]
-        tips, touching = self.surface.cusps, may_touch(self.surface)
-        check_solid(self.vertices, self.faces, self.thickness, pieces=pieces, tips=tips, touching=touching)
+        # Upper vertices come first; what is said of the others is not read.
+        thickness = np.append(self.thickness, np.zeros(len(self.vertices) - len(self.thickness)))
+        touching = may_touch(self.surface)
+        check_solid(self.vertices, self.faces, thickness, pieces=pieces, tips=self.tips, touching=touching)
 
     def export(
         self,
@@ -137,13 +150,22 @@ def thicken(surface: Surface, thickness: float) -> Solid:
     half the thickness round them are disjoint: the solid does not meet itself.
     """
     _refuse_thickness(surface, thickness)
-    n, b = len(surface.vertices), len(surface.boundary)
+    everywhere = np.full(len(surface.vertices), float(thickness))
+    everywhere[surface.cusps] = 0.0
+    return solid_round(surface, everywhere)
+
+
+def solid_round(surface: Surface, thickness: Floats) -> Solid:
+    """Return the solid of some thickness at each vertex of a surface, which leaves room for it.
+
+    Raises PrecisionError where the thickness, or what is between two bodies, is lost in rounding.
+    """
+    n, b, tips = len(surface.vertices), len(surface.boundary), np.flatnonzero(thickness == 0)
     up = np.zeros((n, 3))
     up[:, 2] = thickness / 2
-    up[surface.cusps] = 0.0
-    below = n + np.arange(n) - np.searchsorted(surface.cusps, np.arange(n))
-    below[surface.cusps] = surface.cusps
-    vertices = np.concatenate([surface.vertices + up, np.delete(surface.vertices - up, surface.cusps, axis=0)])
+    below = n + np.arange(n) - np.searchsorted(tips, np.arange(n))
+    below[tips] = tips
+    vertices = np.concatenate([surface.vertices + up, np.delete(surface.vertices - up, tips, axis=0)])
     _require_strict_order(vertices, surface.faces, below)
     upper, following = surface.boundary, surface.boundary[next_in_rows(surface.first_boundary)]
     lower, lower_following = below[upper], below[following]
@@ -151,7 +173,7 @@ def thicken(surface: Surface, thickness: float) -> Solid:
     faces = np.concatenate([surface.faces, below[surface.faces[:, ::-1]], walls])
     sheet = np.concatenate([surface.sheet, surface.sheet, np.repeat(_sheets_along(surface), 2)])
     real = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
-    return Solid(surface, float(thickness), vertices, faces[real], sheet[real])
+    return Solid(surface, thickness, vertices, faces[real], sheet[real])
 
 
 def _refuse_thickness(surface: Surface, thickness: float) -> None:
