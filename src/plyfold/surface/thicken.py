@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +18,7 @@ from plyfold.options import refuse_unless_number
 from plyfold.ragged import next_in_rows
 from plyfold.surface.files import Colouring, model_of_solid
 from plyfold.surface.left import kinds_of, may_touch
+from plyfold.surface.walls import Wall, thinnest_wall
 
 if TYPE_CHECKING:
     from plyfold.surface.lift import Surface
@@ -79,6 +81,53 @@ class Solid:
     def tips(self) -> Ints:
         """The vertices at which the upper and the lower side meet."""
         return np.flatnonzero(self.thickness == 0)
+
+    @cached_property
+    def below(self) -> Ints:
+        """The vertex of the lower side under each one of the upper side; at a tip that one itself. Shape (n,)."""
+        return _below(len(self.thickness), self.tips)
+
+    @property
+    def volume(self) -> float:
+        """What it holds: the thickness over the area, seen from above, of all sheets."""
+        a, b, c = self.surface.vertices[self.surface.faces, :2].swapaxes(0, 1)
+        (ux, uy), (vx, vy) = (b - a).T, (c - a).T
+        return float((ux * vy - uy * vx) @ self.thickness[self.surface.faces].mean(axis=1)) / 2
+
+    @cached_property
+    def wall(self) -> Wall | None:
+        """How thin it really is, and where: the shortest straight way through it from its upper to its lower side.
+
+        The thickness is vertical: where the solid is steep, it is thinner across. The wall is the least distance of a
+        point of the upper side from one of the lower side, of which each sees the other: the straight line between
+        them, seen from above, stays on the cloth. So neither the air between two sheets nor a slit is a wall. (Of two
+        triangles the nearest corners, points beside corners and points of two sides are tried.) Left out are triangles
+        with corners that are less than half as far from a tip, along the edges seen from above, as the solid is thick
+        there: a round body comes to nothing at its rim. None if all are, as in a body that is higher than wide.
+        """
+        return thinnest_wall(self)
+
+    def overhang(self, angle: float = 45.0) -> float:
+        """Return which share of its area faces down and leans more than an angle.
+
+        Parameters
+        ----------
+        angle : float
+            In degrees: 0 for all that faces down at all, and nearly 90 for nothing but level ceilings. Printers need
+            supports under what leans more than 45, as a rule.
+
+        Returns
+        -------
+        float
+            From 0 to 1; of a level slab a little less than a half.
+        """
+        refuse_unless_number("angle", angle)
+        if not 0 <= angle < 90:
+            raise InputError(f"the angle must be from 0 to less than 90 degrees, not {angle!r}")
+        a, b, c = (self.vertices / np.abs(self.vertices).max())[self.faces].swapaxes(0, 1)
+        across = np.cross(b - a, c - a)
+        area = np.linalg.norm(across, axis=1)
+        return float(area[-across[:, 2] > np.sin(np.radians(angle)) * area].sum() / area.sum())
 
     def check(self) -> None:
         """Prove with the independent checker :func:`plyfold.certify.check_solid` that it is a solid.
@@ -163,8 +212,7 @@ def solid_round(surface: Surface, thickness: Floats) -> Solid:
     n, b, tips = len(surface.vertices), len(surface.boundary), np.flatnonzero(thickness == 0)
     up = np.zeros((n, 3))
     up[:, 2] = thickness / 2
-    below = n + np.arange(n) - np.searchsorted(tips, np.arange(n))
-    below[tips] = tips
+    below = _below(n, tips)
     vertices = np.concatenate([surface.vertices + up, np.delete(surface.vertices - up, tips, axis=0)])
     _require_strict_order(vertices, surface.faces, below)
     upper, following = surface.boundary, surface.boundary[next_in_rows(surface.first_boundary)]
@@ -174,6 +222,13 @@ def solid_round(surface: Surface, thickness: Floats) -> Solid:
     sheet = np.concatenate([surface.sheet, surface.sheet, np.repeat(_sheets_along(surface), 2)])
     real = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
     return Solid(surface, thickness, vertices, faces[real], sheet[real])
+
+
+def _below(count: int, tips: Ints) -> Ints:
+    """Return the numbers of the vertices of the lower side, which follow the upper ones and lack the tips."""
+    below = count + np.arange(count) - np.searchsorted(tips, np.arange(count))
+    below[tips] = tips
+    return below
 
 
 def _refuse_thickness(surface: Surface, thickness: float) -> None:
