@@ -190,9 +190,9 @@ def test_files_are_read_back_watertight(solid, suffix, colours, tmp_path):
     assert body.volume == pytest.approx(area(drawn) * solid.height, rel=1e-4)
 
 
-def test_no_page_of_a_solid(solid, tmp_path):
-    with pytest.raises(InputError, match="html"):
-        solid.export(tmp_path / "out.html")
+def test_no_film_of_a_solid(solid, tmp_path):
+    with pytest.raises(InputError, match="gif"):
+        solid.export(tmp_path / "out.gif")
 
 
 def test_existing_files_stay(solid, tmp_path):

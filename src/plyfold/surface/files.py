@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from plyfold.surface.lift import Surface
     from plyfold.surface.thicken import Solid
 
-__all__ = ["Colouring", "model_of_solid", "model_of_surface"]
+__all__ = ["Colouring", "model_of_solid", "model_of_surface", "smooth_parts"]
 
 Colouring: TypeAlias = Literal["layers", "sheets"]
 
@@ -77,21 +77,27 @@ def model_of_solid(solid: Solid, colours: Colouring = "layers", unwrapped: bool 
     model = model_of_surface(surface, colours, unwrapped)
     upward = solid.thickness[:, None] / 2
     up = np.concatenate([upward, -np.delete(upward, tips, axis=0)]) * (0.0, 0.0, 1.0)
-    # The ends of walls that are tips take a triangle off.
-    pointed = np.isin(surface.boundary, tips).astype(np.int64)
-    walls = 2 - pointed - pointed[next_in_rows(surface.first_boundary)]
     return Model(
         vertices=solid.vertices,
         faces=solid.faces,
         material=solid.sheet,
         materials=model.materials,
-        smooth=np.append(np.zeros(2 * len(surface.faces), dtype=np.int64), np.repeat(1 + np.arange(len(walls)), walls)),
+        smooth=smooth_parts(solid),
         closed=True,
         detail=min(model.detail, float(solid.thickness[solid.thickness > 0].min())),
         colours=None if model.colours is None else _twice(model.colours, tips),
         uv=None if model.uv is None else _twice(model.uv, tips),
         shapes={name: _twice(places, tips) + up for name, places in model.shapes.items()},
     )
+
+
+def smooth_parts(solid: Solid) -> Ints:
+    """Return the number of the smooth face that each triangle is part of: 0 of both sides, and one for each wall."""
+    surface = solid.surface
+    # The ends of walls that are tips take a triangle off.
+    pointed = np.isin(surface.boundary, solid.tips).astype(np.int64)
+    walls = 2 - pointed - pointed[next_in_rows(surface.first_boundary)]
+    return np.append(np.zeros(2 * len(surface.faces), dtype=np.int64), np.repeat(1 + np.arange(len(walls)), walls))
 
 
 def _unwrapped(surface: Surface, wanted: bool | None) -> tuple[Floats | None, dict[str, Floats]]:

@@ -190,13 +190,16 @@ class Surface:
         require_one_piece(self.vertices[:, :2], self.first_boundary)
         return unwound_mesh(immersion, self.vertices, self.faces, self.sheet, self.boundary)
 
-    def thicken(self, thickness: float) -> Solid:
+    def thicken(self, thickness: float, min_wall: float | None = None) -> Solid:
         """Return a solid with this surface in its middle, as thick as given in vertical direction: to be printed.
 
         Parameters
         ----------
         thickness : float
             In units of the drawing; less than :attr:`gap` where sheets overlap.
+        min_wall : float, optional
+            The thickness is vertical, so where the surface is steep its walls are thinner. Make it thicker there, until
+            ``solid.wall`` is at least this.
 
         Returns
         -------
@@ -207,10 +210,12 @@ class Surface:
         ------
         InputError
             If the thickness is not positive or not less than the gap, or the surface passes through itself.
+        WallError
+            If sheets over each other leave no room for such walls; it names the places.
         PrecisionError
             If the thickness, or what is left of the gap, is lost in rounding.
         """
-        return thicken(self, thickness)
+        return thicken(self, thickness, min_wall)
 
     def inflate(
         self,

@@ -5,25 +5,33 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from plyfold.arrays import Floats, Ints, freeze
 from plyfold.certify import check_solid
-from plyfold.errors import InputError, PrecisionError
+from plyfold.errors import InputError, PrecisionError, WallError
 from plyfold.halfedges import ends_of
-from plyfold.io.mesh.saving import save_model
+from plyfold.io.mesh.saving import refuse_ending, save_model
+from plyfold.io.saving import save_bytes
 from plyfold.options import refuse_unless_number
 from plyfold.ragged import next_in_rows
-from plyfold.surface.files import Colouring, model_of_solid
+from plyfold.surface.files import Colouring, model_of_solid, smooth_parts
 from plyfold.surface.left import kinds_of, may_touch
-from plyfold.surface.walls import Wall, thinnest_wall
+from plyfold.surface.walls import Wall, thinner_places, thinnest_wall
 
 if TYPE_CHECKING:
     from plyfold.surface.lift import Surface
 
 __all__ = ["Solid", "solid_round", "thicken"]
+
+
+# Rounds of making a solid thicker where its walls are too thin, and by how much more than they seem to need.
+_ROUNDS = 20
+_A_LITTLE_MORE = 1.01
+_STEEP = "it is steep there: ask for less, or lift it with a smaller gap or with softer cloth"
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,6 +96,11 @@ class Solid:
         return _below(len(self.thickness), self.tips)
 
     @property
+    def smooth(self) -> Ints:
+        """Numbers of the triangles, (f,): those with the same one are parts of one smooth face."""
+        return smooth_parts(self)
+
+    @property
     def volume(self) -> float:
         """What it holds: the thickness over the area, seen from above, of all sheets."""
         a, b, c = self.surface.vertices[self.surface.faces, :2].swapaxes(0, 1)
@@ -150,26 +163,35 @@ class Solid:
         self,
         path: str | os.PathLike[str],
         force: bool = False,
+        title: str | None = None,
+        *,
         colours: Colouring = "layers",
         unwrapped: bool | None = None,
     ) -> None:
-        """Write the solid to a file; see :meth:`Surface.export`. There is no page of a solid.
+        """Write the solid to a file; see :meth:`Surface.export`. There is no film of a solid.
 
         Parameters
         ----------
         path : path
-            The ending chooses the format: ``.stl``, ``.3mf``, ``.glb``, ``.obj`` or ``.ply``.
+            The ending chooses the format: ``.stl``, ``.3mf``, ``.glb``, ``.obj``, ``.ply``, or ``.html`` for a 3D page.
         force : bool
             Replace an existing file.
+        title : str, optional
+            Heading of the page; the file's name by default.
         colours : {"layers", "sheets"}
             A colour for each layer, in smooth transition, or a material for each sheet.
         unwrapped : bool, optional
             With texture coordinates and other shapes, where the format has them.
         """
-        save_model(lambda: model_of_solid(self, colours, unwrapped), path, force)
+        if refuse_ending(path, (".html",)) == ".html":
+            from plyfold.draw.viewer import page
+
+            save_bytes(path, page(self, title=title or Path(path).stem).encode(), force)
+        else:
+            save_model(lambda: model_of_solid(self, colours, unwrapped), path, force)
 
 
-def thicken(surface: Surface, thickness: float) -> Solid:
+def thicken(surface: Surface, thickness: float, min_wall: float | None = None) -> Solid:
     """Give a surface a thickness.
 
     Parameters
@@ -179,6 +201,8 @@ def thicken(surface: Surface, thickness: float) -> Solid:
     thickness : float
         Measured vertically, in units of the drawing; less than the surface's gap where sheets overlap. On a slope, the
         solid is thinner across.
+    min_wall : float, optional
+        Make the solid thicker where its wall, see :attr:`Solid.wall`, would be less.
 
     Returns
     -------
@@ -190,6 +214,8 @@ def thicken(surface: Surface, thickness: float) -> Solid:
     ------
     InputError
         If the thickness is not positive or not less than the gap, or the surface passes through itself.
+    WallError
+        If sheets over each other leave no room for such walls; it names the places.
     PrecisionError
         If the thickness, or what is left of the gap, is lost in rounding; it names the place.
 
@@ -201,7 +227,37 @@ def thicken(surface: Surface, thickness: float) -> Solid:
     _refuse_thickness(surface, thickness)
     everywhere = np.full(len(surface.vertices), float(thickness))
     everywhere[surface.cusps] = 0.0
-    return solid_round(surface, everywhere)
+    return solid_round(surface, everywhere) if min_wall is None else _with_walls(surface, everywhere, min_wall)
+
+
+def _with_walls(surface: Surface, thickness: Floats, wall: float) -> Solid:
+    """Return a solid that is made thicker where its wall would be less than asked for, as far as there is room."""
+    refuse_unless_number("min_wall", wall)
+    if not 0 < wall < np.inf:
+        raise InputError(f"the least wall must be a positive number, not {wall!r}")
+    thickness = np.where(thickness > 0, np.maximum(thickness, wall), 0.0)
+    for _ in range(_ROUNDS):
+        _require_room(surface, thickness, wall)
+        solid = solid_round(surface, thickness)
+        triangles, lengths = thinner_places(solid, wall)
+        if not len(triangles):
+            return solid
+        factor = np.ones(len(thickness))
+        np.maximum.at(factor, surface.faces[triangles], (wall / lengths)[:, None] * _A_LITTLE_MORE)
+        thickness = thickness * factor
+    raise WallError(
+        f"walls of {wall:g} are not reached", where=surface.vertices[surface.faces[triangles[:1], 0], :2], hint=_STEEP
+    )
+
+
+def _require_room(surface: Surface, thickness: Floats, wall: float) -> None:
+    """Raise WallError where a body would meet the one above it."""
+    lower, upper = _over_each_other(surface.vertices, surface.faces)
+    room = surface.vertices[upper, 2] - surface.vertices[lower, 2]
+    short = np.flatnonzero((thickness[lower] + thickness[upper]) / 2 >= room)
+    if len(short):
+        where = np.unique(surface.vertices[lower[short], :2], axis=0)
+        raise WallError(f"sheets leave no room for walls of {wall:g}", where=where, hint=_STEEP)
 
 
 def solid_round(surface: Surface, thickness: Floats) -> Solid:
@@ -247,20 +303,26 @@ def _refuse_thickness(surface: Surface, thickness: float) -> None:
 def _require_strict_order(vertices: Floats, faces: Ints, below: Ints) -> None:
     """Check that rounding has left both sides of each sheet apart, but for the tips, and neighbouring sheets."""
     n = len(below)
-    x, y, z = vertices[faces].transpose(2, 0, 1)
-    # Copies of one triangle have their corners in the same order.
-    order = np.lexsort((*z.T, *x.T, *y.T))
-    lower, upper = faces[order[:-1]], faces[order[1:]]
-    over = (vertices[lower, :2] == vertices[upper, :2]).all(axis=(1, 2))
-    lower, upper = lower[over].ravel(), upper[over].ravel()
+    lower, upper = _over_each_other(vertices, faces)
     low, high = np.concatenate([below, lower]), np.concatenate([np.arange(n), below[upper]])
-    apart = (low != high) & (np.append(np.ones(n, dtype=bool), lower != upper))
+    apart = low != high
     if len(bad := np.flatnonzero(apart & ~(vertices[high, 2] > vertices[low, 2]))):
         raise PrecisionError(
             "the solid is thinner than rounding errors, or what is between its sheets is",
             where=vertices[low[bad[:1]], :2],
             hint="choose a thickness between nothing and the gap",
         )
+
+
+def _over_each_other(vertices: Floats, faces: Ints) -> tuple[Ints, Ints]:
+    """Return the lower and the upper vertices where triangles lie next over each other; those in common left out."""
+    x, y, z = vertices[faces].transpose(2, 0, 1)
+    # Copies of one triangle have their corners in the same order.
+    order = np.lexsort((*z.T, *x.T, *y.T))
+    lower, upper = faces[order[:-1]], faces[order[1:]]
+    over = (vertices[lower, :2] == vertices[upper, :2]).all(axis=(1, 2))
+    lower, upper = lower[over].ravel(), upper[over].ravel()
+    return lower[lower != upper], upper[lower != upper]
 
 
 def _sheets_along(surface: Surface) -> Ints:

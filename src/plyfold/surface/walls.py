@@ -8,6 +8,7 @@ triangles, so it is as exact as floating point.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
 from typing import TYPE_CHECKING
@@ -21,7 +22,7 @@ from plyfold.halfedges import ends_of, neighbours_of
 if TYPE_CHECKING:
     from plyfold.surface.thicken import Solid
 
-__all__ = ["Wall", "thinnest_wall"]
+__all__ = ["Wall", "thinner_places", "thinnest_wall"]
 
 # Lines of sight begin and end so much inside of their triangles, so that they pass no vertices but by chance.
 _INSIDE = 1e-6
@@ -56,8 +57,9 @@ class Wall:
 
 @dataclass(frozen=True, eq=False)
 class _Sides:
-    """The triangles of both sides that count, over the same triangles of the cloth: corners, (t, 3, 3) each."""
+    """The triangles of both sides that count: their numbers in the cloth, corners, (t, 3, 3), and neighbours."""
 
+    number: Ints
     upper: Floats
     lower: Floats
     neighbours: Ints
@@ -77,18 +79,38 @@ def thinnest_wall(solid: Solid) -> Wall | None:
         every tip as the solid is thick there: a round body comes to nothing along its rim. None if there are none, as
         in a body that is higher than wide. Cost: O(n log n) for walls not much longer than edges.
     """
+    sides = _sides_of(solid)
+    if not len(sides.number):
+        return None
+    own = np.arange(len(sides.number))
+    above, below, distance = _features(sides, own, own)
+    # A point sees the one right below it.
+    reach = float(distance.min())
+    at = np.unravel_index(np.argmin(distance), distance.shape)
+    found = next(_seen(sides, reach), (own, reach, above[at][None], below[at][None]))
+    return Wall(float(np.min(found[1])), np.stack([found[2][0], found[3][0]]))
+
+
+def thinner_places(solid: Solid, wall: float) -> tuple[Ints, Floats]:
+    """Return triangles of the surface at whose upper or lower ends the wall is less than asked for, and how long it is.
+
+    A triangle may occur several times. Cost: as of :func:`thinnest_wall`, for the longer wall.
+    """
+    sides = _sides_of(solid)
+    found = [(number, length) for number, length, _, _ in _seen(sides, wall)]
+    if not found:
+        return np.empty(0, dtype=np.int64), np.empty(0)
+    triangles, lengths = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    return sides.number[triangles].ravel(), np.repeat(lengths, 2)
+
+
+def _sides_of(solid: Solid) -> _Sides:
     faces = solid.surface.faces
     counted = np.flatnonzero(_away_from_tips(solid)[faces].all(axis=1))
-    if not len(counted):
-        return None
     number = np.full(len(faces) + 1, -1)
     number[counted] = np.arange(len(counted))
     upper, lower = solid.vertices[faces[counted]], solid.vertices[solid.below[faces[counted]]]
-    sides = _Sides(upper, lower, number[neighbours_of(faces)[counted]])
-    own = np.arange(len(counted))
-    nearest = _features(sides, own, own)[2].min()
-    pairs = _near_pairs(sides, nearest)
-    return _first_seen(sides, *pairs)
+    return _Sides(counted, upper, lower, number[neighbours_of(faces)[counted]])
 
 
 def _away_from_tips(solid: Solid) -> Bools:
@@ -106,27 +128,56 @@ def _away_from_tips(solid: Solid) -> Bools:
 # ---- pairs of triangles ----------------------------------------------------------------------------------------------
 
 
-def _near_pairs(sides: _Sides, reach: float) -> tuple[Ints, Ints]:
-    """Return the pairs of an upper and a lower triangle that may be as near as that, and are joined by others that are.
+def _upper_ends(sides: _Sides, reach: float) -> Ints:
+    """Return the upper triangles from which the lower side may be nearer than some length.
 
-    All triangles under a line of sight of this length come as near to its upper end, seen from above.
+    A point of the lower side within sight is as much lower than the one right below as the slope between them allows;
+    so it is nearer only where somewhere on the way the cosine of the slope, times the thickness, is less.
     """
-    first = second = np.arange(len(sides.upper))
-    known = first * len(first) + second
-    fresh = known
-    low, high = (find(sides.upper[..., :2], axis=1) for find in (np.min, np.max))
-    while len(fresh):
-        a, b = np.divmod(fresh, len(first))
-        beside = sides.neighbours[b].ravel()
-        a = np.repeat(a, 3)[beside >= 0]
-        b = beside[beside >= 0]
-        apart = np.maximum(np.maximum(low[a] - high[b], low[b] - high[a]), 0.0)
-        near = np.hypot(*apart.T) <= reach
-        fresh = np.setdiff1d(a[near] * len(first) + b[near], known)
-        known = np.concatenate([known, fresh])
-    a, b = np.divmod(np.sort(known), len(first))
-    close = _least_distance(sides, a, b) <= reach
+    thickness = (sides.upper - sides.lower)[..., 2].min(axis=1)
+    cosine = _normals(sides.lower)[:, 2]
+    thin = thickness * cosine.min() < reach
+    steep = np.flatnonzero(cosine * thickness[thin].min(initial=np.inf) < reach)
+    around = np.unique(_within_reach(sides, steep, reach)[1])
+    return np.asarray(around[thin[around]])
+
+
+def _near_pairs(sides: _Sides, first: Ints, reach: float) -> tuple[Ints, Ints]:
+    """Return the pairs of an upper triangle, one of the given ones, and a lower one that may be nearer than that."""
+    a, b = _within_reach(sides, first, reach)
+    close = _least_distance(sides, a, b) < reach
     return a[close], b[close]
+
+
+def _within_reach(sides: _Sides, first: Ints, reach: float) -> tuple[Ints, Ints]:
+    """Return pairs of the given triangles and those that are so near, seen from above, and joined by others that are.
+
+    All triangles under a line of sight of this length are so near to the one where it begins. In steps from each to its
+    neighbours: those of one step are beside some of the step before, so known ones are among the last two.
+    """
+    count = len(sides.upper)
+    low, high = (find(sides.upper[..., :2], axis=1) for find in (np.min, np.max))
+    last = np.empty(0, dtype=np.int64)
+    fresh = first * count + first
+    found = [fresh]
+    while len(fresh):
+        a, b = np.repeat(fresh // count, 3), sides.neighbours[fresh % count].ravel()
+        a, b = a[b >= 0], b[b >= 0]
+        apart = np.maximum(np.maximum(low[a] - high[b], low[b] - high[a]), 0.0)
+        near = np.hypot(*apart.T) < reach
+        beside = np.sort(a[near] * count + b[near])
+        beside = beside[np.append(True, np.diff(beside) > 0)[: len(beside)]]
+        last, fresh = fresh, beside[~_are_among(beside, last) & ~_are_among(beside, fresh)]
+        found.append(fresh)
+    a, b = np.divmod(np.concatenate(found), count)
+    return a, b
+
+
+def _are_among(numbers: Ints, known: Ints) -> Bools:
+    """Tell which numbers are among others; both are in ascending order."""
+    if not len(known):
+        return np.zeros(len(numbers), dtype=bool)
+    return np.asarray(known[np.minimum(np.searchsorted(known, numbers), len(known) - 1)] == numbers)
 
 
 def _least_distance(sides: _Sides, a: Ints, b: Ints) -> Floats:
@@ -188,24 +239,27 @@ def _nearest_on_sides(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Float
 # ---- lines of sight --------------------------------------------------------------------------------------------------
 
 
-def _first_seen(sides: _Sides, a: Ints, b: Ints) -> Wall:
-    """Return the nearest pair of points that see each other along the cloth."""
+def _seen(sides: _Sides, reach: float) -> Iterator[tuple[Ints, Floats, Floats, Floats]]:
+    """Yield pairs of points nearer than that which see each other along the cloth, a portion at a time, nearest first.
+
+    Their triangles, (n, 2), their distances, and the points of the upper and of the lower side.
+    """
+    a, b = _near_pairs(sides, _upper_ends(sides, reach), reach)
     above, below, distance = _features(sides, a, b)
-    rows = [np.flatnonzero(np.isfinite(distance)), distance.ravel()]
-    order = rows[0][np.argsort(rows[1][rows[0]], kind="stable")]
-    above, below, pair = above.reshape(-1, 3), below.reshape(-1, 3), np.tile(np.arange(len(a)), 15)
+    order = np.flatnonzero(distance < reach)
+    order = order[np.argsort(distance.ravel()[order], kind="stable")]
+    pairs = np.tile(np.stack([a, b], axis=1), (15, 1))
+    above, below = above.reshape(-1, 3), below.reshape(-1, 3)
     for start in range(0, len(order), _AT_ONCE):
         some = order[start : start + _AT_ONCE]
-        seen = np.flatnonzero(_is_seen(sides, a[pair[some]], b[pair[some]], above[some, :2], below[some, :2]))
-        if len(seen):
-            best = some[seen[0]]
-            return Wall(float(distance.ravel()[best]), np.stack([above[best], below[best]]))
-    raise AssertionError("a point is seen from the one right below it")
+        some = some[_is_seen(sides, pairs[some], above[some, :2], below[some, :2])]
+        if len(some):
+            yield pairs[some], distance.ravel()[some], above[some], below[some]
 
 
-def _is_seen(sides: _Sides, a: Ints, b: Ints, p: Floats, q: Floats) -> Bools:
-    """Tell whether the line from p in triangle a to q in triangle b, seen from above, stays on the cloth."""
-    flat = sides.upper[..., :2]
+def _is_seen(sides: _Sides, pairs: Ints, p: Floats, q: Floats) -> Bools:
+    """Tell whether the line from p in one triangle to q in the other, seen from above, stays on the cloth."""
+    flat, (a, b) = sides.upper[..., :2], pairs.T
     p = p + _INSIDE * (flat[a].mean(axis=1) - p)
     q = q + _INSIDE * (flat[b].mean(axis=1) - q)
     at, came_from = a.copy(), np.full(len(a), -1)
