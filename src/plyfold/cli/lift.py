@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from plyfold.cli.inputs import DISK, add_command, add_outputs, add_repair, add_time_limit, prepare, title
 from plyfold.cli.progress import Stopwatch, timing
+from plyfold.cli.standard_output import say_written
 from plyfold.clock import Clock
 from plyfold.errors import InputError
 from plyfold.wording import counted
@@ -117,8 +118,10 @@ def _lift(options: argparse.Namespace) -> int:
     figures = _figures(surface if solid is None else solid.surface, solid)
     if options.json:
         print(json.dumps(figures | {"written": options.output, "seconds": watch.seconds}), flush=True)
-    else:
-        print("\n".join([*_report(figures), timing(watch), *(f"  wrote {path}" for path in options.output)]))
+        return DISK
+    print("\n".join([*_report(figures), timing(watch)]))
+    for path in options.output:
+        say_written(path)
     return DISK
 
 

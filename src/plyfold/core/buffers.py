@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol, TypeAlias, TypeVar, cast
+from typing import Any, Protocol, TypeAlias, TypeVar, cast, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -17,9 +17,17 @@ class Buffer(Protocol[_Number]):
 
     def __len__(self) -> int: ...
 
+    @overload
     def __getitem__(self, place: int, /) -> _Number: ...
 
+    @overload
+    def __getitem__(self, places: slice, /) -> Buffer[_Number]: ...
+
+    @overload
     def __setitem__(self, place: int, number: _Number, /) -> None: ...
+
+    @overload
+    def __setitem__(self, places: slice, numbers: Buffer[_Number], /) -> None: ...
 
 
 RealBuffer: TypeAlias = Buffer[float]

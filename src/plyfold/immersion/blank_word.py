@@ -74,11 +74,11 @@ class BlankWord:
     @cached_property
     def letters(self) -> tuple[Letter, ...]:
         """The letters in order along the curve, the arcs named in the order in which they appear."""
-        minus = set(self.word.minus)
-        names = {label: _name(number) for number, label in enumerate(dict.fromkeys(self.word.label))}
+        minus, labels = set(self.word.minus.tolist()), self.word.label.tolist()
+        names = {label: _name(number) for number, label in enumerate(dict.fromkeys(labels))}
         return tuple(
             Letter(names[label], -1 if place in minus else 1, border)
-            for place, (label, border) in enumerate(zip(self.word.label, self.word.border, strict=True))
+            for place, (label, border) in enumerate(zip(labels, self.word.border.tolist(), strict=True))
         )
 
     def __len__(self) -> int:
@@ -114,7 +114,7 @@ class BlankWord:
             yield from (self._pairs(grouping) for grouping in list_groupings(found))
 
     def _pairs(self, grouping: Grouping) -> tuple[tuple[int, int], ...]:
-        return tuple(sorted((self.word.minus[label], plus) for label, plus in grouping.items()))
+        return tuple(sorted(zip(self.word.minus.tolist(), grouping.tolist(), strict=True)))
 
     def bracketed(self, grouping: tuple[tuple[int, int], ...]) -> str:
         """Write a grouping as the word with brackets around joined letters."""

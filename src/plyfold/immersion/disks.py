@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+import numpy as np
+
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.places import place_in_cell, places_of_visits
 from plyfold.clock import UNWATCHED, Watch
@@ -71,8 +73,9 @@ def nth_disk(disks: Disks, index: int) -> Immersion:
 
 def _glued(disks: Disks, grouping: Grouping) -> Immersion:
     require_memory_for_gluing(disks.search_map.arrangement)
-    word, link = disks.groupings.word, disks.tree.link.tolist()
-    partner = {link[word.cells[label]]: word.border[letter] for label, letter in grouping.items()}
+    word = disks.groupings.word
+    partner = np.full(disks.search_map.map.n_borders, -1)
+    partner[disks.tree.link[word.cells]] = word.border[grouping]
     return disks.search_map.carried_back(glue_sheets(disks.search_map.map, disks.tree, partner))
 
 
@@ -122,4 +125,4 @@ def _contradiction(tree: DualTree, cells: list[int]) -> list[int]:
     """Return those of some cells that contradict each other; none if their links can be joined."""
     word = write_word(tree, cells)
     found = find_groupings(word)
-    return [word.cells[label] for label in found.labels] if isinstance(found, Conflict) else []
+    return word.cells[list(found.labels)].tolist() if isinstance(found, Conflict) else []

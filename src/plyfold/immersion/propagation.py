@@ -11,15 +11,18 @@ part of the word that no chord of another crosses has a ring of its own.
 
 from __future__ import annotations
 
-from collections import Counter, deque
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import dataclass
 
+import numpy as np
+
+from plyfold.arrays import Bools, Ints
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.graphs import representative
+from plyfold.core.buffers import all_flat, flat, whole_room
+from plyfold.core.propagation import Parts, Propagation, room_for_parts, room_for_propagation
 from plyfold.immersion.word import Word
 
-__all__ = ["Conflict", "Narrowed", "independent_parts", "narrow"]
+__all__ = ["Conflict", "Narrowed", "begin_propagation", "independent_parts", "narrow"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,25 +32,36 @@ class Narrowed:
     Parameters
     ----------
     word : Word
-    chosen : dict of int to int
-        The plus letter of each label that has no choice.
-    partners : list of list of int
-        The plus letters that are left for each label.
-    regions : list of list of int
+    chosen : (labels,) int
+        The plus letter of each label that has no choice, −1 for others.
+    regions : list of arrays of int
         The letters still in play, in order along the curve, region by region: no chord of one joins or crosses another.
-    removed_by : dict of int to int
-        For each plus letter out of play, the label that removed it.
+    removed_by : (letters,) int
+        For each plus letter out of play the label that removed it, −1 for others.
+    propagation : Propagation
+        It can go on.
     """
 
     word: Word
-    chosen: dict[int, int]
-    partners: list[list[int]]
-    regions: list[list[int]]
-    removed_by: dict[int, int]
+    chosen: Ints
+    regions: list[Ints]
+    removed_by: Ints
+    propagation: Propagation
 
-    def conflict(self, region: list[int]) -> Conflict:
+    def conflict(self, region: Ints) -> Conflict:
         """Return the conflict of a region that turned out to have no grouping."""
-        return Conflict(_reasons(self, {self.word.label[letter] for letter in region}))
+        return Conflict(_reasons(self.word, self.removed_by, self.word.label[region].tolist()))
+
+    def further(self, misfits: Ints) -> tuple[Ints, Bools]:
+        """Leave out some of the letters still in play, once: return what is chosen then, and which letters are gone.
+
+        There is a grouping without them, and all groupings are without them.
+        """
+        failed = self.propagation.narrow_further(flat(misfits))
+        assert failed < 0
+        gone = np.ones(len(self.word), dtype=bool)
+        gone[_in_play(self.propagation)] = False
+        return np.array(self.propagation.chosen), gone
 
 
 @dataclass(frozen=True)
@@ -73,155 +87,43 @@ def narrow(word: Word, watch: Watch = UNWATCHED) -> Narrowed | Conflict:
     Near-linear as a rule. Drawing all chords costs O(n log n) for n letters, since letters that are walked over move
     to a side of at most half the size; every other walk follows the removal of a partner.
     """
-    board = _Board.of(word)
-    if not all(board.partners):
-        return Conflict((board.partners.index([]),))
-    while board.due:
-        watch.step()
-        label = board.due.popleft()
-        board.waiting[label] = False
-        for letter in _misfits(board, label):
-            board.removed_by[letter] = label
-            if not _remove(board, letter):
-                return Conflict(_reasons(board, [word.label[letter]]))
-        if len(board.partners[label]) == 1 and label not in board.chosen:
-            _draw_chord(board, label)
-    undecided = [label for label in range(len(word.minus)) if label not in board.chosen]
-    regions = independent_parts(word, undecided, board.partners) if undecided else []
-    return Narrowed(word, board.chosen, board.partners, regions, board.removed_by)
+    propagation = begin_propagation(word, watch)
+    failed = propagation.narrow()
+    removed_by = np.asarray(propagation.removed_by)
+    if failed >= 0:
+        return Conflict(_reasons(word, removed_by, [failed]))
+    regions = independent_parts(word, _in_play(propagation))
+    return Narrowed(word, np.array(propagation.chosen), regions, removed_by.copy(), propagation)
 
 
-@dataclass(eq=False)
-class _Board:
-    """The letters in play, in rings: ``after`` and ``before`` lead to the neighbours of each."""
-
-    word: Word
-    after: list[int]
-    before: list[int]
-    partners: list[list[int]]
-    due: deque[int]
-    waiting: list[bool]
-    chosen: dict[int, int] = field(default_factory=dict)
-    removed_by: dict[int, int] = field(default_factory=dict)
-
-    @classmethod
-    def of(cls, word: Word) -> _Board:
-        labels = len(word.minus)
-        after, before = [-1] * len(word), [-1] * len(word)
-        for ring in independent_parts(word, range(labels), word.partners):
-            for letter, following in zip(ring, [*ring[1:], ring[0]], strict=True):
-                after[letter], before[following] = following, letter
-        return cls(
-            word=word,
-            after=after,
-            before=before,
-            partners=[list(letters) for letters in word.partners],
-            due=deque(range(labels)),
-            waiting=[True] * labels,
-        )
+def begin_propagation(word: Word, watch: Watch = UNWATCHED) -> Propagation:
+    """Return the propagation in a word before anything is removed."""
+    propagation = Propagation(watch.step)
+    room = np.empty(room_for_propagation(len(word), len(word.minus)), dtype=np.int64)
+    letters = word.border, word.label, word.block
+    propagation.begin(*all_flat(*letters, word.minus, word.first_partner, word.partner.copy(), room))
+    return propagation
 
 
-def _remove(board: _Board, letter: int) -> bool:
-    """Take a plus letter out of play; return False if that leaves its label without partner."""
-    before, after = board.before[letter], board.after[letter]
-    board.after[before], board.before[after] = after, before
-    label = board.word.label[letter]
-    board.partners[label].remove(letter)
-    if not board.waiting[label]:
-        board.waiting[label] = True
-        board.due.append(label)
-    return bool(board.partners[label])
+def _in_play(propagation: Propagation) -> Ints:
+    """Return the letters of the labels that have a choice left."""
+    size = propagation.letters_in_play()
+    return np.array(propagation.found[:size])
 
 
-def _misfits(board: _Board, label: int) -> list[int]:
-    """Return the plus letters that no chord may end on, whichever partner the label takes."""
-    if label in board.chosen:
-        return []
-    partners = board.partners[label]
-    shared = _sharing_border(board, partners[0]) if len(partners) == 1 else []
-    return shared + [letter for letter in _across_gap(board, label) if letter not in shared]
-
-
-def _sharing_border(board: _Board, plus: int) -> list[int]:
-    """Return the plus letters on the same border that cannot be taken beside a given one.
-
-    Arcs one of which runs behind the other cannot end on the same border: the sheet that leaves the disk there has
-    left it for both.
-    """
-    word = board.word
-    border, behind, outside = word.border[plus], [], []
-    letter = board.before[plus]
-    while word.block[plus] <= letter < plus:
-        behind.append(letter)
-        letter = board.before[letter]
-    letter = board.after[plus]
-    while letter > plus and word.border[letter] == border:
-        if word.block[letter] <= plus:
-            outside.append(letter)
-        letter = board.after[letter]
-    return behind + outside
-
-
-def _across_gap(board: _Board, label: int) -> list[int]:
-    """Return the plus letters of the chords that join the two sides of a label's gap."""
-    word, n = board.word, len(board.word)
-    minus, partners = word.minus[label], board.partners[label]
-    side, on_left = _smaller_side(board, minus, partners)
-    # The other side, as steps from the minus letter away from this one.
-    sign = 1 if on_left else -1
-    reach = min(sign * (partner - minus) % n for partner in partners)
-    across = []
-    for letter in side:
-        other = word.label[letter]
-        if letter != word.minus[other]:
-            if sign * (word.minus[other] - minus) % n < reach:
-                across.append(letter)
-        else:
-            across += [plus for plus in board.partners[other] if sign * (plus - minus) % n < reach]
-    return across
-
-
-def _smaller_side(board: _Board, minus: int, partners: list[int]) -> tuple[list[int], bool]:
-    """Walk from a minus letter both ways at once, up to the first partner; return the letters there and the side."""
-    ends = set(partners)
-    on_left, on_right = [], []
-    left, right = board.before[minus], board.after[minus]
-    while left not in ends and right not in ends:
-        on_left.append(left)
-        on_right.append(right)
-        left, right = board.before[left], board.after[right]
-    return (on_left, True) if left in ends else (on_right, False)
-
-
-def _draw_chord(board: _Board, label: int) -> None:
-    """Fix a label's chord, and close the rings of letters on both sides of it."""
-    minus, (plus,) = board.word.minus[label], board.partners[label]
-    board.chosen[label] = plus
-    first, last = board.after[minus], board.before[plus]
-    if first != plus:
-        board.after[last], board.before[first] = first, last
-    first, last = board.after[plus], board.before[minus]
-    if first != minus:
-        board.after[last], board.before[first] = first, last
-
-
-def _reasons(found: _Board | Narrowed, labels: Iterable[int]) -> tuple[int, ...]:
+def _reasons(word: Word, removed_by: Ints, labels: Iterable[int]) -> tuple[int, ...]:
     """Return the labels to which some others owe it that they have no more partners, themselves included."""
-    reasons, waiting = set(labels), list(labels)
+    reasons = set(labels)
+    waiting = list(reasons)
     while waiting:
-        for letter in found.word.partners[waiting.pop()]:
-            label = found.removed_by.get(letter)
-            if label is not None and label not in reasons:
-                reasons.add(label)
-                waiting.append(label)
+        for label in set(removed_by[word.partners_of(waiting.pop())].tolist()) - reasons - {-1}:
+            reasons.add(label)
+            waiting.append(label)
     return tuple(sorted(reasons))
 
 
-# ---- parts that have nothing to do with each other ------------------------------------------------------------------
-
-
-def independent_parts(word: Word, labels: Sequence[int], partners: Sequence[Sequence[int]]) -> list[list[int]]:
-    """Split the letters of some labels into as many parts as can be without chords from one part across another.
+def independent_parts(word: Word, letters: Ints) -> list[Ints]:
+    """Split some letters into as many parts as can be without chords from one part across another.
 
     A band between two disks joins their words so that one disk's letters lie between two letters of the other's. Each
     part can be looked at by itself, however long the word is.
@@ -229,52 +131,19 @@ def independent_parts(word: Word, labels: Sequence[int], partners: Sequence[Sequ
     Parameters
     ----------
     word : Word
-    labels : sequence of int
-    partners : sequence of sequence of int
-        The plus letters that each label of the word may still be joined to.
+    letters : array of int
+        In order along the curve: minus letters of some labels, and plus letters that they may still be joined to.
 
     Returns
     -------
-    list of list of int
+    list of array of int
         The letters of each part in order along the curve; the parts in the order of their first labels. Near-linear.
     """
-    letters = sorted(letter for label in labels for letter in (word.minus[label], *partners[label]))
-    part = list(range(len(word.minus)))
-    _join_blocks(word, letters, part)
-    _join_crossing(word, letters, part)
-    parts: dict[int, list[int]] = {representative(part, label): [] for label in labels}
-    for letter in letters:
-        parts[representative(part, word.label[letter])].append(letter)
-    return list(parts.values())
-
-
-def _join_blocks(word: Word, letters: list[int], part: list[int]) -> None:
-    """Join labels with a letter in the block of another's: a chord occupies the whole block of its plus letter."""
-    begin, following = len(word), -1
-    for letter in reversed(letters):
-        if begin <= letter:
-            part[representative(part, word.label[letter])] = representative(part, word.label[following])
-        begin, following = min(begin, word.block[letter]), letter
-
-
-def _join_crossing(word: Word, letters: list[int], part: list[int]) -> None:
-    """Join parts whose letters alternate along the curve.
-
-    The parts of which a letter has come, and others have not, wait on a stack. A part that comes again while others
-    wait above it alternates with them.
-    """
-    to_come = Counter(representative(part, word.label[letter]) for letter in letters)
-    open_parts: list[int] = []
-    waiting: set[int] = set()
-    for letter in letters:
-        here = representative(part, word.label[letter])
-        if here not in waiting:
-            open_parts.append(here)
-            waiting.add(here)
-        while open_parts[-1] != here:
-            other = open_parts.pop()
-            part[other] = here
-            to_come[here] += to_come[other]
-        to_come[here] -= 1
-        if not to_come[here]:
-            open_parts.pop()
+    if not len(letters):
+        return []
+    labels = len(word.minus)
+    parts, listed, start = Parts(), np.empty_like(letters), np.empty(labels + 1, dtype=np.int64)
+    parts.begin(flat(word.label), flat(word.block), labels, whole_room(room_for_parts(labels)))
+    parts.join(flat(letters), len(letters))
+    count = parts.list_in(flat(letters), len(letters), flat(listed), flat(start))
+    return np.split(listed, start[1:count])

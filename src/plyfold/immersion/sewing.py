@@ -7,8 +7,6 @@ partner's. The borders off the tree follow, for at every crossing three gluings 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
@@ -23,7 +21,7 @@ from plyfold.ragged import starts_of
 __all__ = ["glue_sheets"]
 
 
-def glue_sheets(arrangement: Arrangement, tree: DualTree, partner: Mapping[int, int]) -> Immersion:
+def glue_sheets(arrangement: Arrangement, tree: DualTree, partner: Ints) -> Immersion:
     """Build the immersion that a grouping describes.
 
     Parameters
@@ -32,8 +30,8 @@ def glue_sheets(arrangement: Arrangement, tree: DualTree, partner: Mapping[int, 
         Turning number 1, no negative winding number.
     tree : DualTree
         The tree whose word was grouped.
-    partner : mapping of int to int
-        For the link of every ascending cell: the border through which its own sheet leaves the disk.
+    partner : (borders,) int
+        For the link of every ascending cell: the border through which its own sheet leaves the disk; −1 for others.
 
     Returns
     -------
@@ -64,10 +62,8 @@ def glue_sheets(arrangement: Arrangement, tree: DualTree, partner: Mapping[int, 
     )
 
 
-def _tree(arrangement: Arrangement, tree: DualTree, partner: Mapping[int, int], first_sheet: Ints) -> NamedTree:
-    chosen = np.full(arrangement.n_borders, -1)
-    chosen[list(partner.keys())] = list(partner.values())
-    buffers = all_flat(tree.parent, tree.link, chosen[tree.link], arrangement.winding, first_sheet)
+def _tree(arrangement: Arrangement, tree: DualTree, partner: Ints, first_sheet: Ints) -> NamedTree:
+    buffers = all_flat(tree.parent, tree.link, partner[tree.link], arrangement.winding, first_sheet)
     return NamedTree(int(arrangement.winding.sum()), *buffers)
 
 

@@ -20,10 +20,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
+from plyfold.arrays import Ints, freeze
 from plyfold.immersion.dual_tree import DualTree
 
 __all__ = ["Word", "write_word"]
@@ -35,29 +35,39 @@ class Word:
 
     Parameters
     ----------
-    cells : list of int
+    cells : (labels,) int
         The cell below each label: labels are numbered 0, 1, …
-    border : list of int
+    border : (letters,) int
         The border of each letter.
-    label : list of int
+    label : (letters,) int
         The label of each letter.
-    minus : list of int
+    minus : (labels,) int
         The minus letter of each label.
-    partners : list of list of int
+    first_partner : (labels + 1,) int
+        Where the plus letters of each label start in ``partner``, and where the last ones end.
+    partner : (letters − labels,) int
         The plus letters of each label in order: where its chord may end.
-    block : list of int
+    block : (letters,) int
         For a plus letter the first letter of its block, which ends with itself; for a minus letter itself.
     """
 
-    cells: list[int]
-    border: list[int]
-    label: list[int]
-    minus: list[int]
-    partners: list[list[int]]
-    block: list[int]
+    cells: Ints
+    border: Ints
+    label: Ints
+    minus: Ints
+    first_partner: Ints
+    partner: Ints
+    block: Ints
+
+    def __post_init__(self) -> None:
+        freeze(self)
 
     def __len__(self) -> int:
         return len(self.border)
+
+    def partners_of(self, label: int) -> Ints:
+        """Return the plus letters of a label in order."""
+        return self.partner[self.first_partner[label] : self.first_partner[label + 1]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +99,8 @@ def write_word(tree: DualTree, cells: Iterable[int] | None = None) -> Word:
     link = tree.link[np.array([cell for cell, _ in arcs.ends], dtype=np.int64)]
     order = np.array([arcs.order[cell] for cell, _ in arcs.ends], dtype=np.int64)
     last = np.array([arcs.last_behind[cell] for cell, _ in arcs.ends], dtype=np.int64)
-    label = np.repeat(np.arange(n), [len(ends) for _, ends in arcs.ends])
+    partners = np.array([len(ends) for _, ends in arcs.ends], dtype=np.int64)
+    label = np.repeat(np.arange(n), partners)
     partner = np.array([border for _, ends in arcs.ends for border in ends], dtype=np.int64)
     # On a descending border the curve meets the rightmost arc first, so the arcs behind come before the label's own.
     width = int(last.max(initial=0)) + 1
@@ -98,15 +109,15 @@ def write_word(tree: DualTree, cells: Iterable[int] | None = None) -> Word:
     letter = np.empty_like(by_place)
     letter[by_place] = np.arange(len(keys))
     block = np.concatenate([letter[:n], np.searchsorted(keys[by_place], partner * width + width - 1 - last[label])])
-    starts = np.searchsorted(label, np.arange(n + 1)).tolist()
-    plus = letter[n:].tolist()
+    plus = by_place[by_place >= n]
     return Word(
-        cells=[cell for cell, _ in arcs.ends],
-        border=np.concatenate([link, partner])[by_place].tolist(),
-        label=np.concatenate([np.arange(n), label])[by_place].tolist(),
-        minus=letter[:n].tolist(),
-        partners=[sorted(plus[low:high]) for low, high in pairwise(starts)],
-        block=block[by_place].tolist(),
+        cells=np.array([cell for cell, _ in arcs.ends], dtype=np.int64),
+        border=np.concatenate([link, partner])[by_place],
+        label=np.concatenate([np.arange(n), label])[by_place],
+        minus=letter[:n],
+        first_partner=np.append(0, np.cumsum(partners)),
+        partner=letter[plus[np.argsort(label[plus - n], kind="stable")]],
+        block=block[by_place],
     )
 
 

@@ -15,14 +15,16 @@ from plyfold.certify import check_solid
 from plyfold.errors import InputError, PrecisionError, WallError
 from plyfold.halfedges import ends_of
 from plyfold.io.mesh.saving import refuse_ending, save_model
-from plyfold.io.saving import save_bytes
+from plyfold.io.saving import Target, save_bytes
 from plyfold.options import refuse_unless_number
 from plyfold.ragged import next_in_rows
-from plyfold.surface.files import Colouring, model_of_solid, smooth_parts
+from plyfold.surface.files import Colouring, model_of_solid, smooth_parts, trimesh_of
 from plyfold.surface.left import kinds_of, may_touch
 from plyfold.surface.walls import Wall, thinner_places, thinnest_wall
 
 if TYPE_CHECKING:
+    import trimesh
+
     from plyfold.surface.lift import Surface
 
 __all__ = ["Solid", "solid_round", "thicken"]
@@ -159,20 +161,21 @@ class Solid:
         touching = may_touch(self.surface)
         check_solid(self.vertices, self.faces, thickness, pieces=pieces, tips=self.tips, touching=touching)
 
-    def export(
+    def export(  # noqa: PLR0913 - options of formats
         self,
-        path: str | os.PathLike[str],
+        path: Target,
         force: bool = False,
         title: str | None = None,
         *,
         colours: Colouring = "layers",
         unwrapped: bool | None = None,
+        ending: str | None = None,
     ) -> None:
         """Write the solid to a file; see :meth:`Surface.export`. There is no film of a solid.
 
         Parameters
         ----------
-        path : path
+        path : path or binary file
             The ending chooses the format: ``.stl``, ``.3mf``, ``.glb``, ``.obj``, ``.ply``, or ``.html`` for a 3D page.
         force : bool
             Replace an existing file.
@@ -182,13 +185,23 @@ class Solid:
             A colour for each layer, in smooth transition, or a material for each sheet.
         unwrapped : bool, optional
             With texture coordinates and other shapes, where the format has them.
+        ending : str, optional
+            Chooses the format, as an open file has no ending of its own.
         """
-        if refuse_ending(path, (".html",)) == ".html":
+        if refuse_ending(path, (".html",), ending) == ".html":
             from plyfold.draw.viewer import page
 
-            save_bytes(path, page(self, title=title or Path(path).stem).encode(), force)
+            name = Path(path).stem if isinstance(path, str | os.PathLike) else "plyfold"
+            save_bytes(path, page(self, title=title or name).encode(), force)
         else:
-            save_model(lambda: model_of_solid(self, colours, unwrapped), path, force)
+            save_model(lambda: model_of_solid(self, colours, unwrapped), path, force, ending)
+
+    def to_trimesh(self, colours: Colouring = "layers") -> trimesh.Trimesh:
+        """Return the solid as a mesh of trimesh_; see :meth:`Surface.to_trimesh`.
+
+        .. _trimesh: https://trimesh.org
+        """
+        return trimesh_of(model_of_solid(self, colours, unwrapped=False))
 
 
 def thicken(surface: Surface, thickness: float, min_wall: float | None = None) -> Solid:
