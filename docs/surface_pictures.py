@@ -65,7 +65,7 @@ def convergence() -> None:
             ax.semilogx(*zip(*values, strict=True), "o-", label=label)
         ax.axhspan(0.995 * graded[-1][1], 1.005 * graded[-1][1], color="0.9", label="± 0.5 %")
         ax.set(title=name, xlabel="triangles", ylabel="range of heights, in gaps")
-        ax.legend(fontsize=8)
+    figure.axes[0].legend(fontsize=8)
     save(figure, HERE / "images" / "surface-convergence.png", force=True)
 
 

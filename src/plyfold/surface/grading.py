@@ -2,8 +2,8 @@
 
 Heights leave every border level, and round a corner of the outline with the interior angle ω they have a part like
 r^(π/ω) cos(πθ/ω) in the distance r from it. Where ω is more than 180° that is steep and all bent near the corner, and
-triangles of one size miss of its energy a share of (size / width of the cloth)^(2π/ω): at 330°, four times smaller ones
-halve it twice. Triangles whose size is in proportion to r cost a few hundred for each corner, and miss next to nothing.
+triangles of one size miss of its energy a share that falls like size^(2π/ω): near 360°, triangles half
+as large miss half as much. If their size is in proportion to r, a few hundred for each corner miss next to nothing.
 
 Only heights of the given vertices are wanted. So it does not matter that the added ones are not stacked over each
 other: distances of sheets are kept at the given ones.
