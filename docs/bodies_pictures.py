@@ -1,4 +1,4 @@
-"""Rebuild the pictures of bodies.md: round bodies, profiles, and slabs that are thicker where they are steep."""
+"""Rebuild the pictures of bodies.md: round bodies and their profiles."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from matplotlib.figure import Figure
 from panels import save_small
 
 import plyfold as pf
-from plyfold.arrays import Floats
 from plyfold.colours import layer_colour, rgb
 from plyfold.draw.depth_buffer import View
 from plyfold.draw.placement import middle_and_size
@@ -22,9 +21,7 @@ from plyfold.surface.thicken import Solid
 HERE = Path(__file__).parent
 BODIES = ("pretzel", "ring", "letter-b", "limacon-with-cusp", "torus-front", "exit-ramp")
 FROM_ABOVE, FROM_ASIDE = (-72.0, 52.0), (-80.0, 22.0)
-TWICE_SQUARED = "lambda bulge: bulge**2"
-# Slabs whose walls are less than half of their thickness.
-STEEP, SHARE, WALL = "milnor", 0.4, 0.28
+PARABOLAS = "lambda bulge: bulge**2"
 
 
 def show(solid: Solid, ax: Axes, title: str, view: tuple[float, float] = FROM_ABOVE) -> None:
@@ -49,7 +46,7 @@ def bodies() -> None:
 
 def profiles() -> None:
     """Draw one letter in three profiles, from the side."""
-    chosen: dict[str, Profile] = {'"round"': "round", '"flat"': "flat", TWICE_SQUARED: np.square}
+    chosen: dict[str, Profile] = {'"round"': "round", '"flat"': "flat", PARABOLAS: np.square}
     surface = pf.lift(OUTLINES["letter-b"].outline)
     figure = Figure(figsize=(12, 3.4), layout="tight")
     for ax, (title, profile) in zip(figure.subplots(1, 3), chosen.items(), strict=True):
@@ -57,28 +54,7 @@ def profiles() -> None:
     save_small(figure, "bodies-profiles", 128)
 
 
-def walls() -> None:
-    """Draw the thickness of a slab across, over its place, as it is and with a least wall."""
-    surface = pf.lift(CURVES[STEEP].outline)
-    slabs = [surface.thicken(SHARE * surface.gap), surface.thicken(SHARE * surface.gap, min_wall=WALL * surface.gap)]
-    figure = Figure(figsize=(12, 3.6), layout="tight")
-    for ax, solid in zip(figure.subplots(1, 2), slabs, strict=True):
-        assert solid.wall is not None
-        show(solid, ax, f"thinnest wall {solid.wall.length / surface.gap:.2f} of the gap")
-        x, y = place_of(solid, np.mean(solid.wall.ends, axis=0))
-        ax.plot(x, y, "o", mfc="none", mec="#c8102e", ms=14, mew=1.6)
-    save_small(figure, "bodies-walls", 128)
-
-
-def place_of(solid: Solid, point: Floats) -> tuple[float, float]:
-    """Return where a point is in the picture of a solid."""
-    middle, size = middle_and_size(solid.vertices)
-    x, y, _ = View.of(*FROM_ABOVE).project((point - middle) / size)
-    return float(x), float(y)
-
-
 if __name__ == "__main__":
     (HERE / "images").mkdir(exist_ok=True)
     bodies()
     profiles()
-    walls()

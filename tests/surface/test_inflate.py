@@ -45,9 +45,14 @@ def middle_of_strip(body):
     return y[inner], body.thickness[inner]
 
 
+def off(thickness, wanted):
+    """How far off the thickness is, as a root of the mean square, in parts of the largest."""
+    return np.sqrt(np.mean((thickness - wanted) ** 2)) / wanted.max()
+
+
 def test_the_cross_section_of_a_strip_is_an_ellipse():
     y, thickness = middle_of_strip(pf.lift(STRIP, triangles=3000).inflate(1.5))
-    assert thickness == pytest.approx(1.5 * np.sqrt(1 - y**2), abs=0.06)
+    assert off(thickness, 1.5 * np.sqrt(1 - y**2)) < 0.01
 
 
 def test_by_default_half_of_a_tube():
@@ -57,20 +62,20 @@ def test_by_default_half_of_a_tube():
 def test_a_disk_becomes_an_ellipsoid():
     body = pf.lift(circle(), triangles=3000).inflate(0.8)
     radius = np.hypot(*body.surface.vertices[:, :2].T)
-    assert body.thickness == pytest.approx(0.8 * np.sqrt((1 - radius**2).clip(0)), abs=0.04)
+    assert off(body.thickness, 0.8 * np.sqrt((1 - radius**2).clip(0))) < 0.01
     assert body.volume == pytest.approx(4 / 3 * np.pi * 0.4, rel=0.02)
 
 
 def test_a_flat_body_has_a_plateau_and_half_a_circle_for_a_rim():
     y, thickness = middle_of_strip(pf.lift(STRIP, triangles=3000).inflate(0.6, "flat"))
     inward = np.minimum((1 - np.abs(y)) / 0.3, 1)
-    assert thickness == pytest.approx(0.6 * np.sqrt(1 - (1 - inward) ** 2), abs=0.05)
+    assert off(thickness, 0.6 * np.sqrt(1 - (1 - inward) ** 2)) < 0.02
 
 
 def test_a_function_gives_shares_of_the_height():
     surface = pf.lift(STRIP, triangles=3000)
     y, thickness = middle_of_strip(surface.inflate(1.5, np.square))
-    assert thickness == pytest.approx(1.5 * (1 - y**2), abs=0.06)
+    assert off(thickness, 1.5 * (1 - y**2)) < 0.01
 
 
 def test_overlaps_do_not_make_it_thinner():
