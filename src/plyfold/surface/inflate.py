@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -186,18 +187,20 @@ def _thickness(places: Floats, mesh: LiftedMesh, height: float | None, profile: 
 def _torsion(mesh: LiftedMesh, corners: Floats, watch: Watch) -> Floats:
     """Return the torsion function at each vertex: above 0 but for the rim, where it is 0.
 
-    Negative weights of edges, as flat triangles have them, are replaced by a small one: so the matrix is an M-matrix,
-    whose inverse has no negative numbers.
+    In slivers the cotangent matrix may have it below 0. So it is at least that of the matrix whose negative weights of
+    edges, as flat triangles have them, are replaced by a small one: an M-matrix, whose inverse has no negative numbers.
     """
     rim = len(mesh.boundary)
     matrix, area = cotangent_laplacian(corners, mesh.faces, np.ones(len(mesh.faces)))
     entries = matrix.tocoo()
     upper = entries.row < entries.col
     pull = np.maximum(-entries.data[upper], _LEAST_PULL)
-    inner = laplacian(entries.row[upper], entries.col[upper], pull)[rim:, rim:]
-    torsion = np.zeros(len(area))
-    torsion[rim:] = watch.wait_for(lambda: factorised(inner, watch).solve(area[rim:]), len(area))
-    return torsion
+    stiffer = laplacian(entries.row[upper], entries.col[upper], pull)
+    torsion = np.zeros((2, len(area)))
+    for row, each in zip(torsion, (matrix, stiffer), strict=True):
+        inner = each[rim:, rim:]
+        row[rim:] = watch.wait_for(partial(factorised(inner, watch).solve, area[rim:]), len(area))
+    return np.asarray(torsion.max(axis=0))
 
 
 def _plateau(depth: Floats, height: float) -> Floats:
