@@ -331,7 +331,12 @@ class Nesting:
     def _find_span(self, edge: int) -> None:
         """Find between which places an edge passes the height of the ray."""
         end = self._end(edge)
-        x, y, end_x, end_y = self.points[2 * edge], self.points[2 * edge + 1], self.points[2 * end], self.points[2 * end + 1]
+        x, y, end_x, end_y = (
+            self.points[2 * edge],
+            self.points[2 * edge + 1],
+            self.points[2 * end],
+            self.points[2 * end + 1],
+        )
         if self.is_rounded:
             place = x + (self.y - y) / (end_y - y) * (end_x - x)
             error = _PLACE_ERROR * (abs(x) + abs(end_x)) + _UNDERFLOW
@@ -365,7 +370,9 @@ class Nesting:
             here = self.leftmost[loop]
             start, end = self._before(here), self._end(here)
             x, y = points[2 * here], points[2 * here + 1]
-            sign = exact_sign(points[2 * start], points[2 * start + 1], x, y, x, y, points[2 * end], points[2 * end + 1])
+            sign = exact_sign(
+                points[2 * start], points[2 * start + 1], x, y, x, y, points[2 * end], points[2 * end + 1]
+            )
             self.is_convex[loop] = 1 if sign > 0 else 0
 
     def join(
@@ -384,7 +391,11 @@ class Nesting:
         passed : buffer of g int
             How many visits come before those places, on earlier loops too.
         """
-        self.is_known, self.stack, self.outer = whole_room(self.loops), whole_room(self.loops), whole_room(len(following))
+        self.is_known, self.stack, self.outer = (
+            whole_room(self.loops),
+            whole_room(self.loops),
+            whole_room(len(following)),
+        )
         follow_darts(self.partner, self.ccw, self.first_visit, following)
         self._wind_along(found.left)
         for ray in range(len(corner)):
@@ -421,7 +432,9 @@ class Nesting:
         start_x, end_x = self.points[2 * edge], self.points[2 * end]
         share = share_along(self.points[2 * edge + 1], self.points[2 * end + 1], y) if self.is_rounded else 0.5
         found.put(found.count, corner, -_FAR, 1, visits, self.loop[corner], x, y)
-        found.put(there, edge, upward * y, upward * (2 + ray), passed, self.loop[edge], start_x + share * (end_x - start_x), y)
+        found.put(
+            there, edge, upward * y, upward * (2 + ray), passed, self.loop[edge], start_x + share * (end_x - start_x), y
+        )
         found.count += 1
 
     def _visits_before(self, point: int) -> int:
