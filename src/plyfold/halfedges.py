@@ -7,20 +7,17 @@ from typing import TypeVar
 import numpy as np
 
 from plyfold.arrays import Ints
-from plyfold.compiled import called_from_loops
 
 __all__ = ["before", "ends_of", "following", "glued_pairs", "half_edges_from_to", "neighbours_of", "twins_of"]
 
 _HalfEdge = TypeVar("_HalfEdge", int, Ints)
 
 
-@called_from_loops
 def following(half_edge: _HalfEdge) -> _HalfEdge:
     """Return the next half-edge of the same triangle, or of many: it starts where the given one ends."""
     return half_edge - half_edge % 3 + (half_edge + 1) % 3
 
 
-@called_from_loops
 def before(half_edge: _HalfEdge) -> _HalfEdge:
     """Return the half-edge of the same triangle that ends where this one starts, or many."""
     return half_edge - half_edge % 3 + (half_edge + 2) % 3

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol, TypeAlias, TypeVar, cast
+from typing import Any, Protocol, TypeAlias, TypeVar, cast, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -13,11 +13,15 @@ _Number = TypeVar("_Number")
 
 
 class Buffer(Protocol[_Number]):
-    """Numbers in a row, with places from 0 on: a memoryview of an array is one."""
+    """Numbers in a row, with places from 0 on: a memoryview of an array is one. A slice is a view of some of them."""
 
     def __len__(self) -> int: ...
 
+    @overload
     def __getitem__(self, place: int, /) -> _Number: ...
+
+    @overload
+    def __getitem__(self, places: slice, /) -> Buffer[_Number]: ...
 
     def __setitem__(self, place: int, number: _Number, /) -> None: ...
 

@@ -23,6 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
+from plyfold.core.turns import ExactPoints, exact_points, turn
 from plyfold.errors import InputError, PlyfoldError
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.graphs import components
@@ -30,7 +31,7 @@ from plyfold.halfedges import before, ends_of, following, twins_of
 from plyfold.immersion.immersion import Immersion, Piece
 from plyfold.mesh.refine import given_outline, is_moved
 from plyfold.outline.curve import Outline
-from plyfold.predicates import Coordinates, as_coordinates, orient, turn
+from plyfold.predicates import orient
 
 __all__ = ["Settled", "settle", "settled_by_points", "settled_triangles", "what_is_left"]
 
@@ -65,7 +66,8 @@ class _Surface(NamedTuple):
     points at which the surface was cut.
     """
 
-    places: Coordinates
+    points: ExactPoints
+    places: list[tuple[float, float]]
     start: list[int]
     beyond: list[int]
     edge: list[int]
@@ -183,9 +185,9 @@ def settle(given: Outline, faces: Ints) -> Settled:
 
 
 def _without_flat_triangles(points: Floats, faces: Ints, flat: Ints) -> _Surface:
-    places = Coordinates(*(numbers.tolist() for numbers in as_coordinates(points)))
-    start = faces.ravel().tolist()
-    surface = _Surface(places, start, twins_of(faces).tolist(), start.copy(), set(flat.tolist()), set(), set())
+    start, beyond = faces.ravel().tolist(), twins_of(faces).tolist()
+    places = [(x, y) for x, y in points.tolist()]
+    surface = _Surface(exact_points(points), places, start, beyond, start.copy(), set(flat.tolist()), set(), set())
     waiting = flat.tolist()
     while waiting:
         triangle = waiting.pop()
@@ -215,8 +217,7 @@ def _settle_one(surface: _Surface, triangle: int) -> tuple[int, ...]:
 
 def _place(surface: _Surface, half_edge: int) -> tuple[float, float]:
     """Return where a half-edge starts."""
-    point = surface.start[half_edge]
-    return surface.places.x[point], surface.places.y[point]
+    return surface.places[surface.start[half_edge]]
 
 
 def _side_without_length(surface: _Surface, triangle: int) -> int | None:
@@ -275,7 +276,7 @@ def _flip(surface: _Surface, side: int) -> None:
     _glue(surface, other, *outer[1])
     _glue(surface, ahead, other_ahead, -1)
     for triangle in (side // 3, other // 3):
-        if turn(surface.places, *start[3 * triangle : 3 * triangle + 3]) > 0:
+        if turn(surface.points, *start[3 * triangle : 3 * triangle + 3]) > 0:
             surface.flat.discard(triangle)
         else:
             surface.flat.add(triangle)
