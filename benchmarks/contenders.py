@@ -1,7 +1,6 @@
 """What is timed, each in a process of its own: ``python contenders.py NAME POINTS.npy [--plain]``.
 
-It prints one JSON line per stage. If numba is installed, it is imported first, and plyfold's loops run in machine code;
-with ``--plain`` they run in plain Python.
+It prints one JSON line per stage. With ``--plain`` the hot loops run as plain Python.
 
 A line has "stage" and "seconds" (the best of the runs so far), facts about the curve, and "megabytes": how much the
 peak of memory has grown since a small curve was worked through, which loads all modules.
@@ -10,8 +9,8 @@ peak of memory has grown since a small curve was worked through, which loads all
 from __future__ import annotations
 
 import gc
-import importlib.util
 import json
+import os
 import resource
 import sys
 import time
@@ -134,9 +133,7 @@ def main() -> None:
     """Print the lines; what a contender raises becomes its last line."""
     name, file, *options = sys.argv[1:]
     if "--plain" in options:
-        sys.modules["numba"] = None  # type: ignore[assignment]  # as if it were not installed
-    elif importlib.util.find_spec("numba"):
-        importlib.import_module("numba")
+        os.environ["PLYFOLD_PURE"] = "1"
     try:
         for line in measure(CONTENDERS[name], np.load(file)):
             print(json.dumps(line), flush=True)

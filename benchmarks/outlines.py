@@ -4,14 +4,12 @@ Cusps: a chain of limaçons, each with a cusp on its inner loop; the same chain 
 a coiled ribbon with as many vertices and crossings. Loops: many ribbons side by side, and the same ones joined to one
 loop by narrow bridges; rings inside rings, and one spiral whose strands lie as close. Prints milliseconds of the
 processor, the least of some runs in which all outlines take turns: also for each vertex and crossing compared with a
-wandering ribbon, and compared with the plain curve beside which an outline stands. numba is imported first, if it is
-there.
+wandering ribbon, and compared with the plain curve beside which an outline stands.
 """
 
 from __future__ import annotations
 
 import argparse
-import importlib.util
 import time
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
@@ -192,8 +190,6 @@ def main() -> None:
     parser.add_argument("--vertices", type=int, nargs="+", default=[1000, 10000, 100000])
     parser.add_argument("--runs", type=int, default=3)
     options = parser.parse_args()
-    if importlib.util.find_spec("numba"):
-        importlib.import_module("numba")
     for line in lines(options.vertices, options.runs):
         print(line, flush=True)
 

@@ -169,7 +169,7 @@ def arguments() -> argparse.Namespace:
     )
     parser.add_argument("--reference-up-to", type=int, default=REFERENCE_UP_TO, metavar="N")
     parser.add_argument("--lift-up-to", type=int, default=LIFT_UP_TO, metavar="N")
-    parser.add_argument("--plain", action="store_true", help="without numba, as where it is not installed")
+    parser.add_argument("--plain", action="store_true", help="with the hot loops as plain Python")
     parser.add_argument(
         "--against",
         type=Path,

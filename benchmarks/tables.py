@@ -9,7 +9,6 @@ import platform
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from importlib.metadata import version
-from importlib.util import find_spec
 from pathlib import Path
 from statistics import linear_regression
 from typing import Any
@@ -203,7 +202,7 @@ def machine(rows: Sequence[Row]) -> str:
         *(f"{size:.0f} GB" for size in memory),
         platform.system(),
         f"Python {platform.python_version()}",
-        *(f"{name} {version(name)}" for name in ("plyfold", "numpy", "shapely", "numba") if find_spec(name)),
+        *(f"{name} {version(name)}" for name in ("plyfold", "numpy", "shapely")),
         f"GEOS {geos}",
         datetime.date.today().isoformat(),
     ]

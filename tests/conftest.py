@@ -1,10 +1,8 @@
-"""A real browser, where there is one: Debian's Chromium, driven by Playwright; and both ways to run hot loops."""
+"""A real browser, where there is one: Debian's Chromium, driven by Playwright."""
 
 import shutil
 
 import pytest
-
-from plyfold import compiled
 
 PROGRAMS = ("chromium", "chromium-browser", "google-chrome")
 WITHOUT_A_GRAPHICS_CARD = [
@@ -23,10 +21,3 @@ def browser():
         running = driver.chromium.launch(executable_path=program, args=WITHOUT_A_GRAPHICS_CARD)
         yield running
         running.close()
-
-
-@pytest.fixture(params=["plain Python", "machine code"])
-def way(request, monkeypatch):
-    if request.param == "machine code":
-        pytest.importorskip("numba")
-    monkeypatch.setattr(compiled, "_machine_code_pays", lambda steps: request.param == "machine code")

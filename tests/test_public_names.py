@@ -11,7 +11,7 @@ from mypy import api
 import plyfold as pf
 
 RAMP = [(0, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)]
-HEAVY = {"numpy", "scipy", "shapely", "pysat", "matplotlib", "numba"}
+HEAVY = {"numpy", "scipy", "shapely", "pysat", "matplotlib"}
 
 
 def test_public_names():

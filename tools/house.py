@@ -25,7 +25,7 @@ SOURCE = Path(__file__).resolve().parent.parent / "src" / "plyfold"
 ORDER = [
     ["arrays", "errors", "wording"],
     ["obstruction"],
-    ["options", "clock", "compiled", "colours", "ragged", "loading", "memory", "mistaken", "certify"],
+    ["options", "clock", "colours", "ragged", "loading", "memory", "mistaken", "certify"],
     ["predicates", "halfedges", "matrices", "sat"],
     ["core"],
     ["graphs"],

@@ -10,7 +10,6 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from plyfold.arrays import Ints
-from plyfold.compiled import called_from_loops
 
 __all__ = [
     "GluedTriangles",
@@ -67,13 +66,11 @@ class GluedTriangles(NamedTuple):
         return [edge[key == number] for number in several.tolist()]
 
 
-@called_from_loops
 def following(half_edge: _HalfEdge) -> _HalfEdge:
     """Return the next half-edge of the same triangle, or of many: it starts where the given one ends."""
     return half_edge - half_edge % 3 + (half_edge + 1) % 3
 
 
-@called_from_loops
 def before(half_edge: _HalfEdge) -> _HalfEdge:
     """Return the half-edge of the same triangle that ends where this one starts, or many."""
     return half_edge - half_edge % 3 + (half_edge + 2) % 3

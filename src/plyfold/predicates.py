@@ -3,7 +3,6 @@
 Coordinates are doubles, and doubles are rational numbers, so every sign below has an exact value. It is computed in
 floating point with a bound on the rounding error; where the bound does not decide, it is computed again without
 rounding, in pairs of doubles or with :class:`fractions.Fraction`. Nothing here depends on the scale of the drawing.
-What :func:`orient` tells of many points at once, :func:`turn` tells of three, to loops.
 
 Places that are no doubles, for they lie infinitely close to each other, may come as arrays of fractions, the first one
 of those that a function takes among them: then all is calculated in whole numbers, a hundred times as slowly.
@@ -12,18 +11,15 @@ of those that a function takes among them: then all is calculated in whole numbe
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any, NamedTuple, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrays import Bools, Floats, Ints, Reals, Signs, Wholes
-from plyfold.compiled import called_from_loops
 
 __all__ = [
-    "Coordinates",
     "Place",
-    "as_coordinates",
     "counted_cross_sign",
     "cross_sign",
     "crossing_bounds",
@@ -33,7 +29,6 @@ __all__ = [
     "orient",
     "parameter_along_edge",
     "signs_of",
-    "turn",
     "whole_numbers",
 ]
 
@@ -205,6 +200,17 @@ def _exact_product(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, 
     return np.where(zero, 0.0, product), np.where(zero, 0.0, rest), exact
 
 
+def _rest_of_product(one: Floats, other: Floats, product: Floats) -> Floats:
+    """Return what rounding took off a product (Dekker).
+
+    Both numbers are split into two of 26 bits each, whose products are exact (Veltkamp).
+    """
+    shifted, other_shifted = _SPLITTER * one, _SPLITTER * other
+    high, other_high = shifted - (shifted - one), other_shifted - (other_shifted - other)
+    low, other_low = one - high, other - other_high
+    return low * other_low - (((product - high * other_high) - low * other_high) - high * other_low)
+
+
 def _is_exact_difference(a: Floats, b: Floats, difference: Floats) -> Bools:
     """Tell where b − a was not rounded (the error term of Knuth's two-sum is zero)."""
     minus_a = difference - b
@@ -308,86 +314,3 @@ def whole_numbers(numbers: Reals) -> tuple[Wholes, Fraction]:
     least = int(exponent.min(initial=0))
     doubled = np.ldexp(mantissa, 53).astype(np.int64).astype(object)
     return doubled << (exponent - least).astype(object), Fraction(2) ** (least - 53)
-
-
-# ---- one turn at a time, for loops -----------------------------------------------------------------------------------
-
-# Between these sizes no product of two coordinates over- or underflows, nor what rounding takes off it.
-_LEAST, _LARGEST = 1e-130, 1e140
-
-
-class Coordinates(NamedTuple):
-    """Coordinates of points, as arrays or lists, and room for twelve numbers to calculate with."""
-
-    x: Any
-    y: Any
-    scratch: Any
-
-
-def as_coordinates(points: Reals) -> Coordinates:
-    """Return points for :func:`turn`, as arrays of doubles if it is exact for those, of fractions otherwise."""
-    size = np.abs(points)
-    if size.max(initial=0) < _LARGEST and ((size > _LEAST) | (size == 0)).all():
-        x, y = np.ascontiguousarray(points.T)
-        return Coordinates(x, y, np.zeros(12))
-    largest = Fraction(2) ** int(np.frexp(float(size.max()))[1])
-    exact = [[Fraction(number) / largest for number in column] for column in points.T.tolist()]
-    return Coordinates(np.array(exact[0]), np.array(exact[1]), np.zeros(12, dtype=object))
-
-
-@called_from_loops
-def turn(points: Coordinates, a: int, b: int, c: int) -> int:
-    """Return the sign of the turn at b from a to c: 1 if counter-clockwise, −1 if clockwise, 0 if straight. Exact."""
-    x, y = points.x, points.y
-    left, right = (x[b] - x[a]) * (y[c] - y[a]), (y[b] - y[a]) * (x[c] - x[a])
-    bound = _ORIENT_ERROR * (abs(left) + abs(right)) + _UNDERFLOW
-    if left - right > bound:
-        return 1
-    if right - left > bound:
-        return -1
-    return _exact_turn(points, a, b, c)
-
-
-@called_from_loops
-def _exact_turn(points: Coordinates, a: int, b: int, c: int) -> int:
-    """Add up the six products of the determinant without rounding, as numbers that do not overlap [She97]_.
-
-    References
-    ----------
-    .. [She97] J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates",
-       Discrete & Computational Geometry 18, 1997.
-    """
-    x, y, total = points
-    size = 0
-    for one, other in ((x[a], y[b]), (-y[a], x[b]), (x[b], y[c]), (-y[b], x[c]), (x[c], y[a]), (-y[c], x[a])):
-        product = one * other
-        size = _add_exactly(total, size, _rest_of_product(one, other, product))
-        size = _add_exactly(total, size, product)
-    for place in range(11, -1, -1):
-        if total[place] != 0:
-            return 1 if total[place] > 0 else -1
-    return 0
-
-
-@called_from_loops
-def _rest_of_product(one: Any, other: Any, product: Any) -> Any:
-    """Return what rounding took off a product, of numbers or of arrays (Dekker).
-
-    Both are split into two of 26 bits each, whose products are exact (Veltkamp).
-    """
-    shifted, other_shifted = _SPLITTER * one, _SPLITTER * other
-    high, other_high = shifted - (shifted - one), other_shifted - (other_shifted - other)
-    low, other_low = one - high, other - other_high
-    return low * other_low - (((product - high * other_high) - low * other_high) - high * other_low)
-
-
-@called_from_loops
-def _add_exactly(total: Any, size: int, number: float) -> int:
-    """Add a number to a sum of ``size`` numbers that do not overlap, the smallest first; return the new size."""
-    for place in range(size):
-        rounded = number + total[place]
-        part = rounded - number
-        total[place] = (number - (rounded - part)) + (total[place] - part)
-        number = rounded
-    total[size] = number
-    return size + 1

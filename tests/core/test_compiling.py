@@ -22,6 +22,7 @@ only_compiled = pytest.mark.skipif(is_plain, reason="plain Python is asked for")
 DIGEST = """
 import hashlib, sys, warnings
 import numpy as np, plyfold as pf, plyfold.core
+from plyfold.mesh.cells import triangulate_cells
 from reference.random_curves import ribbon_outline, random_polygon, star_polygon
 digest = hashlib.sha256()
 rng = np.random.default_rng(18)
@@ -31,7 +32,10 @@ curves = [random_polygon(rng, 60), ribbon_outline(rng, 200), star_polygon(41, 20
 for curve in [ring, *(np.asarray(curve, dtype=float) for curve in curves)]:
     drawn = pf.arrange(curve)
     immersion = pf.find_immersion(drawn)
-    for name, value in (*sorted(vars(drawn).items()), *sorted(vars(immersion).items())):
+    mesh = triangulate_cells(drawn)
+    faces = {"faces": pf.triangulate(drawn), "rounder": pf.triangulate(drawn, refine=1e9)[1]} if immersion else {}
+    values = *vars(drawn).items(), *vars(immersion).items(), *vars(mesh).items(), *faces.items()
+    for name, value in sorted(values, key=lambda item: item[0]):
         if isinstance(value, np.ndarray):  # the bytes of fractions are where they lie in memory
             digest.update(str(value.tolist()).encode() if value.dtype == object else value.tobytes())
 from scipy.sparse import csr_array

@@ -61,7 +61,6 @@ def certify(outline, triangles):
     check_immersed_surface(outline.loops, outline.points, faces, np.arange(len(outline)), outline.cusps, twins=twins)
 
 
-@pytest.mark.usefixtures("way")
 @pytest.mark.parametrize("name", OUTLINES)
 def test_triangles_are_the_surface(name):
     found = 0
@@ -71,7 +70,6 @@ def test_triangles_are_the_surface(name):
     assert found
 
 
-@pytest.mark.usefixtures("way")
 @pytest.mark.parametrize("angle", np.linspace(0, 6, 13))
 def test_cusps_in_all_directions(angle):
     """A spiral stair seen from everywhere: its edges end at the line and begin there, the corner convex or reflex."""
@@ -84,7 +82,6 @@ def test_cusps_in_all_directions(angle):
     assert found == 5  # the points of the inner loop
 
 
-@pytest.mark.usefixtures("way")
 @pytest.mark.parametrize("turns", [1, 2, 3])
 @pytest.mark.parametrize("tip", [(0.1, 0.05), (0.1, -0.05), (-0.1, 0.02), (0.0, 0.4), (0.5, -0.6)])
 def test_cusps_of_several_turns(turns, tip):
@@ -105,7 +102,6 @@ def test_double_rings_have_bridges_that_change_sheets(name):
         glue_copies(immersion, triangulate_cells(immersion.arrangement, triangles=0))
 
 
-@pytest.mark.usefixtures("way")
 @pytest.mark.parametrize("seed", range(20))
 def test_random_double_rings(seed):
     rng = np.random.default_rng(seed)

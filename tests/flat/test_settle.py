@@ -352,7 +352,6 @@ def noisy_keyhole(rng):
     return np.stack([np.cos(turn) * x - np.sin(turn) * y, np.sin(turn) * x + np.cos(turn) * y], axis=1).tolist()
 
 
-@pytest.mark.usefixtures("way")
 def test_lines_that_are_straight_but_for_rounding():
     rng = np.random.default_rng(4)
     assert all(check(noisy_keyhole(rng)) == 1 for _ in range(15))

@@ -1,7 +1,6 @@
-"""The sweep over immersed disks, in plain Python and in machine code: order, turns, lists and triangles."""
+"""The sweep over immersed disks: order and triangles."""
 
 from fractions import Fraction
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -11,9 +10,8 @@ from coarse import CURVES
 from plyfold.certify import check_immersed_disk
 from plyfold.errors import GeneralPositionError
 from plyfold.flat.sweep import sweep_triangles
-from plyfold.flat.sweep_line import empty_skip_list, link_above, sweep_order, sweep_plan, unlink
+from plyfold.flat.sweep_line import sweep_order, sweep_plan
 from plyfold.halfedges import twins_of
-from plyfold.predicates import as_coordinates, turn
 from reference import random_curves
 
 
@@ -31,7 +29,6 @@ def cross(a, b, c):
     return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
 
-@pytest.mark.usefixtures("way")
 @pytest.mark.parametrize("name", [name for name, named in CURVES.items() if named.immersions])
 def test_gallery(name):
     drawn = pf.arrange(CURVES[name].curve)
@@ -39,7 +36,6 @@ def test_gallery(name):
     assert len({frozenset(map(frozenset, faces.tolist())) for faces in found}) == CURVES[name].immersions
 
 
-@pytest.mark.usefixtures("way")
 @pytest.mark.parametrize("seed", range(40))
 def test_random_disks(seed):
     """Small grids: many vertices and crossings are reached at the same time, and many lie in line."""
@@ -56,7 +52,6 @@ def test_random_disks(seed):
             certify(immersion)
 
 
-@pytest.mark.usefixtures("way")
 def test_combs_and_stairs():
     """Many corners that split, many that merge, and flat corners everywhere along the axes."""
     teeth = [(2 * tooth + step, height) for tooth in range(40) for step, height in ((0, 0), (1, 9))]
@@ -67,7 +62,6 @@ def test_combs_and_stairs():
         certify(pf.find_immersion(points))
 
 
-@pytest.mark.usefixtures("way")
 def test_a_hundred_sheets():
     """A band that winds round a hundred times over itself."""
     t = np.linspace(0, 200 * np.pi, 6000)
@@ -104,38 +98,3 @@ def test_order_is_exact():
             x, y = (start + share * (end - start) for start, end in zip(a, b, strict=True))
             reach[n + visit] = (x + Fraction(0.3) * y, y)
         assert sweep_order(sweep_plan(drawn, np.empty(0, dtype=int))).tolist() == sorted(reach, key=reach.__getitem__)
-
-
-@pytest.mark.parametrize("kind", ["grid", "line", "doubles", "tiny", "huge"])
-def test_turns_are_exact(kind):
-    rng = np.random.default_rng(3)
-    points = {
-        "grid": rng.integers(-3, 4, (60, 2)) * 1.0,
-        "line": np.linspace(0, 1, 60)[:, None] * [0.1, 0.7] + [0.3, -0.9],
-        "doubles": rng.normal(size=(60, 2)),
-        "tiny": rng.integers(-3, 4, (60, 2)) * 5e-324,
-        "huge": rng.normal(size=(60, 2)) * 1e307,
-    }[kind]
-    places = as_coordinates(points)
-    for a, b, c in rng.integers(0, 60, (400, 3)).tolist():
-        exact = cross(*points[[a, b, c]].tolist())
-        assert turn(places, a, b, c) == (exact > 0) - (exact < 0)
-
-
-def test_skip_list():
-    """Against a plain list."""
-    rng = np.random.default_rng(8)
-    nodes, expected = empty_skip_list(500), []
-    for node in range(1, 501):
-        place = int(rng.integers(len(expected) + 1))
-        link_above(nodes, node, expected[place - 1] if place else 0)
-        expected.insert(place, node)
-        if rng.random() < 0.4:
-            unlink(nodes, expected.pop(int(rng.integers(len(expected)))))
-    size = len(nodes.height)
-    for level in range(nodes.height[0] + 1):
-        on_level = [0, *(node for node in expected if nodes.height[node] >= level), 0]
-        for below, above in pairwise(on_level):
-            assert nodes.above[level * size + below] == above
-            assert nodes.below[level * size + above] == below
-    assert nodes.height[0] > 2

@@ -303,7 +303,6 @@ class TestObstructions:
                 ask(ONE_PART, 1)
 
 
-@pytest.mark.usefixtures("way")
 def test_ports_and_sheets_that_peeling_pairs_know_each_other():
     for loops in (TWO_OVER_TWO_HOLES, NEST, HANDLE, [HANDLE, LIDS[2]]):
         seams = outline_seams(pf.arrange(loops))

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 import plyfold as pf
 from coarse import CURVES
-from plyfold import compiled
 from plyfold.arrangement.arrangement import arrange
 from plyfold.errors import PlyfoldError
 from plyfold.halfedges import following
@@ -128,16 +127,6 @@ def test_mended_meshes_are_whole(points):
     assert mesh.chain[mesh.chain < n].tolist() == list(range(n))
     across = np.flatnonzero(mesh.cell[inner // 3] != mesh.cell[mesh.twin[inner] // 3])
     assert set(inner[across]) <= set(mesh.left) | set(mesh.twin[mesh.left])
-
-
-def test_plain_python_and_machine_code_give_the_same(monkeypatch):
-    pytest.importorskip("numba")
-    made = []
-    for machine_code in (False, True):
-        monkeypatch.setattr(compiled, "_machine_code_pays", lambda steps, yes=machine_code: yes)
-        mesh = triangulate_cells(arrange(kiss(1e-4)))
-        made.append((mesh.points.tobytes(), mesh.triangles.tolist(), mesh.twin.tolist(), mesh.cell.tolist()))
-    assert made[0] == made[1]
 
 
 @pytest.mark.parametrize("points", [kiss(1e-10), strip(1e-9)], ids=["touching", "strip"])

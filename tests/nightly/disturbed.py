@@ -17,7 +17,6 @@ from typing import Any
 import numpy as np
 
 import plyfold as pf
-from plyfold import compiled
 from reference.random_curves import glued_disk, ribbon_outline
 
 MOMENTS = 4
@@ -26,7 +25,7 @@ MOMENTS = 4
 THREADS = 4
 
 FRESH_EVERY = 5
-"""Of so many seeds, one is tried in new processes too: there everything is imported and translated."""
+"""Of so many seeds, one is tried in new processes too: there everything is imported."""
 
 SENTENCE = b"plyfold: interrupted; nothing was left half-written\n"
 
@@ -115,8 +114,7 @@ def judge_here(rng: np.random.Generator) -> None:
 
 
 def judge_loading(seed: int) -> None:
-    """Disturb a process from its first answer on, in which numba is loaded and translates."""
-    compiled.STEPS_BEFORE_NUMBA = 0
+    """Disturb a process from its first answer on, in which libraries are loaded."""
     rng = np.random.default_rng(seed)
     points = np.array(ribbon_outline(rng, 100), dtype=np.float64)
     moment = int(np.exp(rng.uniform(0, np.log(200_000))))

@@ -13,7 +13,7 @@ _Number = TypeVar("_Number")
 
 
 class Buffer(Protocol[_Number]):
-    """Numbers in a row, with places from 0 on: a memoryview of an array is one."""
+    """Numbers in a row, with places from 0 on: a memoryview of an array is one. A slice is a view of some of them."""
 
     def __len__(self) -> int: ...
 

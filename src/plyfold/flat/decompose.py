@@ -91,7 +91,7 @@ def decompose(
     to the root as can be, from the leaves on: the least number of cuts where the tree is a path, and few where not.
     Pairs whose sides are edges of the curve that cross are known beforehand; others are looked for only in pieces that
     turn out to overlap all the same, and then it is cut again. Cost: O(n log n) for round triangles, expected, and the
-    pairs looked at, few in most cases: a coil of 100,000 points takes half a second with numba, a spiral of 30,000 that
+    pairs looked at, few in most cases: a coil of 100,000 points takes half a second, a spiral of 30,000 that
     winds round 17 times two seconds.
 
     Examples

@@ -23,6 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
+from plyfold.core.turns import ExactPoints, points_for_turns, turn
 from plyfold.errors import PlyfoldError
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.graphs import components
@@ -30,7 +31,7 @@ from plyfold.halfedges import GluedTriangles, before, ends_of, flip, following, 
 from plyfold.immersion.immersion import Immersion, Piece
 from plyfold.mesh.refine import given_outline, is_moved
 from plyfold.outline.curve import Outline
-from plyfold.predicates import Coordinates, as_coordinates, orient, turn
+from plyfold.predicates import orient
 
 __all__ = ["Settled", "settle", "settled_triangles", "what_is_left"]
 
@@ -69,7 +70,8 @@ class _Surface(NamedTuple):
     triangles without area, ``gone`` those that are no more, and ``touching`` points at which the surface was cut.
     """
 
-    places: Coordinates
+    points: ExactPoints
+    places: list[tuple[float, float]]
     start: list[int]
     beyond: list[int]
     flat: set[int]
@@ -157,10 +159,11 @@ def settle(given: Outline, triangles: GluedTriangles) -> Settled:
 
 
 def _without_flat_triangles(points: Floats, triangles: GluedTriangles, flat: Ints) -> _Surface:
-    places = Coordinates(*(numbers.tolist() for numbers in as_coordinates(points)))
     start = triangles.faces.ravel()
     beyond = np.where(triangles.twin < 0, -1 - start, triangles.twin)
-    surface = _Surface(places, start.tolist(), beyond.tolist(), set(flat.tolist()), set(), set())
+    places = [(x, y) for x, y in points.tolist()]
+    exact, halves = points_for_turns(points), (start.tolist(), beyond.tolist())
+    surface = _Surface(exact, places, *halves, set(flat.tolist()), set(), set())
     waiting = flat.tolist()
     while waiting:
         triangle = waiting.pop()
@@ -190,8 +193,7 @@ def _settle_one(surface: _Surface, triangle: int) -> tuple[int, ...]:
 
 def _place(surface: _Surface, half_edge: int) -> tuple[float, float]:
     """Return where a half-edge starts."""
-    point = surface.start[half_edge]
-    return surface.places.x[point], surface.places.y[point]
+    return surface.places[surface.start[half_edge]]
 
 
 def _side_without_length(surface: _Surface, triangle: int) -> int | None:
@@ -240,7 +242,7 @@ def _flip(surface: _Surface, side: int) -> None:
     start, other = surface.start, surface.beyond[side]
     flip(start, surface.beyond, side)
     for triangle in (side // 3, other // 3):
-        if turn(surface.places, *start[3 * triangle : 3 * triangle + 3]) > 0:
+        if turn(surface.points, *start[3 * triangle : 3 * triangle + 3]) > 0:
             surface.flat.discard(triangle)
         else:
             surface.flat.add(triangle)

@@ -99,7 +99,7 @@ def triangulate(
     over the surface: what it meets of that is intervals between two edges, however the sheets lie over each other, and
     only at corners where an interval is split does it have to be found, by a walk through the sheets. All signs are
     exact. O((n + k) log n) and some steps for each strand that is walked over; 60,000 points with 18,000 crossings take
-    a hundredth of a second with numba, a quarter of a second without. That such triangles exist is proved in [SW92]_
+    a hundredth of a second. That such triangles exist is proved in [SW92]_
     and [WZ14]_. Many are long and thin; those that ``refine`` makes are as round as
     the points of the outline let them; :func:`~plyfold.map_disk` divides the outline too.
 

@@ -292,12 +292,11 @@ def _mended(
 
 def _drawn(outline: NodedCurve, mesh: CellTriangulation, mended: Edged) -> CellTriangulation:
     """Return a mesh with the points that mending has added."""
-    unit_points = np.stack([mended.x, mended.y], axis=1)
-    points = outline.centre + unit_points * outline.scale
+    points = outline.centre + mended.points * outline.scale
     points[: len(mesh.points)] = mesh.points
     triangles = mended.start.reshape(-1, 3)
     added = np.flatnonzero(mended.on >= 0)
-    chain = split_chain(outline, unit_points, np.stack([mended.on[added], added], axis=1))
+    chain = split_chain(outline, mended.points, np.stack([mended.on[added], added], axis=1))
     left = left_of_chain(triangles, *_ends(*chain), outline.strips is not None)
     return CellTriangulation(points, triangles, mended.beyond, mended.cell, *chain, left, outline.strips)
 
@@ -317,9 +316,8 @@ def _edged(outline: NodedCurve, mesh: CellTriangulation) -> Edged:
     edge = np.full(len(mesh.twin), -1)
     for side in (mesh.left, mesh.right):
         edge[side[side >= 0]] = edge_of_chain[side >= 0]
-    x, y = ((mesh.points - outline.centre) / outline.scale).T.copy()
-    total = np.array([len(x), len(mesh.cell)])
-    return Edged(x, y, on, mesh.triangles.ravel(), mesh.twin, edge, mesh.cell, total)
+    unit_points = (mesh.points - outline.centre) / outline.scale
+    return Edged(unit_points, on, mesh.triangles.ravel(), mesh.twin, edge, mesh.cell)
 
 
 def _verified(arrangement: Arrangement, outline: NodedCurve, mesh: PlanarMesh) -> CellTriangulation:
