@@ -9,10 +9,9 @@ import numpy as np
 
 from plyfold.arrangement.general_position import GeneralPosition, in_general_position
 from plyfold.arrangement.maps import CellWalk, Code, Map, in_bounded_cells, oriented, outer_dart, walked_round
-from plyfold.arrangement.marks import cusps_of_outline, with_marks
-from plyfold.arrangement.nesting import nest
-from plyfold.arrangement.planar_map import windings_of_loops
-from plyfold.arrangement.polylines import polygon_turning_numbers
+from plyfold.arrangement.marks import Marks, cusps_of_outline, with_marks
+from plyfold.arrangement.nesting import Nest, nest
+from plyfold.arrays import Bools
 from plyfold.clock import Watch
 from plyfold.outline.curve import Outline, backward_numbers
 
@@ -63,19 +62,21 @@ def _drawn_curve(placed: GeneralPosition) -> DrawnMap:
 def _drawn_loops(placed: GeneralPosition, watch: Watch) -> DrawnMap:
     """Return the map of several loops as they are directed."""
     outline, visits = placed.outline, placed.visits
-    exact = placed.exact
-    found = nest(placed.joined, visits, watch, None if exact is None else exact[placed.joined.number])
-    left = windings_of_loops(visits.partner, visits.ccw, found.first_visit, found.outside, found.bridges)
+    found = nest(outline.points, outline.first_point, visits, watch, placed.exact)
     none = np.zeros(len(visits.partner), dtype=np.int64)
-    code = Code(visits.partner, visits.ccw, found.first_visit, left, visits.edge, none)
+    code = Code(visits.partner, visits.ccw, found.first_visit, found.left, visits.edge, none)
     plain = Map(code, found.outside, found.bridges)
     walked = walked_round(plain)
-    inner = in_bounded_cells(plain, walked)
-    feet = [mark for number in inner for mark in found.feet[number]]
-    is_left = found.bridges[inner] % 2 == 0
-    drawn = with_marks(plain, cusps_of_outline(outline, visits.edge), feet, is_left)
+    drawn = with_marks(plain, cusps_of_outline(outline, visits.edge), *_bounded_bridges(found, plain, walked))
     crossings = visits.point[np.arange(len(visits.point)) < visits.partner]
-    turning = polygon_turning_numbers(outline.points if exact is None else exact, outline.first_point)
     settled = {"exact_signs": visits.exact_signs, "reversed": bool(placed.turned_round)}
     more = {"given": placed.given, "numbers": placed.numbers, "crossings": crossings, "begun": placed.begun} | settled
+    turning = tuple(found.turning.tolist())
     return DrawnMap(drawn, walked if drawn is plain else walked_round(drawn), turning, outline, more)
+
+
+def _bounded_bridges(found: Nest, plain: Map, walked: CellWalk) -> tuple[Marks, Bools]:
+    """Return the feet of the bridges in bounded cells, and whether they are on the left of their loops."""
+    inner = in_bounded_cells(plain, walked)
+    feet = found.at_vertices.taken(inner).followed_by(found.on_edges.taken(inner))
+    return feet, found.bridges[inner] % 2 == 0
