@@ -51,7 +51,9 @@ def walk_cells(following: WholeBuffer, outer: int, darts: WholeBuffer, start: Wh
     return count
 
 
-def follow_darts(partner: WholeBuffer, ccw: WholeBuffer, first_visit: WholeBuffer, following: WholeBuffer) -> None:
+def follow_darts(
+    partner: WholeBuffer, ccw: WholeBuffer, first_visit: WholeBuffer, following: WholeBuffer, room: WholeBuffer
+) -> None:
     """Find the dart that follows each around the cell on its left, see `planar_map.next_darts`.
 
     Parameters
@@ -64,16 +66,19 @@ def follow_darts(partner: WholeBuffer, ccw: WholeBuffer, first_visit: WholeBuffe
         The first visit of each loop, and their number.
     following : buffer of int
         Room for two darts for each border.
+    room : buffer of int
+        Room for two numbers for each visit.
 
     Examples
     --------
     >>> from array import array
     >>> following = array("q", [0] * 4)
-    >>> follow_darts(array("q", [1, 0]), array("B", [1, 0]), array("q", [0, 2]), following)
+    >>> room = memoryview(array("q", [0] * 4))
+    >>> follow_darts(array("q", [1, 0]), array("B", [1, 0]), array("q", [0, 2]), following, room)
     >>> following.tolist()
     [2, 1, 0, 3]
     """
-    before, after = whole_room(len(partner)), whole_room(len(partner))
+    before, after = room[: len(partner)], room[len(partner) : 2 * len(partner)]
     border = 0
     for loop in range(len(first_visit) - 1):
         start, end = first_visit[loop], first_visit[loop + 1]

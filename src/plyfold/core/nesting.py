@@ -160,7 +160,12 @@ class Nesting:
         start = _GROUP * (node - self.leaves)
         for edge in range(start, min(start + _GROUP, self.n)):
             end = self._end(edge)
-            x, y, end_x, end_y = self.points[2 * edge], self.points[2 * edge + 1], self.points[2 * end], self.points[2 * end + 1]
+            x, y, end_x, end_y = (
+                self.points[2 * edge],
+                self.points[2 * edge + 1],
+                self.points[2 * end],
+                self.points[2 * end + 1],
+            )
             low_x, low_y = min(low_x, x, end_x), min(low_y, y, end_y)
             high_x, high_y = max(high_x, x, end_x), max(high_y, y, end_y)
         self._put_box(node, low_x, low_y, high_x, high_y)
@@ -205,7 +210,12 @@ class Nesting:
     def _find_span(self, edge: int) -> None:
         """Find between which places an edge passes the height of the ray."""
         end = self._end(edge)
-        x, y, end_x, end_y = self.points[2 * edge], self.points[2 * edge + 1], self.points[2 * end], self.points[2 * end + 1]
+        x, y, end_x, end_y = (
+            self.points[2 * edge],
+            self.points[2 * edge + 1],
+            self.points[2 * end],
+            self.points[2 * end + 1],
+        )
         if self.is_rounded:
             place = x + (self.y - y) / (end_y - y) * (end_x - x)
             error = _PLACE_ERROR * (abs(x) + abs(end_x)) + _UNDERFLOW
@@ -239,7 +249,9 @@ class Nesting:
             here = self.leftmost[loop]
             start, end = self._before(here), self._end(here)
             x, y = points[2 * here], points[2 * here + 1]
-            sign = exact_sign(points[2 * start], points[2 * start + 1], x, y, x, y, points[2 * end], points[2 * end + 1])
+            sign = exact_sign(
+                points[2 * start], points[2 * start + 1], x, y, x, y, points[2 * end], points[2 * end + 1]
+            )
             self.is_convex[loop] = 1 if sign > 0 else 0
 
     def join(
@@ -341,7 +353,7 @@ class Nesting:
         return self._border(self.loop_of_visit[visit], visit)
 
     def count_turns(self, turning: WholeBuffer) -> None:
-        """Count how often each loop turns round, see `planar_map.whitney_turning_number`."""
+        """Count how often each loop turns round, see `core.direction`."""
         for loop in range(self.loops):
             start, end = self.first_visit[loop], self.first_visit[loop + 1]
             begin = self._visits_before(self.leftmost[loop])

@@ -1,0 +1,174 @@
+"""From the points of a closed curve to the verdict whether it bounds a disk, with no value between.
+
+The stages are those that values are made by: crossings, visits, direction, cells, dual tree, word, propagation. Where
+one of them meets with something that takes more than its loops, be it a contact or points to clean, nothing is told.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from plyfold.core.buffers import RealBuffer, WholeBuffer, byte_room, real_room, whole_room
+from plyfold.core.cell_tree import CellTree, room_for_tree
+from plyfold.core.cells import follow_darts, walk_cells
+from plyfold.core.direction import CurveDirection, outer_dart_of_points
+from plyfold.core.letters import Letters, room_for_arcs, room_for_letters
+from plyfold.core.meetings import Meetings, count_groups
+from plyfold.core.propagation import Propagation, room_for_propagation
+from plyfold.core.vertices import count_vertices, is_tiny
+from plyfold.core.visits import VisitsAlong
+
+__all__ = ["NO", "NOT_TOLD", "YES", "PlainCurve", "decide"]
+
+NO, YES, NOT_TOLD = 0, 1, -1
+_NO, _YES, _NOT_TOLD = NO, YES, NOT_TOLD
+
+
+class PlainCurve:
+    """One closed curve in general position, stage by stage; each stage takes those before it.
+
+    Parameters
+    ----------
+    step : callable
+        Called now and then; it may raise.
+
+    Attributes
+    ----------
+    n, k : int
+        How many points and crossings there are.
+    direction : CurveDirection
+        If it was turned round, the map is that of the curve turned round, and ``visit_edge`` and ``point`` are not.
+    tree : CellTree
+    word : Letters
+    propagation : Propagation
+    visit_edge, partner, ccw, point : buffer
+        Of the visits in order.
+    left, next_dart, cell_of_dart, cell_darts, cell_start, winding : buffer of int
+        See `Arrangement`; ``left`` is the winding number left of each border.
+    """
+
+    def __init__(self, step: Callable[[], None]) -> None:
+        self.n = self.k = self.borders = self.cells = 0
+        self.meetings, self.visits, self.direction = Meetings(step), VisitsAlong(), CurveDirection()
+        self.tree, self.word, self.propagation = CellTree(), Letters(), Propagation(step)
+
+    def draw(self, points: RealBuffer) -> bool:
+        """Find the crossings of a curve in order along it; tell whether it is in general position, as doubles tell."""
+        self.n = count_vertices(points)
+        if self.n == 0 or is_tiny(points):
+            return False
+        self.points = points[: 2 * self.n]
+        self._find_crossings(count_groups(self.n))
+        return self.meetings.touches.size == 0 and self._sort_visits()
+
+    def _find_crossings(self, groups: int) -> None:
+        whole, n = whole_room(4 * self.n + 2 * groups + 34), self.n
+        self.following, self.scratch = whole[:n], whole[n:]
+        for point in range(n):
+            self.following[point] = point + 1 if point < n - 1 else 0
+        self.meetings.find(self.points, self.following, real_room(4 * n + 8 * groups), self.scratch)
+        self.k = self.meetings.crossings.size // 2
+
+    def _sort_visits(self) -> bool:
+        """Sort the visits; tell whether doubles tell their order."""
+        k, n = self.k, self.n
+        self.borders = max(2 * k, 1)
+        self.cells = k + 2
+        self._take_room(whole_room(12 * k + n + 4 + 15 * self.borders + self.cells), byte_room(3 * k), real_room(8 * k))
+        for crossing in range(k):
+            self.edge[crossing] = self.meetings.crossings.data[2 * crossing]
+            other = self.meetings.crossings.data[2 * crossing + 1]
+            self.edge[k + crossing], self.from_right[crossing] = other // 2, other % 2
+        self.visits.sort(self.points, self.following, self.edge, self.order, self.real, self.scratch)
+        if self.visits.unsure.size > 0:
+            return False
+        self.visits.join(self.from_right, self.visit_edge, self.partner, self.ccw, self.point)
+        return True
+
+    def _take_room(self, whole: WholeBuffer, bytes_: WholeBuffer, real: RealBuffer) -> None:
+        """Share out room among the visits, darts and cells."""
+        k, borders = self.k, self.borders
+        self.real, self.point = real[: 4 * k], real[4 * k :]
+        self.from_right, self.ccw = bytes_[:k], bytes_[k:]
+        self.edge, self.order = whole[: 2 * k], whole[2 * k : 4 * k]
+        self.visit_edge, self.partner, rest = whole[4 * k : 6 * k], whole[6 * k : 8 * k], whole[8 * k :]
+        self.left, self.next_dart, rest = rest[:borders], rest[borders : 3 * borders], rest[3 * borders :]
+        self.cell_of_dart, self.cell_darts, rest = (
+            rest[: 2 * borders],
+            rest[2 * borders : 4 * borders],
+            rest[4 * borders :],
+        )
+        self.cell_start, self.winding = rest[: 2 * borders + 1], rest[2 * borders + 1 : 2 * borders + 1 + self.cells]
+        self.scratch = rest[2 * borders + 1 + self.cells :]
+
+    def find_direction(self) -> None:
+        """Find how the curve turns and winds, and turn the map round if need be."""
+        outer = outer_dart_of_points(self.points, self.visit_edge)
+        self.direction.settle(self.partner, self.ccw, outer, False, self.left)
+
+    def find_cells(self) -> None:
+        """Walk round the cells."""
+        self.scratch[0], self.scratch[1] = 0, 2 * self.k
+        follow_darts(self.partner, self.ccw, self.scratch[:2], self.next_dart, self.scratch[2:])
+        for dart in range(2 * self.borders):
+            self.cell_of_dart[dart] = -1
+        walk_cells(self.next_dart, self.direction.outer, self.cell_darts, self.cell_start, self.cell_of_dart)
+        self.cell_start[self.cells] = 2 * self.borders
+        for border in range(self.borders):
+            self.winding[self.cell_of_dart[2 * border]] = self.left[border]
+            self.winding[self.cell_of_dart[2 * border + 1]] = self.left[border] - 1
+
+    def write_word(self) -> None:
+        """Grow the dual tree, and write the word of the ways out of its pits."""
+        cells, borders = self.cells, self.borders
+        for_tree, for_arcs = room_for_tree(cells, borders), room_for_arcs(cells, borders)
+        room = whole_room(for_tree + for_arcs + 2 * borders)
+        self.tree.begin(self.cell_of_dart, self.next_dart, self.winding, room[:for_tree])
+        self.tree.flood()
+        self.tree.measure()
+        self.letters = self.word.walk(self.tree, self.tree.ascends, room[for_tree:])
+
+    def has_grouping(self) -> int:
+        """Return whether the word has a grouping, if propagation tells."""
+        if self.letters == 0:
+            return _YES
+        word, for_word = self.word, room_for_letters(self.letters)
+        room = whole_room(for_word + room_for_propagation(self.letters, word.labels))
+        word.sort(room[:for_word])
+        self.propagation.begin(
+            word.border, word.label, word.block, word.minus, word.first, word.partner, room[for_word:]
+        )
+        if self.propagation.narrow() >= 0:
+            return _NO
+        return _YES if self.propagation.letters_in_play() == 0 else _NOT_TOLD
+
+
+def decide(points: RealBuffer, step: Callable[[], None]) -> int:
+    """Tell whether a closed curve bounds a disk: :data:`YES` or :data:`NO`, or :data:`NOT_TOLD`.
+
+    Parameters
+    ----------
+    points : buffer of 2n float
+        Coordinates, point after point.
+    step : callable
+        Called now and then; it may raise.
+
+    Examples
+    --------
+    >>> from array import array
+    >>> decide(memoryview(array("d", [0, 0, 1, 0, 0, 1])), lambda: None)
+    1
+    >>> decide(memoryview(array("d", [0, 0, 2, 2, 2, 0, 0, 2])), lambda: None)
+    0
+    >>> decide(memoryview(array("d", [0, 0, 2, 0, 1, 1, 2, 2, 0, 2, 1, 1])), lambda: None)
+    -1
+    """
+    curve = PlainCurve(step)
+    if not curve.draw(points):
+        return _NOT_TOLD
+    curve.find_direction()
+    if curve.direction.turning != 1 or curve.direction.lowest < 1:
+        return _NO
+    curve.find_cells()
+    curve.write_word()
+    return curve.has_grouping()
