@@ -172,6 +172,8 @@ def test_small_curves_are_decided_with_numpy_alone():
         "own = {name for name in sys.modules if name.startswith('plyfold')}\n"
         "print(len(own), *sorted({name.split('.')[0] for name in set(sys.modules) - before - own}))"
     )
-    count, *others = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split()
+    count, *others = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    ).stdout.split()
     assert not {"scipy", "shapely", "pysat", "fractions", "decimal", "threading"} & set(others)
     assert int(count) < 25

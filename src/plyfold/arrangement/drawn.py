@@ -8,10 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from plyfold.arrangement.general_position import GeneralPosition, in_general_position
-from plyfold.arrangement.maps import CellWalk, Code, Map, in_bounded_cells, oriented, outer_dart, walked_round
-from plyfold.arrangement.marks import Marks, cusps_of_outline, with_marks
-from plyfold.arrangement.nesting import Nest, nest
-from plyfold.arrays import Bools
+from plyfold.arrangement.maps import CellWalk, Code, Map, oriented, outer_dart, walked_round
+from plyfold.arrangement.marks import cusps_of_outline, with_marks
+from plyfold.arrangement.nesting import nest
 from plyfold.clock import Watch
 from plyfold.outline.curve import Outline, backward_numbers
 
@@ -66,17 +65,11 @@ def _drawn_loops(placed: GeneralPosition, watch: Watch) -> DrawnMap:
     none = np.zeros(len(visits.partner), dtype=np.int64)
     code = Code(visits.partner, visits.ccw, found.first_visit, found.left, visits.edge, none)
     plain = Map(code, found.outside, found.bridges)
-    walked = walked_round(plain)
-    drawn = with_marks(plain, cusps_of_outline(outline, visits.edge), *_bounded_bridges(found, plain, walked))
+    inner = found.is_bounded.nonzero()[0]
+    feet = found.feet.taken(np.concatenate([inner, len(found.bridges) + inner]))
+    drawn = with_marks(plain, cusps_of_outline(outline, visits.edge), feet, found.bridges[inner] % 2 == 0)
     crossings = visits.point[np.arange(len(visits.point)) < visits.partner]
     settled = {"exact_signs": visits.exact_signs, "reversed": bool(placed.turned_round)}
     more = {"given": placed.given, "numbers": placed.numbers, "crossings": crossings, "begun": placed.begun} | settled
     turning = tuple(found.turning.tolist())
-    return DrawnMap(drawn, walked if drawn is plain else walked_round(drawn), turning, outline, more)
-
-
-def _bounded_bridges(found: Nest, plain: Map, walked: CellWalk) -> tuple[Marks, Bools]:
-    """Return the feet of the bridges in bounded cells, and whether they are on the left of their loops."""
-    inner = in_bounded_cells(plain, walked)
-    feet = found.at_vertices.taken(inner).followed_by(found.on_edges.taken(inner))
-    return feet, found.bridges[inner] % 2 == 0
+    return DrawnMap(drawn, walked_round(drawn), turning, outline, more)

@@ -20,7 +20,6 @@ __all__ = [
     "CellWalk",
     "Code",
     "Map",
-    "in_bounded_cells",
     "numbered_crossings",
     "oriented",
     "outer_dart",
@@ -78,11 +77,6 @@ def walked_round(drawn: Map) -> CellWalk:
     if len(drawn.outside) + len(drawn.same_cell) == 1:
         return following, *cell_boundaries(following, int(drawn.outside[0]))
     return following, *joined_cells(following, drawn.outside, drawn.same_cell)
-
-
-def in_bounded_cells(plain: Map, walked: CellWalk) -> Ints:
-    """Return which of the pairs of darts with the same cell lie in a bounded one."""
-    return walked[3][plain.same_cell[:, 0]].nonzero()[0]
 
 
 def numbered_crossings(partner: Ints) -> Ints:

@@ -105,9 +105,9 @@ def with_marks(plain: Map, marks: Marks, feet: Marks | None = None, is_left: Boo
     ``feet`` are those of bridges, first those where they start, and then those where they end; and ``is_left`` tells
     for each bridge and either end on which side of the loop the bridge is.
     """
-    if not len(marks) and not feet:
+    if not (len(marks) or feet):
         return plain
-    everything = marks.followed_by(feet) if feet else marks
+    everything = marks.followed_by(feet) if feet and len(marks) else feet or marks
     order = everything.order
     everything = everything.taken(order)
     inserted = _Inserted.into(plain.code, everything)

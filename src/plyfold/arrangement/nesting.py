@@ -14,13 +14,13 @@ from functools import partial
 import numpy as np
 
 from plyfold.arrangement.crossings import Visits
-from plyfold.arrangement.marks import AT_VERTEX, Marks
+from plyfold.arrangement.marks import Marks
 from plyfold.arrangement.planar_map import number_of_borders
-from plyfold.arrays import Floats, Ints, Reals
+from plyfold.arrays import Bools, Floats, Ints, Reals
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.core.buffers import all_flat, flat
-from plyfold.core.nesting import Nesting
-from plyfold.predicates import Place, exact_cross, orient, whole_numbers
+from plyfold.core.buffers import all_flat, flat, whole_room
+from plyfold.core.nesting import Bridges, Nesting, share_of_fractions
+from plyfold.predicates import Place, exact_cross, orient
 
 __all__ = ["Nest", "nest", "same_nest"]
 
@@ -43,8 +43,10 @@ class Nest:
     bridges : (b, 2) int
         For each other group the dart at its leftmost vertex, and the dart met to the left of it. Both have the cell
         between them on their left.
-    at_vertices, on_edges : Marks
-        Where each bridge starts and ends.
+    is_bounded : (b,) bool
+        Whether that is a bounded cell.
+    feet : Marks
+        Where all bridges start, and then where they end.
     """
 
     first_visit: Ints
@@ -52,8 +54,8 @@ class Nest:
     turning: Ints
     outside: Ints
     bridges: Ints
-    at_vertices: Marks
-    on_edges: Marks
+    is_bounded: Bools
+    feet: Marks
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,22 +124,38 @@ def nest(
     corner = corner[np.lexsort(plan.order[corner].T[::-1])]
     met = _met_on_the_left(plan, found, corner)
     passed = _visits_passed(plan, met, corner)
-    ends, left = np.empty((2, len(corner)), dtype=np.int64), np.empty(number_of_borders(first_visit), dtype=np.int64)
-    found.join(*all_flat(corner, met, passed, *ends, left))
+    is_met, n_borders = met >= 0, number_of_borders(first_visit)
+    n_bridges = np.count_nonzero(is_met)
+    (dart, beyond, is_bounded), left = np.empty((3, len(corner)), dtype=np.int64), np.empty(n_borders, dtype=np.int64)
+    whole, real = np.empty(8 * n_bridges, dtype=np.int64), np.empty(6 * n_bridges)
+    bridges = Bridges(n_bridges, *all_flat(dart, beyond, is_bounded, left, whole, real))
+    found.join(*all_flat(corner, met, passed), bridges, whole_room(2 * n_borders))
     turning = np.empty(len(first_point) - 1, dtype=np.int64)
     found.count_turns(flat(turning))
-    number = np.flatnonzero(met >= 0)
-    at_vertices = _feet_at_vertices(plan, corner[number])
-    on_edges = _feet_on_edges(plan, met[number], passed[number], corner[number], number)
-    return Nest(first_visit, left, turning, ends[0, met < 0], ends[:, number].T, at_vertices, on_edges)
+    (edge, tie, at, loop), along, point = (
+        whole.reshape(4, -1),
+        real[: 2 * n_bridges],
+        real[2 * n_bridges :].reshape(-1, 2),
+    )
+    if exact is not None:
+        _place_feet(plan, met[is_met], corner[is_met], point)
+    return Nest(
+        first_visit,
+        left,
+        turning,
+        outside=dart[~is_met],
+        bridges=np.stack([dart[is_met], beyond[is_met]], axis=1),
+        is_bounded=is_bounded[is_met] == 1,
+        feet=Marks(edge, along, tie, at, loop, point, np.zeros_like(edge)),
+    )
 
 
 def same_nest(one: Nest, other: Nest) -> bool:
     """Tell whether loops lie to each other in the same way, as far as bridges from the same vertices tell."""
-    feet = [nest.at_vertices.followed_by(nest.on_edges) for nest in (one, other)]
     same_darts = np.array_equal(one.outside, other.outside) and np.array_equal(one.bridges, other.bridges)
-    same_places = all(np.array_equal(getattr(feet[0], name), getattr(feet[1], name)) for name in ("edge", "tie", "at"))
-    return same_darts and same_places and np.array_equal(feet[0].order, feet[1].order)
+    orders = [nest.feet.order for nest in (one, other)]
+    places = [[nest.feet.edge, nest.feet.tie, nest.feet.at] for nest in (one, other)]
+    return same_darts and np.array_equal(*orders) and np.array_equal(*places)
 
 
 def _ranks(numbers: Reals) -> Floats:
@@ -202,39 +220,11 @@ def _share_of_visit(plan: _Plan, visit: int) -> Fraction:
     return exact_cross(start, p, p, q) / exact_cross(start, end, p, q)
 
 
-def _loops_of(plan: _Plan, point: Ints) -> Ints:
-    return np.asarray(np.searchsorted(plan.first_point, point, side="right") - 1)
-
-
-def _feet_at_vertices(plan: _Plan, corner: Ints) -> Marks:
-    """Return the feet of the bridges that leave leftmost vertices; they come after cusps there."""
-    along, tie = np.full(len(corner), AT_VERTEX), np.ones_like(corner)
-    at = np.searchsorted(plan.visits.edge, corner)
-    return Marks(corner, along, tie, at, _loops_of(plan, corner), plan.points[corner], np.zeros_like(corner))
-
-
-def _feet_on_edges(plan: _Plan, edge: Ints, passed: Ints, corner: Ints, number: Ints) -> Marks:
-    """Return the feet of the bridges from vertices to edges on their left: a little higher than the vertices.
-
-    Later ones, which come from further right, are higher if the vertices have one height: they pass above.
-    """
+def _place_feet(plan: _Plan, edge: Ints, corner: Ints, point: Floats) -> None:
+    """Write down where bridges start and end, rounded, if coordinates are fractions."""
     end = plan.following(edge)
-    upward = np.where(plan.order[edge, 1] < plan.order[end, 1], 1, -1)
-    start_x, end_x = plan.points[edge, 0], plan.points[end, 0]
-    x = start_x + _shares(plan, edge, end, corner) * (end_x - start_x)
-    return Marks(
-        edge,
-        along=upward * plan.order[corner, 1],
-        tie=upward * (2 + number),
-        at=passed,
-        loop=_loops_of(plan, edge),
-        point=np.stack([x, plan.points[corner, 1]], axis=1),
-        cusp_index=np.zeros_like(edge),
-    )
-
-
-def _shares(plan: _Plan, edge: Ints, end: Ints, corner: Ints) -> Floats:
-    """Return how far along edges the heights of vertices are, each share to the nearest double."""
-    heights = plan.reals[np.stack([edge, end, corner]), 1]
-    start, end, between = whole_numbers(heights)[0] if plan.exact is None else heights
-    return np.asarray((between - start) / (end - start), dtype=np.float64)
+    heights = zip(*(plan.reals[points, 1].tolist() for points in (edge, end, corner)), strict=True)
+    share = np.array([share_of_fractions(*map(Fraction, three)) for three in heights])
+    point[: len(edge)] = plan.points[corner]
+    point[len(edge) :, 0] = plan.points[edge, 0] + share * (plan.points[end, 0] - plan.points[edge, 0])
+    point[len(edge) :, 1] = plan.points[corner, 1]

@@ -7,7 +7,17 @@ from typing import Any, Protocol, TypeAlias, TypeVar, cast, overload
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Buffer", "RealBuffer", "WholeBuffer", "all_flat", "byte_room", "flat", "real_room", "whole_room"]
+__all__ = [
+    "Buffer",
+    "RealBuffer",
+    "WholeBuffer",
+    "all_flat",
+    "byte_room",
+    "flat",
+    "real_room",
+    "rough_room",
+    "whole_room",
+]
 
 _Number = TypeVar("_Number")
 
@@ -23,7 +33,11 @@ class Buffer(Protocol[_Number]):
     @overload
     def __getitem__(self, places: slice, /) -> Buffer[_Number]: ...
 
+    @overload
     def __setitem__(self, place: int, number: _Number, /) -> None: ...
+
+    @overload
+    def __setitem__(self, places: slice, numbers: Buffer[_Number], /) -> None: ...
 
 
 RealBuffer: TypeAlias = Buffer[float]
@@ -53,3 +67,8 @@ def whole_room(size: int) -> WholeBuffer:
 def byte_room(size: int) -> WholeBuffer:
     """Return room for so many numbers from 0 to 255, such as truth values, with anything in it."""
     return flat(np.empty(size, dtype=np.uint8))
+
+
+def rough_room(size: int) -> WholeBuffer:
+    """Return room for so many whole numbers of 64 bits, with anything in it."""
+    return flat(np.empty(size, dtype=np.int64))

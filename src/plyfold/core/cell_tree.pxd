@@ -4,6 +4,7 @@ from libc.stdint cimport int64_t
 
 from plyfold.core.cells cimport representative
 
+@cython.final
 cdef class CellTree:
     cdef Py_ssize_t cells, borders, n_saddles
     cdef const int64_t[::1] cell_of_dart, next_dart, winding

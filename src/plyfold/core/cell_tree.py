@@ -172,6 +172,7 @@ class CellTree:
         """Measure the turning of the borders of one curve and of arcs along the tree."""
         self._sort_from_root()
         self._find_turnings()
+        self.bend[0] = 0
         for cell in range(self.cells):
             self.first_child[cell] = self.next_sibling[cell] = -1
         for cell in range(self.cells):

@@ -1,4 +1,5 @@
 # C types of `direction.py`.
+cimport cython
 from libc.stdint cimport int64_t, uint8_t
 
 from plyfold.core.signs cimport exact_sign
@@ -6,6 +7,7 @@ from plyfold.core.signs cimport exact_sign
 cpdef int64_t outer_dart_of_points(const double[::1] points, const int64_t[::1] visit_edge) except -1
 cdef Py_ssize_t _border_at(const int64_t[::1] visit_edge, int64_t point) except -1
 
+@cython.final
 cdef class CurveDirection:
     cdef readonly int64_t outer, turning, lowest
     cdef readonly bint turned_round

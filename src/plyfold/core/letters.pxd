@@ -7,6 +7,7 @@ from plyfold.core.numbers cimport Numbers
 
 cdef int64_t _NONE, _FREE
 
+@cython.final
 cdef class Letters:
     cdef readonly Py_ssize_t labels
     cdef Py_ssize_t n_plus, mask, n_arcs

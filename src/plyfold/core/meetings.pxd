@@ -8,6 +8,7 @@ from plyfold.core.signs cimport quick_sign
 cdef int _GROUP, _PAIRS
 cdef double _FAR
 
+@cython.final
 cdef class Meetings:
     cdef readonly Numbers crossings, touches
     cdef readonly Py_ssize_t exact_signs

@@ -3,21 +3,94 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 
 from plyfold.core.buffers import RealBuffer, WholeBuffer, real_room, whole_room
-from plyfold.core.cells import representative
+from plyfold.core.cells import follow_darts, representative
 from plyfold.core.numbers import Numbers
-from plyfold.core.signs import exact_sign
+from plyfold.core.signs import exact_sign, rest_of_difference, rest_of_product
 
-__all__ = ["Nesting"]
+__all__ = ["Bridges", "Nesting", "share_of_fractions"]
 
 # So many consecutive edges make a leaf of the tree of boxes; after so many rays it is asked whether there is time left.
-_GROUP = 8
+_GROUP = 32
 _RAYS = 1024
 _FAR = float("inf")
 # 16 times the distance of 1 to the next double, and the least double that is not rounded off.
 _PLACE_ERROR = 3.552713678800501e-15
 _UNDERFLOW = 2.2250738585072014e-308
+# Between these sizes nothing over- or underflows in a quotient of differences, nor in what is left over.
+_LEAST, _LARGEST = 1e-130, 1e130
+# More than 24 times the square of half the distance of 1 to the next double.
+_SHARE_ERROR = 1e-30
+
+
+class Bridges:
+    """Room for the bridges between loops.
+
+    Parameters
+    ----------
+    bridges : int
+        How many rays meet something.
+    dart, beyond, is_bounded : buffer of g int
+        For each ray the dart at its corner and the one met, or −1, and whether the cell between them is bounded.
+    left : buffer of int
+        The winding number on the left of each border.
+    whole : buffer of 4 · 2 · bridges int
+        The edges of the feet of bridges, what comes first at one place, the visits before which they come, and the
+        loops: of all feet at corners, and then of those on edges that are met. See `arrangement.marks.Marks`.
+    real : buffer of 3 · 2 · bridges float
+        How far along its edge each foot is; and its coordinates, foot after foot.
+    """
+
+    def __init__(
+        self,
+        bridges: int,
+        dart: WholeBuffer,
+        beyond: WholeBuffer,
+        is_bounded: WholeBuffer,
+        left: WholeBuffer,
+        whole: WholeBuffer,
+        real: RealBuffer,
+    ) -> None:
+        self.bridges, self.count = bridges, 0
+        self.dart, self.beyond, self.is_bounded, self.left = dart, beyond, is_bounded, left
+        self.whole, self.real = whole, real
+
+    def put(self, foot: int, edge: int, along: float, tie: int, at: int, loop: int, x: float, y: float) -> None:
+        """Write down a foot."""
+        feet = 2 * self.bridges
+        self.whole[foot], self.whole[feet + foot] = edge, tie
+        self.whole[2 * feet + foot], self.whole[3 * feet + foot] = at, loop
+        self.real[foot] = along
+        self.real[feet + 2 * foot], self.real[feet + 2 * foot + 1] = x, y
+
+
+def share_along(start: float, end: float, between: float) -> float:
+    """Return how far a number lies between two others, to the nearest double.
+
+    The quotient of the rounded differences is put right by what is left over. Where that might be rounded either way,
+    fractions tell.
+
+    Examples
+    --------
+    >>> share_along(1.0, 4.0, 2.0)
+    0.3333333333333333
+    """
+    above, below = between - start, end - start
+    if _LEAST < abs(above) < _LARGEST and _LEAST < abs(below) < _LARGEST:
+        share = above / below
+        left_over = (above - share * below) - rest_of_product(share, below)
+        more = (left_over + (rest_of_difference(start, between) - share * rest_of_difference(start, end))) / below
+        unsure = _SHARE_ERROR * abs(share)
+        if share + (more - unsure) == share + (more + unsure):
+            return share + more
+    return share_of_fractions(Fraction(start), Fraction(end), Fraction(between))
+
+
+def share_of_fractions(start: Fraction, end: Fraction, between: Fraction) -> float:
+    """Return the same of fractions."""
+    return float((between - start) / (end - start))
 
 
 class Nesting:
@@ -144,31 +217,74 @@ class Nesting:
             met[ray] = self._first(ray)
 
     def _fill_boxes(self) -> None:
-        """Find the box of each node: its lowest and highest, its leftmost and rightmost coordinate."""
-        self.leaves = 1
-        while self.leaves * _GROUP < self.n:
-            self.leaves *= 2
-        self.box = real_room(8 * self.leaves)
-        for node in range(2 * self.leaves - 1, 0, -1):
-            if node >= self.leaves:
-                self._fill_leaf(node)
-            else:
-                self._join_boxes(node)
+        """Find the box of each node: its left, lower, right and upper side.
 
-    def _fill_leaf(self, node: int) -> None:
+        Each half of a node has the groups of edges whose boxes lie further left, or lower, in turn (a k-d tree).
+        """
+        self.groups, self.leaves = (self.n + _GROUP - 1) // _GROUP, 1
+        while self.leaves < self.groups:
+            self.leaves *= 2
+        self.box, self.side = real_room(8 * self.leaves), real_room(4 * self.groups)
+        self.order = whole_room(self.groups)
+        for group in range(self.groups):
+            self.order[group] = group
+            self._fill_group(group)
+        self._halve(0, self.leaves, 0)
+        for node in range(2 * self.leaves - 1, 0, -1):
+            if node < self.leaves:
+                self._join_boxes(node)
+            elif node < self.leaves + self.groups:
+                at = 4 * self.order[node - self.leaves]
+                self._put_box(node, self.side[at], self.side[at + 1], self.side[at + 2], self.side[at + 3])
+            else:
+                self._put_box(node, _FAR, _FAR, -_FAR, -_FAR)
+
+    def _fill_group(self, group: int) -> None:
+        """Find the sides of the box of consecutive edges."""
         low_x, low_y, high_x, high_y = _FAR, _FAR, -_FAR, -_FAR
-        start = _GROUP * (node - self.leaves)
+        start = _GROUP * group
         for edge in range(start, min(start + _GROUP, self.n)):
             end = self._end(edge)
-            x, y, end_x, end_y = (
-                self.points[2 * edge],
-                self.points[2 * edge + 1],
-                self.points[2 * end],
-                self.points[2 * end + 1],
-            )
+            x, y = self.points[2 * edge], self.points[2 * edge + 1]
+            end_x, end_y = self.points[2 * end], self.points[2 * end + 1]
             low_x, low_y = min(low_x, x, end_x), min(low_y, y, end_y)
             high_x, high_y = max(high_x, x, end_x), max(high_y, y, end_y)
-        self._put_box(node, low_x, low_y, high_x, high_y)
+        side, at = self.side, 4 * group
+        side[at], side[at + 1], side[at + 2], side[at + 3] = low_x, low_y, high_x, high_y
+
+    def _halve(self, low: int, high: int, axis: int) -> None:
+        """Sort groups of edges in some places into halves along an axis, and those along the other one."""
+        if high - low > 1:
+            middle = (low + high) // 2
+            if middle < self.groups:
+                self._select(low, min(high, self.groups) - 1, middle, axis)
+                self._halve(middle, high, 1 - axis)
+            self._halve(low, middle, 1 - axis)
+
+    def _select(self, low: int, high: int, place: int, axis: int) -> None:
+        """Sort groups in some places until none before one of these lies further along than those from it on (Hoare)."""
+        order = self.order
+        while low < high:
+            pivot = self._along(order[(low + high) // 2], axis)
+            up, down = low, high
+            while up <= down:
+                while self._along(order[up], axis) < pivot:
+                    up += 1
+                while self._along(order[down], axis) > pivot:
+                    down -= 1
+                if up <= down:
+                    order[up], order[down] = order[down], order[up]
+                    up, down = up + 1, down - 1
+            if place <= down:
+                high = down
+            elif place >= up:
+                low = up
+            else:
+                low = high
+
+    def _along(self, group: int, axis: int) -> float:
+        """Return half of about how far along an axis the box of a group lies: nothing overflows."""
+        return self.side[4 * group + axis] / 4 + self.side[4 * group + 2 + axis] / 4
 
     def _join_boxes(self, node: int) -> None:
         box, one, other = self.box, 8 * node, 8 * node + 4
@@ -189,13 +305,18 @@ class Nesting:
         box, at = self.box, 4 * node
         if box[at] < self.x and box[at + 2] >= self.least and box[at + 1] <= self.y < box[at + 3]:
             if node >= self.leaves:
-                start = _GROUP * (node - self.leaves)
+                start = _GROUP * self.order[node - self.leaves]
                 for edge in range(start, min(start + _GROUP, self.n)):
                     self._pass_edge(edge)
             else:
-                first = 2 * node if box[8 * node + 2] > box[8 * node + 6] else 2 * node + 1
+                first = 2 * node if self._is_nearer(8 * node, 8 * node + 4) else 2 * node + 1
                 self._look(first)
                 self._look(4 * node + 1 - first)
+
+    def _is_nearer(self, one: int, other: int) -> bool:
+        """Tell which of two boxes is to be looked at first: what of it is on the left reaches further, or begins there."""
+        here, there = min(self.box[one + 2], self.x), min(self.box[other + 2], self.x)
+        return here > there or (here == there and self.box[one] > self.box[other])
 
     def _pass_edge(self, edge: int) -> None:
         """Note an edge of another group that the ray may meet first, and about where it surely meets one."""
@@ -255,15 +376,9 @@ class Nesting:
             self.is_convex[loop] = 1 if sign > 0 else 0
 
     def join(
-        self,
-        corner: WholeBuffer,
-        met: WholeBuffer,
-        passed: WholeBuffer,
-        dart: WholeBuffer,
-        beyond: WholeBuffer,
-        left: WholeBuffer,
+        self, corner: WholeBuffer, met: WholeBuffer, passed: WholeBuffer, found: Bridges, following: WholeBuffer
     ) -> None:
-        """Find darts at both ends of the rays, with the cell between them on their left, and the winding numbers.
+        """Find the winding numbers, and the bridges where rays meet something.
 
         Parameters
         ----------
@@ -271,23 +386,56 @@ class Nesting:
             The corners of all groups from left to right, and the edges that their rays meet, or −1.
         passed : buffer of g int
             How many visits come before those places, on earlier loops too.
-        dart, beyond : buffer of g int
-            Room for the darts at the corners, and for those met, or −1.
-        left : buffer of int
-            Room for the winding number on the left of each border.
+        found : Bridges
+            Room for what is found.
+        following : buffer of int
+            Room for the dart that follows each around the cell on its left.
         """
-        self.is_known, self.stack = whole_room(self.loops), whole_room(self.loops)
-        self._wind_along(left)
+        self.is_known, self.stack, self.outer = (
+            whole_room(self.loops),
+            whole_room(self.loops),
+            whole_room(len(following)),
+        )
+        follow_darts(self.partner, self.ccw, self.first_visit, following, whole_room(2 * len(self.partner)))
+        self._wind_along(found.left)
         for ray in range(len(corner)):
             loop = self.loop[corner[ray]]
-            dart[ray] = 2 * self._border(loop, self._visits_before(corner[ray])) + self.is_convex[loop]
-            beyond[ray], level = -1, 0
+            visits = self._visits_before(corner[ray])
+            dart = 2 * self._border(loop, visits) + self.is_convex[loop]
+            beyond, level = -1, 0
             if met[ray] >= 0:
-                border = self._border(self.loop[met[ray]], passed[ray])
-                is_upward = self.points[2 * met[ray] + 1] < self.points[2 * self._end(met[ray]) + 1]
-                beyond[ray] = 2 * border + (1 if is_upward else 0)
-                level = left[border] - (1 if is_upward else 0)
-            self._wind_group(loop, level + self.is_convex[loop] - left[dart[ray] // 2], left)
+                beyond = 2 * self._border(self.loop[met[ray]], passed[ray]) + self._is_upward(met[ray])
+                level = found.left[beyond // 2] - beyond % 2
+                self._put_feet(found, ray, corner[ray], visits, met[ray], passed[ray])
+            found.dart[ray], found.beyond[ray] = dart, beyond
+            self._wind_group(loop, level + self.is_convex[loop] - found.left[dart // 2], found.left)
+            found.is_bounded[ray] = 0
+            if beyond >= 0:
+                around = self.outer[beyond]
+                found.is_bounded[ray] = 1 if around == 0 else found.is_bounded[around - 1]
+            self._go_round(dart, ray + 1, following)
+
+    def _is_upward(self, edge: int) -> int:
+        """Return 1 if an edge ends higher than it starts, and 0 otherwise."""
+        return 1 if self.points[2 * edge + 1] < self.points[2 * self._end(edge) + 1] else 0
+
+    def _go_round(self, dart: int, group: int, following: WholeBuffer) -> None:
+        """Note that darts go round the outside of a group, from one of them on."""
+        while self.outer[dart] == 0:
+            self.outer[dart] = group
+            dart = following[dart]
+
+    def _put_feet(self, found: Bridges, ray: int, corner: int, visits: int, edge: int, passed: int) -> None:
+        """Write down both ends of a bridge; of several at one height, those from further right pass above."""
+        upward, end, there = 2 * self._is_upward(edge) - 1, self._end(edge), found.bridges + found.count
+        x, y = self.points[2 * corner], self.points[2 * corner + 1]
+        start_x, end_x = self.points[2 * edge], self.points[2 * end]
+        share = share_along(self.points[2 * edge + 1], self.points[2 * end + 1], y) if self.is_rounded else 0.5
+        found.put(found.count, corner, -_FAR, 1, visits, self.loop[corner], x, y)
+        found.put(
+            there, edge, upward * y, upward * (2 + ray), passed, self.loop[edge], start_x + share * (end_x - start_x), y
+        )
+        found.count += 1
 
     def _visits_before(self, point: int) -> int:
         """Return how many visits lie on edges before a point."""

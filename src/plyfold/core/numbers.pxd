@@ -4,6 +4,7 @@ from libc.stdint cimport int64_t
 
 cdef Py_ssize_t _LEAST
 
+@cython.final
 cdef class Numbers:
     cdef readonly int64_t[::1] data
     cdef Py_ssize_t room

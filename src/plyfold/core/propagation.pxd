@@ -1,8 +1,10 @@
 # C types of `propagation.py`.
+cimport cython
 from libc.stdint cimport int64_t
 
 cdef int _LETTERS
 
+@cython.final
 cdef class Parts:
     cdef Py_ssize_t labels
     cdef const int64_t[::1] label, block
@@ -22,6 +24,7 @@ cdef class Parts:
     ) except? -1
     cdef Py_ssize_t _place_parts(self, int64_t[::1] start) except? -1
 
+@cython.final
 cdef class Propagation:
     cdef readonly Parts parts
     cdef readonly Py_ssize_t letters, labels, walked
@@ -44,6 +47,8 @@ cdef class Propagation:
         int64_t[::1] room,
     ) except -1
     cpdef int64_t narrow(self) except? -1
+    cpdef int64_t narrow_further(self, const int64_t[::1] letters) except? -1
+    cdef int64_t _settle_all(self) except? -1
     cpdef Py_ssize_t letters_in_play(self) except? -1
     cdef int _close_rings(self) except -1
     cdef int _link(self, int64_t letter, int64_t following) except -1

@@ -218,15 +218,38 @@ class Propagation:
         int
             −1, or a label that has no partner left: then there is no grouping.
         """
+        for letter in range(self.letters):
+            self.removed_by[letter], self.found[letter] = -1, letter
         for label in range(self.labels):
             self.stop[label] = self.first[label + 1]
             if self.stop[label] == self.first[label]:
                 return label
             self.chosen[label], self.due[label], self.is_due[label] = -1, label, 1
-        for letter in range(self.letters):
-            self.removed_by[letter], self.found[letter] = -1, letter
         self._close_rings()
-        failed, self.next_due, self.n_due = -1, 0, self.labels
+        self.next_due, self.n_due = 0, self.labels
+        return self._settle_all()
+
+    def narrow_further(self, letters: WholeBuffer) -> int:
+        """Take plus letters out of play, in addition to those that went, and look at all labels that this concerns.
+
+        Returns
+        -------
+        int
+            As :meth:`narrow`.
+        """
+        for place in range(len(letters)):
+            letter = letters[place]
+            owner = self.label[letter]
+            self.removed_by[letter] = owner
+            self._remove(letter, owner)
+            self._put_due(owner)
+            if self.stop[owner] == self.first[owner]:
+                return owner
+        return self._settle_all()
+
+    def _settle_all(self) -> int:
+        """Look at all labels that are due; return one that has no partner left, or −1."""
+        failed = -1
         while failed < 0 and self.n_due > 0:
             label = self._take_due()
             if self.chosen[label] < 0:

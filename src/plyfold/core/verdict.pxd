@@ -12,7 +12,9 @@ from plyfold.core.vertices cimport count_vertices, is_tiny
 from plyfold.core.visits cimport VisitsAlong
 
 cdef int _NO, _YES, _NOT_TOLD
+cdef Py_ssize_t _BLOCK
 
+@cython.final
 cdef class PlainCurve:
     cdef readonly Py_ssize_t n, k, borders, cells, letters
     cdef readonly Meetings meetings
@@ -22,20 +24,28 @@ cdef class PlainCurve:
     cdef readonly Letters word
     cdef readonly Propagation propagation
     cdef const double[::1] points
+    cdef Py_ssize_t n_whole, n_real, n_bytes
+    cdef int64_t[::1] following, scratch, whole
     cdef double[::1] real
-    cdef int64_t[::1] following, edge, order, scratch
-    cdef uint8_t[::1] from_right
+    cdef uint8_t[::1] bytes
     cdef readonly double[::1] point
     cdef readonly uint8_t[::1] ccw
     cdef readonly int64_t[::1] visit_edge, partner, left, next_dart, cell_of_dart, cell_darts, cell_start, winding
 
     cpdef bint draw(self, const double[::1] points) except -1
-    @cython.locals(whole=int64_t[::1])
     cdef int _find_crossings(self, Py_ssize_t groups) except -1
+    @cython.locals(
+        edge=int64_t[::1], order=int64_t[::1], from_right=uint8_t[::1], places=double[::1], whole=int64_t[::1]
+    )
     cdef bint _sort_visits(self) except -1
-    @cython.locals(rest=int64_t[::1])
-    cdef int _take_room(self, int64_t[::1] whole, uint8_t[::1] bytes_, double[::1] real) except -1
+    @cython.locals(room=int64_t[::1])
+    cdef int64_t[::1] _whole(self, Py_ssize_t size)
+    @cython.locals(room=double[::1])
+    cdef double[::1] _real(self, Py_ssize_t size)
+    @cython.locals(room=uint8_t[::1])
+    cdef uint8_t[::1] _bytes(self, Py_ssize_t size)
     cpdef int find_direction(self) except -1
+    @cython.locals(whole_curve=int64_t[::1])
     cpdef int find_cells(self) except -1
     @cython.locals(room=int64_t[::1])
     cpdef int write_word(self) except -1

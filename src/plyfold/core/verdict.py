@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from plyfold.core.buffers import RealBuffer, WholeBuffer, byte_room, real_room, whole_room
+from plyfold.core.buffers import RealBuffer, WholeBuffer, byte_room, real_room, rough_room
 from plyfold.core.cell_tree import CellTree, room_for_tree
 from plyfold.core.cells import follow_darts, walk_cells
 from plyfold.core.direction import CurveDirection, outer_dart_of_points
@@ -22,6 +22,8 @@ __all__ = ["NO", "NOT_TOLD", "YES", "PlainCurve", "decide"]
 
 NO, YES, NOT_TOLD = 0, 1, -1
 _NO, _YES, _NOT_TOLD = NO, YES, NOT_TOLD
+# Room is asked for in blocks of so many numbers at least: one of each kind is all that small curves take.
+_BLOCK = 8192
 
 
 class PlainCurve:
@@ -48,7 +50,8 @@ class PlainCurve:
     """
 
     def __init__(self, step: Callable[[], None]) -> None:
-        self.n = self.k = self.borders = self.cells = 0
+        self.n = self.k = self.borders = self.cells = self.letters = 0
+        self.n_whole = self.n_real = self.n_bytes = 0
         self.meetings, self.visits, self.direction = Meetings(step), VisitsAlong(), CurveDirection()
         self.tree, self.word, self.propagation = CellTree(), Letters(), Propagation(step)
 
@@ -62,58 +65,80 @@ class PlainCurve:
         return self.meetings.touches.size == 0 and self._sort_visits()
 
     def _find_crossings(self, groups: int) -> None:
-        whole, n = whole_room(4 * self.n + 2 * groups + 34), self.n
-        self.following, self.scratch = whole[:n], whole[n:]
+        n = self.n
+        self.following, self.scratch = self._whole(n), self._whole(3 * n + 2 * groups + 34)
         for point in range(n):
             self.following[point] = point + 1 if point < n - 1 else 0
-        self.meetings.find(self.points, self.following, real_room(4 * n + 8 * groups), self.scratch)
+        self.meetings.find(self.points, self.following, self._real(4 * n + 8 * groups), self.scratch)
         self.k = self.meetings.crossings.size // 2
 
     def _sort_visits(self) -> bool:
         """Sort the visits; tell whether doubles tell their order."""
-        k, n = self.k, self.n
-        self.borders = max(2 * k, 1)
-        self.cells = k + 2
-        self._take_room(whole_room(12 * k + n + 4 + 15 * self.borders + self.cells), byte_room(3 * k), real_room(8 * k))
+        k = self.k
+        edge, order, from_right = self._whole(2 * k), self._whole(2 * k), self._bytes(k)
+        self.visit_edge, self.partner, self.ccw = self._whole(2 * k), self._whole(2 * k), self._bytes(2 * k)
+        self.point = self._real(4 * k)
         for crossing in range(k):
-            self.edge[crossing] = self.meetings.crossings.data[2 * crossing]
+            edge[crossing] = self.meetings.crossings.data[2 * crossing]
             other = self.meetings.crossings.data[2 * crossing + 1]
-            self.edge[k + crossing], self.from_right[crossing] = other // 2, other % 2
-        self.visits.sort(self.points, self.following, self.edge, self.order, self.real, self.scratch)
+            edge[k + crossing], from_right[crossing] = other // 2, other % 2
+        places, whole = self._real(4 * k), self._whole(self.n + 2 + 2 * k)
+        self.visits.sort(self.points, self.following, edge, order, places, whole)
         if self.visits.unsure.size > 0:
             return False
-        self.visits.join(self.from_right, self.visit_edge, self.partner, self.ccw, self.point)
+        self.visits.join(from_right, self.visit_edge, self.partner, self.ccw, self.point)
         return True
 
-    def _take_room(self, whole: WholeBuffer, bytes_: WholeBuffer, real: RealBuffer) -> None:
-        """Share out room among the visits, darts and cells."""
-        k, borders = self.k, self.borders
-        self.real, self.point = real[: 4 * k], real[4 * k :]
-        self.from_right, self.ccw = bytes_[:k], bytes_[k:]
-        self.edge, self.order = whole[: 2 * k], whole[2 * k : 4 * k]
-        self.visit_edge, self.partner, rest = whole[4 * k : 6 * k], whole[6 * k : 8 * k], whole[8 * k :]
-        self.left, self.next_dart, rest = rest[:borders], rest[borders : 3 * borders], rest[3 * borders :]
-        self.cell_of_dart, self.cell_darts, rest = (
-            rest[: 2 * borders],
-            rest[2 * borders : 4 * borders],
-            rest[4 * borders :],
-        )
-        self.cell_start, self.winding = rest[: 2 * borders + 1], rest[2 * borders + 1 : 2 * borders + 1 + self.cells]
-        self.scratch = rest[2 * borders + 1 + self.cells :]
+    # ---- room --------------------------------------------------------------------------------------------------------
+
+    def _whole(self, size: int) -> WholeBuffer:
+        """Return room for so many whole numbers, with anything in it."""
+        if self.n_whole <= size:
+            self.n_whole = max(size, _BLOCK)
+            self.whole = rough_room(self.n_whole)
+        room, self.whole = self.whole[:size], self.whole[size:]
+        self.n_whole -= size
+        return room
+
+    def _real(self, size: int) -> RealBuffer:
+        """Return room for so many doubles."""
+        if self.n_real <= size:
+            self.n_real = max(size, _BLOCK)
+            self.real = real_room(self.n_real)
+        room, self.real = self.real[:size], self.real[size:]
+        self.n_real -= size
+        return room
+
+    def _bytes(self, size: int) -> WholeBuffer:
+        """Return room for so many truth values."""
+        if self.n_bytes <= size:
+            self.n_bytes = max(size, _BLOCK)
+            self.bytes = byte_room(self.n_bytes)
+        room, self.bytes = self.bytes[:size], self.bytes[size:]
+        self.n_bytes -= size
+        return room
+
+    # ---- the map, and its word ---------------------------------------------------------------------------------------
 
     def find_direction(self) -> None:
         """Find how the curve turns and winds, and turn the map round if need be."""
+        self.borders, self.cells = max(2 * self.k, 1), self.k + 2
+        self.left = self._whole(self.borders)
         outer = outer_dart_of_points(self.points, self.visit_edge)
         self.direction.settle(self.partner, self.ccw, outer, False, self.left)
 
     def find_cells(self) -> None:
         """Walk round the cells."""
-        self.scratch[0], self.scratch[1] = 0, 2 * self.k
-        follow_darts(self.partner, self.ccw, self.scratch[:2], self.next_dart, self.scratch[2:])
-        for dart in range(2 * self.borders):
+        darts = 2 * self.borders
+        self.next_dart, self.cell_of_dart, self.cell_darts = self._whole(darts), self._whole(darts), self._whole(darts)
+        self.cell_start, self.winding = self._whole(darts + 1), self._whole(self.cells)
+        whole_curve = self._whole(2)
+        whole_curve[0], whole_curve[1] = 0, 2 * self.k
+        follow_darts(self.partner, self.ccw, whole_curve, self.next_dart, self._whole(4 * self.k))
+        for dart in range(darts):
             self.cell_of_dart[dart] = -1
         walk_cells(self.next_dart, self.direction.outer, self.cell_darts, self.cell_start, self.cell_of_dart)
-        self.cell_start[self.cells] = 2 * self.borders
+        self.cell_start[self.cells] = darts
         for border in range(self.borders):
             self.winding[self.cell_of_dart[2 * border]] = self.left[border]
             self.winding[self.cell_of_dart[2 * border + 1]] = self.left[border] - 1
@@ -121,22 +146,18 @@ class PlainCurve:
     def write_word(self) -> None:
         """Grow the dual tree, and write the word of the ways out of its pits."""
         cells, borders = self.cells, self.borders
-        for_tree, for_arcs = room_for_tree(cells, borders), room_for_arcs(cells, borders)
-        room = whole_room(for_tree + for_arcs + 2 * borders)
-        self.tree.begin(self.cell_of_dart, self.next_dart, self.winding, room[:for_tree])
+        self.tree.begin(self.cell_of_dart, self.next_dart, self.winding, self._whole(room_for_tree(cells, borders)))
         self.tree.flood()
         self.tree.measure()
-        self.letters = self.word.walk(self.tree, self.tree.ascends, room[for_tree:])
+        room = self._whole(room_for_arcs(cells, borders) + 2 * borders)
+        self.letters = self.word.walk(self.tree, self.tree.ascends, room)
+        self.word.sort(self._whole(room_for_letters(self.letters)))
 
     def has_grouping(self) -> int:
         """Return whether the word has a grouping, if propagation tells."""
-        if self.letters == 0:
-            return _YES
-        word, for_word = self.word, room_for_letters(self.letters)
-        room = whole_room(for_word + room_for_propagation(self.letters, word.labels))
-        word.sort(room[:for_word])
+        word, room = self.word, self._whole(room_for_propagation(self.letters, self.word.labels))
         self.propagation.begin(
-            word.border, word.label, word.block, word.minus, word.first, word.partner, room[for_word:]
+            word.border, word.label, word.block, word.minus, word.first[: word.labels + 1], word.partner, room
         )
         if self.propagation.narrow() >= 0:
             return _NO

@@ -1,10 +1,12 @@
 # C types of `visits.py`.
+cimport cython
 from libc.stdint cimport int64_t, uint8_t
 
 from plyfold.core.numbers cimport Numbers
 
 cdef double _PARAMETER_ERROR, _UNDERFLOW, _FAR
 
+@cython.final
 cdef class VisitsAlong:
     cdef const double[::1] points
     cdef const int64_t[::1] following, edge

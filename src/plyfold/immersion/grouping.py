@@ -1,9 +1,9 @@
 """Groupings of a word: every minus letter joined, no two chords crossing. One grouping is one immersion.
 
 What propagation leaves open is settled interval by interval: the first letter of an interval is either free or the end
-of a chord, and the chord splits the rest into two intervals that no other chord connects. Which intervals can be
-grouped at all is one row of bits per letter, in one Python integer each, so the table for a word of thousands of
-letters takes a fraction of a second; counting and listing then never enter an interval in vain.
+of a chord, and the chord splits the rest into two intervals that no other chord connects. A table tells which intervals
+can be grouped at all. Chords whose inside cannot be are left out, which mostly lets propagation go on nearly to the
+end; counting and listing then never enter an interval in vain.
 """
 
 from __future__ import annotations
@@ -17,7 +17,9 @@ import numpy as np
 
 from plyfold.arrays import Ints
 from plyfold.clock import UNWATCHED, Watch
-from plyfold.immersion.propagation import Conflict, narrow
+from plyfold.core.intervals import Intervals
+from plyfold.immersion.intervals import OpenLetters, lay_out
+from plyfold.immersion.propagation import Conflict, Narrowed, narrow
 from plyfold.immersion.word import Word
 
 __all__ = ["Groupings", "count_groupings", "find_groupings", "list_groupings", "nth_grouping"]
@@ -46,9 +48,9 @@ class Groupings:
         The chords whose first end is at a place: start and end of the interval inside, start of what follows, and the
         plus letter.
     bound : list of bool
-        True where a minus letter is, which cannot stay free.
-    groupable : list of int
-        Bit t of entry s is set if the interval of places from s to s + t (exclusive) has a grouping.
+        True where a minus letter is, which cannot stay free, and where a region ends.
+    table : Intervals or None
+        Which intervals of places can be grouped; None if no letters are open.
     counts : dict of (int, int) to int
         Groupings of the intervals counted so far.
     """
@@ -58,7 +60,7 @@ class Groupings:
     regions: list[Interval]
     openings: list[list[Opening]]
     bound: list[bool]
-    groupable: list[int]
+    table: Intervals | None
     counts: dict[Interval, int] = field(default_factory=dict)
 
 
@@ -68,68 +70,50 @@ def find_groupings(word: Word, watch: Watch = UNWATCHED) -> Groupings | Conflict
     Returns
     -------
     Groupings or Conflict
-        A conflict, which is false, if there is none. Exact. Cost: propagation, and for each region left open with n
-        letters and c chords O(c n / 64) time and O(n² / 16) bytes; regions are small as a rule.
+        A conflict, which is false, if there is none. Exact. Cost: propagation, and for each region left open with k
+        labels, and c chords whose inside can be grouped, O(c k / 64) time, and c k / 4 bytes at most.
     """
     narrowed = narrow(word, watch)
     if isinstance(narrowed, Conflict):
         return narrowed
-    groupings = Groupings(word, narrowed.chosen, [], [], [], [])
-    for region in narrowed.regions:
-        first = len(groupings.groupable)
-        _lay_out(groupings, word, region, watch)
-        if not _has_grouping(groupings, (first, first + len(region))):
+    if not narrowed.regions:
+        return Groupings(word, narrowed.chosen, [], [], [], None)
+    layout = lay_out(word, narrowed.regions, watch)
+    for region, (start, end) in zip(narrowed.regions, layout.regions, strict=True):
+        if not layout.table.has(start, end):
             return narrowed.conflict(region)
-    return groupings
+    return _groupings(*_narrowed_further(narrowed, layout, watch))
 
 
-def _lay_out(groupings: Groupings, word: Word, region: Ints, watch: Watch) -> None:
-    """Add the places of a region, and one more that ends it."""
-    first = len(groupings.groupable)
-    minus = (word.minus[word.label[region]] == region).tolist()
-    openings = _openings(word, region, minus, first)
-    rows = [1] * (len(region) + 1)
-    for place in reversed(range(len(region))):
-        watch.step()
-        row = 1 if minus[place] else 1 | rows[place + 1] << 1
-        for inside, end, behind, _ in openings[place]:
-            if rows[inside - first] >> (end - inside) & 1:
-                row |= rows[behind - first] << (behind - first - place)
-        rows[place] = row
-    groupings.regions.append((first, first + len(region)))
-    groupings.openings.extend([*openings, []])
-    groupings.bound.extend([*minus, False])
-    groupings.groupable.extend(rows)
+def _narrowed_further(narrowed: Narrowed, layout: OpenLetters, watch: Watch) -> tuple[Ints, OpenLetters]:
+    """Leave out the chords whose inside cannot be grouped, and all that does not fit in with those that are left."""
+    misfits = layout.letter[layout.plus[~layout.fits]]
+    if not len(misfits):
+        return narrowed.chosen, layout
+    chosen, gone = narrowed.further(misfits)
+    return chosen, layout.without(gone, watch)
 
 
-def _openings(word: Word, region: Ints, minus: list[bool], first: int) -> list[list[Opening]]:
-    """Return the chords that open at each place: at their minus letters, or with the blocks of their plus letters."""
-    openings: list[list[Opening]] = [[] for _ in minus]
-    minus_place = (first + np.searchsorted(region, word.minus[word.label[region]])).tolist()
-    block_place = (first + np.searchsorted(region, word.block[region])).tolist()
-    for plus, letter in enumerate(region.tolist(), first):
-        bound, block = minus_place[plus - first], block_place[plus - first]
-        if bound < block:
-            openings[bound - first].append((bound + 1, block, plus + 1, letter))
-        elif plus < bound:
-            openings[block - first].append((plus + 1, bound, bound + 1, letter))
-    return openings
-
-
-def _has_grouping(groupings: Groupings, interval: Interval) -> bool:
-    start, end = interval
-    return bool(groupings.groupable[start] >> (end - start) & 1) if start <= end else False
+def _groupings(chosen: Ints, layout: OpenLetters) -> Groupings:
+    openings: list[list[Opening]] = [[] for _ in layout.letter]
+    columns = layout.opens_at, layout.minus, layout.plus, layout.block, layout.letter[layout.plus]
+    for place, minus, plus, block, letter in np.stack(columns, axis=1)[layout.fits].tolist():
+        inside = (minus + 1, block) if minus < block else (plus + 1, minus)
+        openings[place].append((*inside, max(minus, plus) + 1, letter))
+    return Groupings(layout.word, chosen, layout.regions, openings, layout.is_wall.tolist(), layout.table)
 
 
 def _choices(groupings: Groupings, interval: Interval) -> list[tuple[int | None, tuple[Interval, ...]]]:
     """Return what the first letter of an interval may do: the plus letter of its chord, and the intervals left."""
     start, end = interval
+    assert groupings.table is not None
+    has = groupings.table.has
     joined: list[tuple[int | None, tuple[Interval, ...]]] = [
         (plus, ((inside, middle), (behind, end)))
         for inside, middle, behind, plus in groupings.openings[start]
-        if behind <= end and _has_grouping(groupings, (inside, middle)) and _has_grouping(groupings, (behind, end))
+        if behind <= end and has(behind, end)
     ]
-    if not groupings.bound[start] and _has_grouping(groupings, (start + 1, end)):
+    if not groupings.bound[start] and has(start + 1, end):
         joined.append((None, ((start + 1, end),)))
     return joined
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plyfold.arrays import Ints
+from plyfold.arrays import Bools, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.core.buffers import all_flat, flat, whole_room
 from plyfold.core.propagation import Parts, Propagation, room_for_parts, room_for_propagation
@@ -38,16 +38,30 @@ class Narrowed:
         The letters still in play, in order along the curve, region by region: no chord of one joins or crosses another.
     removed_by : (letters,) int
         For each plus letter out of play the label that removed it, −1 for others.
+    propagation : Propagation
+        It can go on.
     """
 
     word: Word
     chosen: Ints
     regions: list[Ints]
     removed_by: Ints
+    propagation: Propagation
 
     def conflict(self, region: Ints) -> Conflict:
         """Return the conflict of a region that turned out to have no grouping."""
         return Conflict(_reasons(self.word, self.removed_by, self.word.label[region].tolist()))
+
+    def further(self, misfits: Ints) -> tuple[Ints, Bools]:
+        """Leave out some of the letters still in play, once: return what is chosen then, and which letters are gone.
+
+        There is a grouping without them, and all groupings are without them.
+        """
+        failed = self.propagation.narrow_further(flat(misfits))
+        assert failed < 0
+        gone = np.ones(len(self.word), dtype=bool)
+        gone[_in_play(self.propagation)] = False
+        return np.array(self.propagation.chosen), gone
 
 
 @dataclass(frozen=True)
@@ -78,8 +92,8 @@ def narrow(word: Word, watch: Watch = UNWATCHED) -> Narrowed | Conflict:
     removed_by = np.asarray(propagation.removed_by)
     if failed >= 0:
         return Conflict(_reasons(word, removed_by, [failed]))
-    left = np.array(propagation.found[: propagation.letters_in_play()])
-    return Narrowed(word, np.array(propagation.chosen), independent_parts(word, left), removed_by.copy())
+    regions = independent_parts(word, _in_play(propagation))
+    return Narrowed(word, np.array(propagation.chosen), regions, removed_by.copy(), propagation)
 
 
 def begin_propagation(word: Word, watch: Watch = UNWATCHED) -> Propagation:
@@ -89,6 +103,12 @@ def begin_propagation(word: Word, watch: Watch = UNWATCHED) -> Propagation:
     letters = word.border, word.label, word.block
     propagation.begin(*all_flat(*letters, word.minus, word.first_partner, word.partner.copy(), room))
     return propagation
+
+
+def _in_play(propagation: Propagation) -> Ints:
+    """Return the letters of the labels that have a choice left."""
+    size = propagation.letters_in_play()
+    return np.array(propagation.found[:size])
 
 
 def _reasons(word: Word, removed_by: Ints, labels: Iterable[int]) -> tuple[int, ...]:
