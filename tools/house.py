@@ -81,7 +81,6 @@ _SMALL = "small drawings are arranged and decided before it is imported, or with
 _STAGE = "its import is the stage that loads libraries, in which no other one's seconds are"
 # Libraries that functions import when they are called: (file, library): the reason.
 LATE = {
-    ("plyfold.arrangement.nesting", "shapely"): _SMALL,
     ("plyfold.arrangement.noding", "shapely"): _SMALL,
     ("plyfold.arrangement.polylines", "shapely"): _SMALL,
     ("plyfold.disk.places", "scipy"): _STAGE,

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from math import inf
+from typing import Any
 
 import numpy as np
 
 from plyfold.arrangement.maps import Code, Map
-from plyfold.arrangement.planar_map import borders_at_visits, number_of_borders
+from plyfold.arrangement.planar_map import borders_at_visits
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.core.buffers import all_flat
 from plyfold.core.marks import Marked, insert_marks
@@ -21,6 +22,7 @@ __all__ = ["AT_VERTEX", "Marks", "cusps_of_outline", "cusps_on_borders", "with_m
 
 # Where on an edge the vertex is that it starts from.
 AT_VERTEX = -inf
+_NO_FEET = np.empty(0, dtype=bool)
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +71,7 @@ class Marks:
         return Marks(*(column[places] for column in self._columns))
 
     @property
-    def _columns(self) -> list[Ints | Floats]:
+    def _columns(self) -> list[Any]:
         return [getattr(self, column.name) for column in fields(self)]
 
 
@@ -99,11 +101,11 @@ def cusps_on_borders(code: Code, cusps: Mapping[int, int], turned_round: bool) -
     return Marks(borders, *_at_vertices(len(cusps)), at, none, np.zeros((len(cusps), 2)), index)
 
 
-def with_marks(plain: Map, marks: Marks, feet: Marks | None = None, is_left: Bools | None = None) -> Map:
+def with_marks(plain: Map, marks: Marks, feet: Marks | None = None, is_left: Bools = _NO_FEET) -> Map:
     """Return the map with marks inserted, which are visits that are their own partners.
 
     ``feet`` are those of bridges, first those where they start, and then those where they end; and ``is_left`` tells
-    for each bridge and either end on which side of the loop the bridge is.
+    for each bridge and either end on which side of the loop the bridge is, shape (b, 2).
     """
     if not (len(marks) or feet):
         return plain
@@ -143,7 +145,7 @@ class _Inserted:
         left, border = np.empty(len(code.left) + new, dtype=np.int64), np.empty_like(code.left)
         marked = Marked(*all_flat(partner, ccw.view(np.uint8), first_visit, left, moved, visit, border))
         plain = all_flat(code.partner, code.ccw.view(np.uint8), code.first_visit, code.left)
-        borders = insert_marks(*plain, *all_flat(marks.loop, marks.at), marked)
+        borders = insert_marks(marked, *plain, *all_flat(marks.loop, marks.at))
         edge, index = np.zeros((2, old + new), dtype=np.int64)
         if len(code.edge) == old:
             edge[moved] = code.edge

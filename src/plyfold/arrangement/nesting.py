@@ -10,6 +10,7 @@ from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -88,7 +89,15 @@ class _Plan:
     def following(self, edge: Ints | int) -> Ints:
         """Return the points at which edges end."""
         loop = np.searchsorted(self.first_point, edge, side="right") - 1
-        return np.where(edge + 1 < self.first_point[loop + 1], edge + 1, self.first_point[loop])
+        return np.asarray(np.where(edge + 1 < self.first_point[loop + 1], edge + 1, self.first_point[loop]))
+
+
+class _Rays(NamedTuple):
+    """The corners of groups, the edges met on the left of them or −1, and how many visits come before those places."""
+
+    corner: Ints
+    met: Ints
+    passed: Ints
 
 
 def nest(
@@ -118,44 +127,21 @@ def nest(
     """
     plan = _Plan(points, first_point, visits, exact, points if exact is None else _ranks(exact))
     first_visit, ccw = np.searchsorted(visits.edge, first_point), visits.ccw.view(np.uint8)
-    found = Nesting(*all_flat(plan.order, first_point, first_visit, visits.edge, visits.partner, ccw), watch.step)
+    found = Nesting(watch.step, *all_flat(plan.order, first_point, first_visit, visits.edge, visits.partner, ccw))
     _find_turns(plan, found)
     corner = found.corner.as_array()
     corner = corner[np.lexsort(plan.order[corner].T[::-1])]
     met = _met_on_the_left(plan, found, corner)
-    passed = _visits_passed(plan, met, corner)
-    is_met, n_borders = met >= 0, number_of_borders(first_visit)
-    n_bridges = np.count_nonzero(is_met)
-    (dart, beyond, is_bounded), left = np.empty((3, len(corner)), dtype=np.int64), np.empty(n_borders, dtype=np.int64)
-    whole, real = np.empty(8 * n_bridges, dtype=np.int64), np.empty(6 * n_bridges)
-    bridges = Bridges(n_bridges, *all_flat(dart, beyond, is_bounded, left, whole, real))
-    found.join(*all_flat(corner, met, passed), bridges, whole_room(2 * n_borders))
-    turning = np.empty(len(first_point) - 1, dtype=np.int64)
-    found.count_turns(flat(turning))
-    (edge, tie, at, loop), along, point = (
-        whole.reshape(4, -1),
-        real[: 2 * n_bridges],
-        real[2 * n_bridges :].reshape(-1, 2),
-    )
-    if exact is not None:
-        _place_feet(plan, met[is_met], corner[is_met], point)
-    return Nest(
-        first_visit,
-        left,
-        turning,
-        outside=dart[~is_met],
-        bridges=np.stack([dart[is_met], beyond[is_met]], axis=1),
-        is_bounded=is_bounded[is_met] == 1,
-        feet=Marks(edge, along, tie, at, loop, point, np.zeros_like(edge)),
-    )
+    return _joined(plan, found, first_visit, _Rays(corner, met, _visits_passed(plan, met, corner)))
 
 
 def same_nest(one: Nest, other: Nest) -> bool:
     """Tell whether loops lie to each other in the same way, as far as bridges from the same vertices tell."""
-    same_darts = np.array_equal(one.outside, other.outside) and np.array_equal(one.bridges, other.bridges)
-    orders = [nest.feet.order for nest in (one, other)]
-    places = [[nest.feet.edge, nest.feet.tie, nest.feet.at] for nest in (one, other)]
-    return same_darts and np.array_equal(*orders) and np.array_equal(*places)
+    here, there = (
+        [nest.outside, nest.bridges, nest.feet.order, nest.feet.edge, nest.feet.tie, nest.feet.at]
+        for nest in (one, other)
+    )
+    return all(map(np.array_equal, here, there))
 
 
 def _ranks(numbers: Reals) -> Floats:
@@ -169,7 +155,7 @@ def _find_turns(plan: _Plan, found: Nesting) -> None:
     if plan.exact is None:
         found.find_turns()
         return
-    here = np.asarray(found.leftmost)
+    here: Ints = np.asarray(found.leftmost)
     after = plan.following(here)
     before = np.where(here == plan.first_point[:-1], plan.first_point[1:], here) - 1
     p, q, r = (plan.exact[point] for point in (before, here, after))
@@ -204,7 +190,7 @@ def _place_and_slope(start: Place, end: Place, height: Fraction) -> tuple[Fracti
 def _visits_passed(plan: _Plan, edge: Ints, corner: Ints) -> Ints:
     """Return how many visits come before the places on edges a little above the heights of vertices."""
     first, last = np.searchsorted(plan.visits.edge, [edge, edge + 1])
-    passed = first.copy()
+    passed: Ints = first.copy()
     for i in np.flatnonzero(first < last).tolist():
         (_, start), (_, end) = plan.ends(int(edge[i]))
         bisect = bisect_right if start < end else bisect_left
@@ -218,6 +204,31 @@ def _share_of_visit(plan: _Plan, visit: int) -> Fraction:
     edge, other = plan.visits.edge[[visit, plan.visits.partner[visit]]].tolist()
     (start, end), (p, q) = plan.ends(edge), plan.ends(other)
     return exact_cross(start, p, p, q) / exact_cross(start, end, p, q)
+
+
+def _joined(plan: _Plan, found: Nesting, first_visit: Ints, rays: _Rays) -> Nest:
+    """Return how loops lie to each other, given what is on the left of each group."""
+    is_met, n_borders = rays.met >= 0, number_of_borders(first_visit)
+    n_feet = 2 * int(is_met.sum())
+    (dart, beyond, is_bounded), left = np.empty((3, len(is_met)), dtype=np.int64), np.empty(n_borders, dtype=np.int64)
+    whole, real = np.empty((4, n_feet), dtype=np.int64), np.empty(3 * n_feet)
+    bridges = Bridges(n_feet // 2, *all_flat(dart, beyond, is_bounded, left, whole, real))
+    found.join(bridges, whole_room(2 * n_borders), *all_flat(*rays))
+    turning = np.empty(len(first_visit) - 1, dtype=np.int64)
+    found.count_turns(flat(turning))
+    edge, tie, at, loop = whole
+    point = real[n_feet:].reshape(-1, 2)
+    if plan.exact is not None:
+        _place_feet(plan, rays.met[is_met], rays.corner[is_met], point)
+    return Nest(
+        first_visit,
+        left,
+        turning,
+        outside=dart[~is_met],
+        bridges=np.stack([dart[is_met], beyond[is_met]], axis=1),
+        is_bounded=is_bounded[is_met] == 1,
+        feet=Marks(edge, real[:n_feet], tie, at, loop, point, np.zeros_like(edge)),
+    )
 
 
 def _place_feet(plan: _Plan, edge: Ints, corner: Ints, point: Floats) -> None:

@@ -2,7 +2,7 @@
 cimport cython
 from libc.stdint cimport int64_t
 
-from plyfold.core.cells cimport representative
+from plyfold.core.cells cimport root_of
 
 @cython.final
 cdef class CellTree:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from plyfold.core.buffers import WholeBuffer
-from plyfold.core.cells import representative
+from plyfold.core.cells import root_of
 
 __all__ = ["CellTree", "room_for_tree"]
 
@@ -91,8 +91,8 @@ class CellTree:
         self.n_saddles = 0
         for place in range(self._sort_by_winding(self._find_borders_between())):
             border = self.rising[place]
-            one = representative(self.joined, self.pit[self.cell_of_dart[2 * border]])
-            other = representative(self.joined, self.pit[self.cell_of_dart[2 * border + 1]])
+            one = root_of(self.joined, self.pit[self.cell_of_dart[2 * border]])
+            other = root_of(self.joined, self.pit[self.cell_of_dart[2 * border + 1]])
             if one != other:
                 self.joined[one] = other
                 self._note_saddle(border)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from plyfold.core.buffers import WholeBuffer, whole_room
 
-__all__ = ["follow_darts", "join_lakes", "representative", "sum_down", "walk_cells", "walk_joined_cells"]
+__all__ = ["follow_darts", "join_lakes", "root_of", "sum_down", "walk_cells", "walk_joined_cells"]
 
 
 def walk_cells(following: WholeBuffer, outer: int, darts: WholeBuffer, start: WholeBuffer, cell: WholeBuffer) -> int:
@@ -141,9 +141,9 @@ def walk_joined_cells(
     for pair in range(len(same_cell) // 2):
         _join_cycles(joined, cycle[same_cell[2 * pair]], cycle[same_cell[2 * pair + 1]])
     number = whole_room(cycles)
-    number[representative(joined, cycle[outside[0]])] = count = 1
+    number[root_of(joined, cycle[outside[0]])] = count = 1
     for dart in range(len(following)):
-        lake = representative(joined, cycle[dart])
+        lake = root_of(joined, cycle[dart])
         if number[lake] == 0:
             count += 1
             number[lake] = count
@@ -153,7 +153,7 @@ def walk_joined_cells(
 
 
 def _walk_cycles(following: WholeBuffer, cycle: WholeBuffer, joined: WholeBuffer) -> int:
-    """Number the cycles of darts from 1 on by their lowest darts, each joined to itself; return the next number."""
+    """Write down the cycles, from 1 on by their lowest darts, each joined to itself; return the next number."""
     count = 1
     for first in range(len(following)):
         if cycle[first] == 0:
@@ -168,7 +168,7 @@ def _walk_cycles(following: WholeBuffer, cycle: WholeBuffer, joined: WholeBuffer
 
 def _join_cycles(joined: WholeBuffer, one: int, other: int) -> None:
     """Join the cells of two cycles."""
-    joined[representative(joined, one)] = representative(joined, other)
+    joined[root_of(joined, one)] = root_of(joined, other)
 
 
 def _list_darts(following: WholeBuffer, cell: WholeBuffer, cells: int, darts: WholeBuffer, start: WholeBuffer) -> None:
@@ -201,7 +201,7 @@ def join_lakes(lake: WholeBuffer, other: WholeBuffer, joined: WholeBuffer, joins
         1 will be written for each border that joins two lakes.
     """
     for border in range(len(lake)):
-        here, there = representative(joined, lake[border]), representative(joined, other[border])
+        here, there = root_of(joined, lake[border]), root_of(joined, other[border])
         if here != there:
             joined[here] = there
             joins[border] = 1
@@ -225,7 +225,7 @@ def sum_down(highest_first: WholeBuffer, drain: WholeBuffer, total: WholeBuffer)
             total[drain[cell]] += total[cell]
 
 
-def representative(joined: WholeBuffer, member: int) -> int:
+def root_of(joined: WholeBuffer, member: int) -> int:
     """Return the member that stands for all that were joined to a member, see `graphs.representative`."""
     while joined[member] != member:
         joined[member] = member = joined[joined[member]]

@@ -35,23 +35,23 @@ class Marked:
 
 
 def insert_marks(
+    marked: Marked,
     partner: WholeBuffer,
     ccw: WholeBuffer,
     first_visit: WholeBuffer,
     left: WholeBuffer,
     loop: WholeBuffer,
     at: WholeBuffer,
-    marked: Marked,
 ) -> int:
     """Insert marks into a code, and return how many borders there are then.
 
     Parameters
     ----------
+    marked : Marked
     partner, ccw, first_visit, left
         A code without marks.
     loop, at : buffer of m int
         The loop of each mark, and the visit before which it comes, in the order of the marks.
-    marked : Marked
     """
     mark = border = new_border = shift = 0
     for number in range(len(first_visit) - 1):

@@ -2,7 +2,7 @@
 cimport cython
 from libc.stdint cimport int64_t, uint8_t
 
-from plyfold.core.cells cimport follow_darts, representative
+from plyfold.core.cells cimport follow_darts, root_of
 from plyfold.core.numbers cimport Numbers
 from plyfold.core.signs cimport exact_sign, rest_of_difference, rest_of_product
 
@@ -60,11 +60,11 @@ cdef class Nesting:
     cpdef int find_turns(self) except -1
     cpdef int join(
         self,
+        Bridges found,
+        int64_t[::1] following,
         const int64_t[::1] corner,
         const int64_t[::1] met,
         const int64_t[::1] passed,
-        Bridges found,
-        int64_t[::1] following,
     ) except -1
     cdef int64_t _is_upward(self, Py_ssize_t edge) except -1
     cdef int _go_round(self, Py_ssize_t dart, int64_t group, int64_t[::1] following) except -1

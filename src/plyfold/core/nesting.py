@@ -6,7 +6,7 @@ from collections.abc import Callable
 from fractions import Fraction
 
 from plyfold.core.buffers import RealBuffer, WholeBuffer, real_room, whole_room
-from plyfold.core.cells import follow_darts, representative
+from plyfold.core.cells import follow_darts, root_of
 from plyfold.core.numbers import Numbers
 from plyfold.core.signs import exact_sign, rest_of_difference, rest_of_product
 
@@ -102,6 +102,8 @@ class Nesting:
 
     Parameters
     ----------
+    step : callable
+        Called now and then; it may raise.
     points : buffer of 2n float
         Coordinates, point after point, loop after loop; or numbers in the same order, which tell no more than that.
     first_point, first_visit : buffers of loops + 1 int
@@ -110,8 +112,6 @@ class Nesting:
         The edge that each visit to a crossing lies on, and the other visit to the same crossing.
     ccw : buffer of v bool
         Whether there the other strand crosses from right to left.
-    step : callable
-        Called now and then; it may raise.
 
     Attributes
     ----------
@@ -125,13 +125,13 @@ class Nesting:
 
     def __init__(
         self,
+        step: Callable[[], None],
         points: RealBuffer,
         first_point: WholeBuffer,
         first_visit: WholeBuffer,
         edge: WholeBuffer,
         partner: WholeBuffer,
         ccw: WholeBuffer,
-        step: Callable[[], None],
     ) -> None:
         self.points, self.first_point, self.first_visit = points, first_point, first_visit
         self.edge, self.partner, self.ccw, self.step = edge, partner, ccw, step
@@ -160,12 +160,12 @@ class Nesting:
         for loop in range(self.loops):
             group[loop] = loop
         for visit in range(len(self.edge)):
-            one = representative(group, self.loop_of_visit[visit])
-            other = representative(group, self.loop_of_visit[self.partner[visit]])
+            one = root_of(group, self.loop_of_visit[visit])
+            other = root_of(group, self.loop_of_visit[self.partner[visit]])
             if one != other:
                 group[max(one, other)] = min(one, other)
         for loop in range(self.loops):
-            group[loop] = representative(group, loop)
+            group[loop] = root_of(group, loop)
 
     def _find_corners(self) -> None:
         """Find the leftmost vertex of each loop, and that of each group, which stays with its first loop."""
@@ -262,7 +262,7 @@ class Nesting:
             self._halve(low, middle, 1 - axis)
 
     def _select(self, low: int, high: int, place: int, axis: int) -> None:
-        """Sort groups in some places until none before one of these lies further along than those from it on (Hoare)."""
+        """Sort groups in some places until none before one place lies further along than those from it on (Hoare)."""
         order = self.order
         while low < high:
             pivot = self._along(order[(low + high) // 2], axis)
@@ -314,7 +314,7 @@ class Nesting:
                 self._look(4 * node + 1 - first)
 
     def _is_nearer(self, one: int, other: int) -> bool:
-        """Tell which of two boxes is to be looked at first: what of it is on the left reaches further, or begins there."""
+        """Tell which of two boxes is to be looked at first: what of it is on the left reaches or begins further."""
         here, there = min(self.box[one + 2], self.x), min(self.box[other + 2], self.x)
         return here > there or (here == there and self.box[one] > self.box[other])
 
@@ -376,20 +376,20 @@ class Nesting:
             self.is_convex[loop] = 1 if sign > 0 else 0
 
     def join(
-        self, corner: WholeBuffer, met: WholeBuffer, passed: WholeBuffer, found: Bridges, following: WholeBuffer
+        self, found: Bridges, following: WholeBuffer, corner: WholeBuffer, met: WholeBuffer, passed: WholeBuffer
     ) -> None:
         """Find the winding numbers, and the bridges where rays meet something.
 
         Parameters
         ----------
-        corner, met : buffer of g int
-            The corners of all groups from left to right, and the edges that their rays meet, or −1.
-        passed : buffer of g int
-            How many visits come before those places, on earlier loops too.
         found : Bridges
             Room for what is found.
         following : buffer of int
             Room for the dart that follows each around the cell on its left.
+        corner, met : buffer of g int
+            The corners of all groups from left to right, and the edges that their rays meet, or −1.
+        passed : buffer of g int
+            How many visits come before those places, on earlier loops too.
         """
         self.is_known, self.stack, self.outer = (
             whole_room(self.loops),
