@@ -8,7 +8,6 @@ cpdef Py_ssize_t walk_cells(
 cpdef int join_lakes(
     const int64_t[::1] lake, const int64_t[::1] other, int64_t[::1] joined, int64_t[::1] joins
 ) except -1
-cpdef int sum_down(const int64_t[::1] highest_first, const int64_t[::1] drain, int64_t[::1] total) except -1
 cpdef int64_t root_of(int64_t[::1] joined, int64_t member) except -1
 @cython.locals(before=int64_t[::1], after=int64_t[::1])
 cpdef int follow_darts(

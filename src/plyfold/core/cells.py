@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from plyfold.core.buffers import WholeBuffer, whole_room
 
-__all__ = ["follow_darts", "join_lakes", "root_of", "sum_down", "walk_cells", "walk_joined_cells"]
+__all__ = ["follow_darts", "join_lakes", "root_of", "walk_cells", "walk_joined_cells"]
 
 
 def walk_cells(following: WholeBuffer, outer: int, darts: WholeBuffer, start: WholeBuffer, cell: WholeBuffer) -> int:
@@ -205,24 +205,6 @@ def join_lakes(lake: WholeBuffer, other: WholeBuffer, joined: WholeBuffer, joins
         if here != there:
             joined[here] = there
             joins[border] = 1
-
-
-def sum_down(highest_first: WholeBuffer, drain: WholeBuffer, total: WholeBuffer) -> None:
-    """Add the total of each cell to that of the cell that it drains into, the highest cells first.
-
-    Parameters
-    ----------
-    highest_first : buffer of int
-        The cells, each before the one that it drains into.
-    drain : buffer of int
-        The lower cell that each cell drains into; a pit itself.
-    total : buffer of int
-        A number for each cell, to which those of all cells above it are added.
-    """
-    for place in range(len(highest_first)):
-        cell = highest_first[place]
-        if drain[cell] != cell:
-            total[drain[cell]] += total[cell]
 
 
 def root_of(joined: WholeBuffer, member: int) -> int:
