@@ -1,6 +1,8 @@
 # C types of `gluing.py`.
+cimport cython
 from libc.stdint cimport int64_t
 
+@cython.final
 cdef class Gluing:
     cdef const int64_t[::1] own, rows, left_sheet, left_sheets, right_sheet, right_sheets
     cdef int64_t[::1] first_row

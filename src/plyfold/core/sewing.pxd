@@ -1,14 +1,18 @@
 # C types of `sewing.py`.
+cimport cython
 from libc.stdint cimport int64_t
 
+@cython.final
 cdef class NamedTree:
     cdef const int64_t[::1] parent, link, partner, winding, first_sheet
     cdef int64_t[::1] name, named, waiting
 
+@cython.final
 cdef class Crossings:
     cdef const int64_t[::1] around, at_start, at_end
     cdef int64_t[::1] unknown, sum_unknown, ready, scratch
 
+@cython.final
 cdef class BorderSeams:
     cdef const int64_t[::1] start
     cdef int64_t[::1] upper
