@@ -7,7 +7,7 @@ from typing import Any, Protocol, TypeAlias, TypeVar, cast, overload
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Buffer", "RealBuffer", "WholeBuffer", "all_flat", "flat", "real_room", "whole_room"]
+__all__ = ["Buffer", "RealBuffer", "WholeBuffer", "all_flat", "flat", "real_room", "short_room", "whole_room"]
 
 _Number = TypeVar("_Number")
 
@@ -52,3 +52,8 @@ def real_room(size: int) -> RealBuffer:
 def whole_room(size: int) -> WholeBuffer:
     """Return so many zeros, for whole numbers of 64 bits."""
     return flat(np.zeros(size, dtype=np.int64))
+
+
+def short_room(size: int) -> WholeBuffer:
+    """Return so many zeros, for whole numbers of 32 bits: for numbers of sheets, where there are very many."""
+    return flat(np.zeros(size, dtype=np.int32))

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from plyfold.arrays import Ints
+from plyfold.core.buffers import all_flat
+from plyfold.core.seams import AGREE, APART, ONCE, Seams, first_fault
 from plyfold.graphs import members_of
-from plyfold.immersion.corners import NO_SEAM, corners, corners_at_feet
-from plyfold.ragged import count_each, starts_of
+from plyfold.immersion.corners import NO_SEAM, corners, corners_at_feet, sides
+from plyfold.ragged import count_each
 
 if TYPE_CHECKING:
     from plyfold.immersion.immersion import Immersion
@@ -19,29 +21,19 @@ if TYPE_CHECKING:
 __all__ = ["conditions"]
 
 
-class _Rows(NamedTuple):
-    """The cells on both sides of all borders, and then of all bridges; where the rows of the gluing start.
-
-    Sheet s on the right of seam e is glued in row ``first[e] + s``.
-    """
-
-    left: Ints
-    right: Ints
-    first: Ints
-
-
 def conditions(immersion: Immersion) -> Iterator[tuple[str, bool]]:
     """Yield in words what has to hold, and whether it does; each relies on those before it. Cost: O(Σ w)."""
     arrangement = immersion.arrangement
-    sheet_cell = np.repeat(np.arange(arrangement.n_cells), arrangement.winding)
-    yield "as many sheets as windings", np.array_equal(immersion.sheet_cell, sheet_cell)
-    rows = _rows(immersion)
-    yield from _along_borders(immersion, rows)
-    yield "the gluings agree around every crossing", _agree_at_crossings(immersion, rows)
+    is_whole = len(immersion.own_sheet) == arrangement.n_borders and len(immersion.glued_to) == immersion.first_pair[-1]
+    yield "every sheet on the right is glued once", is_whole
+    fault = _first_fault(immersion)
+    yield "sheets are glued to sheets on the left", fault != APART
+    yield "every sheet on the left is glued once or has the border for its own", fault != ONCE
+    yield "the gluings agree around every crossing", fault != AGREE
     if len(arrangement.bridges):
-        yield "the gluings agree at the feet of bridges", _agree_at_feet(immersion, rows)
+        yield "the gluings agree at the feet of bridges", _agree_at_feet(immersion)
     if arrangement.cusp_index.any():
-        yield "the sheets wind round every cusp as often as its index says", _wind_round_cusps(immersion, rows)
+        yield "the sheets wind round every cusp as often as its index says", _wind_round_cusps(immersion)
     by_loops = {piece.loops: piece.euler_characteristic for piece in immersion.uncut_pieces}
     yield "every piece has the Euler characteristic that its curves turn", by_loops == _euler_by_loops(immersion)
     yield (
@@ -53,79 +45,57 @@ def conditions(immersion: Immersion) -> Iterator[tuple[str, bool]]:
     )
 
 
-def _rows(immersion: Immersion) -> _Rows:
-    arrangement = immersion.arrangement
-    left, right = arrangement.left_cell, arrangement.right_cell
-    if len(arrangement.bridges):
-        bridged = arrangement.cell_of_dart[arrangement.bridges[:, 0]]
-        left, right = np.append(left, bridged), np.append(right, bridged)
-    return _Rows(left, right, starts_of(arrangement.winding[right]) - immersion.first_sheet[right])
+def _first_fault(immersion: Immersion) -> int:
+    """Look along every border and bridge, and round every crossing."""
+    left, right = sides(immersion.arrangement)
+    first, winding = immersion.first_sheet, immersion.arrangement.winding
+    around, taken = corners(immersion.arrangement), np.zeros(immersion.n_sheets, dtype=np.int32)
+    pairs = immersion.first_pair, immersion.glued_to, immersion.own_sheet
+    return first_fault(Seams(*all_flat(*pairs, first[left], first[right], winding[left])), *all_flat(around, taken))
 
 
-def _along_borders(immersion: Immersion, rows: _Rows) -> Iterator[tuple[str, bool]]:
-    arrangement, first_sheet = immersion.arrangement, immersion.first_sheet
-    left, right, _ = rows
-    lower, upper = arrangement.winding[right], arrangement.winding[left]
-    seam = np.repeat(np.arange(len(right)), lower)
-    glued = np.stack([seam, first_sheet[right[seam]] + count_each(lower)], axis=1)
-    yield "every sheet on the right is glued once", np.array_equal(immersion.gluing[:, :2], glued)
-    inside = left[seam] == immersion.sheet_cell[immersion.gluing[:, 2]]
-    inside_own = arrangement.left_cell == immersion.sheet_cell[immersion.own_sheet]
-    yield "sheets are glued to sheets on the left", bool(inside.all() and inside_own.all())
-    taken = np.zeros(int(upper.sum()), dtype=np.int64)
-    first_taken = starts_of(upper) - first_sheet[left]
-    np.add.at(taken, first_taken[seam] + immersion.gluing[:, 2], 1)
-    np.add.at(taken, first_taken[: arrangement.n_borders] + immersion.own_sheet, 1)
-    yield "every sheet on the left is glued once or has the border for its own", bool((taken == 1).all())
-
-
-def _agree_at_crossings(immersion: Immersion, rows: _Rows) -> bool:
-    """Compare the two ways from the bottom cell to the top cell, and follow the own sheets of both strands."""
-    around, own = corners(immersion.arrangement), immersion.own_sheet
-    a_top, a_bottom, b_top, b_bottom = around.T
-    up = partial(_glued_to, immersion, rows)
-    return (
-        _same_both_ways(immersion, rows, around, up)
-        and np.array_equal(up(b_top, own[a_bottom]), own[a_top])
-        and np.array_equal(up(a_top, own[b_bottom]), own[b_top])
-    )
-
-
-def _agree_at_feet(immersion: Immersion, rows: _Rows) -> bool:
+def _agree_at_feet(immersion: Immersion) -> bool:
     """Do the same at the feet of bridges, where one of the two strands is a loop."""
     around, own = corners_at_feet(immersion.arrangement), immersion.own_sheet
-    if not _same_both_ways(immersion, rows, around, partial(_glued_to_or_itself, immersion, rows)):
+    if not _same_both_ways(immersion, around):
         return False
     for loop, across in (([0, 1], 2), ([2, 3], 0)):
         is_loop = around[:, loop].max(axis=1) < immersion.arrangement.n_borders
         top, bottom = around[is_loop][:, loop].T
-        above = _glued_to_or_itself(immersion, rows, around[is_loop, across], own[bottom])
+        above = _glued_to_or_itself(immersion, around[is_loop, across], own[bottom])
         if not np.array_equal(above, own[top]):
             return False
     return True
 
 
-def _same_both_ways(immersion: Immersion, rows: _Rows, around: Ints, up: Callable[[Ints, Ints], Ints]) -> bool:
+def _same_both_ways(immersion: Immersion, around: Ints) -> bool:
     a_top, a_bottom, b_top, b_bottom = around.T
-    bottom = rows.right[np.maximum(a_bottom, b_bottom)]
+    _, right = sides(immersion.arrangement)
+    bottom = right[np.maximum(a_bottom, b_bottom)]
     sheets = _sheets_over(immersion, bottom)
     at = np.repeat(np.arange(len(around)), immersion.arrangement.winding[bottom])
-    one_way = up(b_top[at], up(a_bottom[at], sheets))
-    return np.array_equal(one_way, up(a_top[at], up(b_bottom[at], sheets)))
+    up = partial(_glued_to_or_itself, immersion)
+    return np.array_equal(up(b_top[at], up(a_bottom[at], sheets)), up(a_top[at], up(b_bottom[at], sheets)))
 
 
-def _glued_to(immersion: Immersion, rows: _Rows, seam: Ints, right_sheet: Ints) -> Ints:
+def _pair(immersion: Immersion, seam: Ints, right_sheet: Ints) -> Ints:
+    """Return which pair of the immersion sheets on the right of seams are in."""
+    _, right = sides(immersion.arrangement)
+    return np.asarray(immersion.first_pair[seam] + right_sheet - immersion.first_sheet[right[seam]])
+
+
+def _glued_to(immersion: Immersion, seam: Ints, right_sheet: Ints) -> Ints:
     """Return the sheets on the left that are glued to sheets on the right of seams."""
-    return np.asarray(immersion.gluing[rows.first[seam] + right_sheet, 2])
+    return immersion.glued_to[_pair(immersion, seam, right_sheet)].astype(np.int64)
 
 
-def _glued_to_or_itself(immersion: Immersion, rows: _Rows, seam: Ints, right_sheet: Ints) -> Ints:
+def _glued_to_or_itself(immersion: Immersion, seam: Ints, right_sheet: Ints) -> Ints:
     """Return the same, and where there is no seam the sheets themselves."""
-    glued = immersion.gluing[:, 2].take(rows.first[seam] + right_sheet, mode="clip")
+    glued = immersion.glued_to.take(_pair(immersion, seam, right_sheet), mode="clip")
     return np.where(seam == NO_SEAM, right_sheet, glued)
 
 
-def _wind_round_cusps(immersion: Immersion, rows: _Rows) -> bool:
+def _wind_round_cusps(immersion: Immersion) -> bool:
     """Turn counter-clockwise from the border after each cusp to the border before it.
 
     That begins on the own sheet of the one, goes down over the other and up again as often as the index says, and ends
@@ -138,24 +108,24 @@ def _wind_round_cusps(immersion: Immersion, rows: _Rows) -> bool:
     sheet = own[after].copy()
     for turn in range(int(index.max())):
         turning = np.flatnonzero(turn < index)
-        down = _glued_from(immersion, rows, before[turning], sheet[turning])
+        down = _glued_from(immersion, before[turning], sheet[turning])
         if (down < 0).any():
             return False
-        sheet[turning] = _glued_to(immersion, rows, after[turning], down)
+        sheet[turning] = _glued_to(immersion, after[turning], down)
     cells = arrangement.right_cell[after]
     at = np.repeat(np.arange(len(cusps)), arrangement.winding[cells])
     right = _sheets_over(immersion, cells)
-    differ = _glued_to(immersion, rows, before[at], right) != _glued_to(immersion, rows, after[at], right)
+    differ = _glued_to(immersion, before[at], right) != _glued_to(immersion, after[at], right)
     return np.array_equal(sheet, own[before]) and np.array_equal(np.bincount(at, differ, len(cusps)), index)
 
 
-def _glued_from(immersion: Immersion, rows: _Rows, seam: Ints, left_sheet: Ints) -> Ints:
+def _glued_from(immersion: Immersion, seam: Ints, left_sheet: Ints) -> Ints:
     """Return the sheets on the right that are glued to sheets on the left, −1 for own sheets."""
-    cells = rows.right[seam]
+    cells = sides(immersion.arrangement)[1][seam]
     right = _sheets_over(immersion, cells)
     at = np.repeat(np.arange(len(seam)), immersion.arrangement.winding[cells])
     found = np.full(len(seam), -1)
-    is_it = _glued_to(immersion, rows, seam[at], right) == left_sheet[at]
+    is_it = _glued_to(immersion, seam[at], right) == left_sheet[at]
     found[at[is_it]] = right[is_it]
     return found
 
