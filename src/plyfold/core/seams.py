@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from plyfold.core.buffers import WholeBuffer
 
-__all__ = ["AGREE", "APART", "ONCE", "Seams", "first_fault"]
+__all__ = ["AGREE", "APART", "ONCE", "GluedSeams", "first_fault"]
 
 AGREE, ONCE, APART = 1, 2, 3
 """The faults: the seams around a crossing do not agree; a sheet on the left is glued twice or not at all; a sheet is
 glued to one that does not lie on the left."""
 
 
-class Seams:
+class GluedSeams:
     """What happens over each border, and then over each bridge.
 
     Parameters
@@ -41,12 +41,12 @@ class Seams:
         self.first_left, self.first_right, self.sheets_left = first_left, first_right, sheets_left
 
 
-def first_fault(seams: Seams, around: WholeBuffer, taken: WholeBuffer) -> int:
+def first_fault(seams: GluedSeams, around: WholeBuffer, taken: WholeBuffer) -> int:
     """Return the first fault, 0 if there is none.
 
     Parameters
     ----------
-    seams : Seams
+    seams : GluedSeams
     around : buffer of 4k int
         The borders at each crossing: a to top, a to bottom, b to top, b to bottom.
     taken : buffer of int
@@ -59,9 +59,9 @@ def first_fault(seams: Seams, around: WholeBuffer, taken: WholeBuffer) -> int:
     >>> from array import array
     >>> start, around, taken = array("q", [0, 0, 1]), array("q", [1, 0, 1, 0]), array("i", [0, 0, 0])
     >>> sides = array("q", [0, 1]), array("q", [0, 0]), array("q", [1, 2])
-    >>> first_fault(Seams(start, array("i", [1]), array("q", [0, 2]), *sides), array("q"), taken)
+    >>> first_fault(GluedSeams(start, array("i", [1]), array("q", [0, 2]), *sides), array("q"), taken)
     0
-    >>> first_fault(Seams(start, array("i", [2]), array("q", [0, 2]), *sides), array("q"), array("i", [0] * 3)) == ONCE
+    >>> first_fault(GluedSeams(start, array("i", [2]), array("q", [0, 2]), *sides), array("q"), array("i", [0] * 3)) == ONCE
     True
     """
     for seam in range(len(seams.first_left)):
@@ -74,7 +74,7 @@ def first_fault(seams: Seams, around: WholeBuffer, taken: WholeBuffer) -> int:
     return 0
 
 
-def _fault_along(seams: Seams, seam: int, taken: WholeBuffer) -> int:
+def _fault_along(seams: GluedSeams, seam: int, taken: WholeBuffer) -> int:
     """Return the fault of a seam: every sheet on the left is to be taken once, with a mark of the seam on it."""
     glued_to = seams.glued_to
     low, mark, left = seams.first_left[seam], seam + 1, seams.sheets_left[seam]
@@ -97,7 +97,7 @@ def _fault_along(seams: Seams, seam: int, taken: WholeBuffer) -> int:
     return ONCE if left else 0
 
 
-def _agree(seams: Seams, a_top: int, a_bottom: int, b_top: int, b_bottom: int) -> bool:
+def _agree(seams: GluedSeams, a_top: int, a_bottom: int, b_top: int, b_bottom: int) -> bool:
     """Tell whether both ways from the bottom to the top of a crossing are the same, and own sheets go on as such."""
     glued_to, first, other = seams.glued_to, seams.start[a_bottom], seams.start[b_bottom]
     past_a = seams.start[b_top] - seams.first_right[b_top]

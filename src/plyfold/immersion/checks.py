@@ -10,7 +10,7 @@ import numpy as np
 
 from plyfold.arrays import Ints
 from plyfold.core.buffers import all_flat
-from plyfold.core.seams import AGREE, APART, ONCE, Seams, first_fault
+from plyfold.core.seams import AGREE, APART, ONCE, GluedSeams, first_fault
 from plyfold.graphs import members_of
 from plyfold.immersion.corners import NO_SEAM, corners, corners_at_feet, sides
 from plyfold.ragged import count_each
@@ -51,7 +51,9 @@ def _first_fault(immersion: Immersion) -> int:
     first, winding = immersion.first_sheet, immersion.arrangement.winding
     around, taken = corners(immersion.arrangement), np.zeros(immersion.n_sheets, dtype=np.int32)
     pairs = immersion.first_pair, immersion.glued_to, immersion.own_sheet
-    return first_fault(Seams(*all_flat(*pairs, first[left], first[right], winding[left])), *all_flat(around, taken))
+    return first_fault(
+        GluedSeams(*all_flat(*pairs, first[left], first[right], winding[left])), *all_flat(around, taken)
+    )
 
 
 def _agree_at_feet(immersion: Immersion) -> bool:
