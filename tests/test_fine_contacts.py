@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import plyfold as pf
 from nightly.contacts import without_touches
-from plyfold.certify import check_pieces
+from plyfold.certify import check_limit, check_pieces
 from plyfold.errors import CurveError, PrecisionError
 from plyfold.mesh.strips import strips_of
 from plyfold.report import verdict
@@ -86,6 +86,7 @@ def judge_everywhere(points, start=0):
         if expected.outward:
             assert without_touches(drawn) == expected.strict
             check_pieces(list(drawn.given.loops), outline, pf.triangulate(outline))
+            check_limit(*pf.limit_of(pf.find_immersion(drawn)))
             areas.add(double_area(outline))
             assert sum(map(double_area_of_piece, pf.decompose(outline))) == double_area(outline)
     assert len(areas) == (1 if expected and expected.outward else 0)
@@ -134,7 +135,9 @@ def test_several_loops_and_cusps(seed):
     drawn.check()
     assert (without_touches(drawn), pf.count_immersions(drawn)) == counts
     if counts[1]:
-        check_pieces(list(drawn.given.loops), outline.points, pf.triangulate(outline), list(drawn.given.cusps))
+        faces, twins = pf.triangulate(outline, twins=True)
+        check_pieces(list(drawn.given.loops), outline.points, faces, list(drawn.given.cusps), twins=twins)
+        check_limit(*pf.limit_of(pf.find_immersion(drawn)))
 
 
 @pytest.mark.parametrize("points", CROWDED)

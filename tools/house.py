@@ -97,6 +97,7 @@ LATE = {
     ("plyfold.outline.direction", "shapely"): _SMALL,
     ("plyfold.outline.given", "shapely"): _SMALL,
     ("plyfold.sat", "pysat"): _STAGE,
+    ("plyfold.surface.files", "trimesh"): "it need not be installed",
     ("plyfold.surface.heights", "scipy"): _STAGE,
 }
 

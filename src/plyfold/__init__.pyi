@@ -19,6 +19,8 @@ from .flat.decompose import decompose as decompose
 from .flat.fills import coverage_mask as coverage_mask
 from .flat.fills import fill as fill
 from .flat.fills import winding_at as winding_at
+from .flat.limit import Limit as Limit
+from .flat.limit import limit_of as limit_of
 from .flat.triangulate import triangulate as triangulate
 from .immersion.blank_word import BlankWord as BlankWord
 from .immersion.blank_word import blank_word as blank_word

@@ -1,5 +1,7 @@
 """The checkers of outlines that touch themselves: right moves and right pieces pass, no spoiled ones do."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -27,6 +29,32 @@ def test_a_limit():
     check_limit(BOW, BOW_APART, BOW_FACES)
     check_limit([BOW], [BOW_APART], BOW_FACES)
     check_limit(BOW_APART, BOW_APART, BOW_FACES)  # nothing was moved
+
+
+def test_moves_that_doubles_cannot_tell():
+    """A bow far from the origin, moved by a millionth of a rounding: strictly outward, in fractions of any kind."""
+    far, off = 2**53 - 4, Fraction(1, 3 * 10**6)
+    given = [(far + int(x), int(y)) for x, y in BOW]
+    moved = [[(x, y + {1: -off, 4: off}.get(point, 0)) for point, (x, y) in enumerate(given)]]
+    check_limit([given], moved, BOW_FACES)
+    check_limit([given], [np.array(moved[0], dtype=object)], BOW_FACES)
+    refused(check_limit, [given], [given], BOW_FACES, match="flat")
+    inward = [[(x, 2 * y - there) for (x, y), (_, there) in zip(given, moved[0], strict=True)]]
+    refused(check_limit, [given], inward, BOW_FACES, match="turned over")
+    for share, outward in ((Fraction(99, 100), True), (1, False), (Fraction(3, 2), False)):
+        aside = [[(x + share * off, y) if point == 1 else (x, y) for point, (x, y) in enumerate(moved[0])]]
+        if outward:
+            check_limit([given], aside, BOW_FACES)
+        else:
+            refused(check_limit, [given], aside, BOW_FACES, match="not outward")
+
+
+def test_twins_must_match():
+    twins = [-1, 3, -1, 1, -1, -1]
+    square, halves = [(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1, 3), (3, 1, 2)]
+    check_limit(square, square, halves, twins=twins)
+    for wrong, match in (([-1] * 5, "one number"), ([-1, 4, -1, -1, 1, -1], "do not match"), ([-1] * 6, "boundary")):
+        refused(check_limit, square, square, halves, twins=wrong, match=match)
 
 
 @pytest.mark.parametrize("scale", [1e-150, 1e150])

@@ -442,6 +442,21 @@ def test_triangles_and_pieces_of_an_outline_that_touches_itself(tmp_path, capsys
     assert [shapely.from_wkt(line).area for line in pieces.read_text().splitlines()] == [1, 1]
 
 
+def test_pieces_of_a_flat_mesh_have_no_vertex_in_common(tmp_path):
+    """A point on an edge is a corner of the pieces on both sides, and two vertices; faces as numbers name it twice."""
+    points = [(0, 0), (4, 0), (4, 2), (3, 2), (2, 0), (1, 2), (0, 2)]
+    file, mesh, faces = (tmp_path / f"pinch{ending}" for ending in (".csv", ".obj", "-faces.csv"))
+    file.write_text("".join(f"{x},{y}\n" for x, y in points))
+    assert main(["triangulate", str(file), "-o", str(mesh), "-o", str(faces)]) == 0
+    vertices = [line.split()[1:3] for line in mesh.read_text().splitlines() if line[0] == "v"]
+    assert np.array(vertices, dtype=float).tolist() == [*map(list, points), [2, 0]]
+    pieces = pf.read(mesh).loops
+    assert sorted(shapely.Polygon(loop).area for loop in pieces) == [3, 3]
+    numbers = np.loadtxt(faces, delimiter=",", skiprows=1, dtype=int)
+    assert numbers.max() == 6
+    assert (numbers == 4).sum() > 1
+
+
 def test_word_prints_the_groupings(capsys):
     assert main(["word", "gallery:milnor"]) == 0
     assert "2 grouping(s)" in capsys.readouterr().out

@@ -11,7 +11,7 @@ from plyfold import compiled
 from plyfold.compiled import run_in_python
 from plyfold.flat.delaunay import delaunay_triangles, flip_edges
 from plyfold.flat.sweep import sweep_triangles
-from plyfold.halfedges import glued_pairs
+from plyfold.halfedges import GluedTriangles, twins_of
 from plyfold.immersion.solve import immersions
 from plyfold.predicates import orient
 from reference import random_curves
@@ -21,23 +21,30 @@ def as_set(faces):
     return {tuple(np.roll(face, -face.argmin()).tolist()) for face in faces}
 
 
-def assert_same_disk(points, faces, found):
+def glued(faces):
+    return GluedTriangles(np.array(faces), twins_of(np.array(faces)))
+
+
+def assert_same_disk(points, faces, triangles):
     """As many triangles, counter-clockwise, glued to a disk with the same boundary: all its corners lie on that."""
+    found, twin = triangles
     assert found.shape == faces.shape
+    assert twin.tolist() == twins_of(found).tolist()
     assert (orient(*points[found].swapaxes(0, 1)) > 0).all()
-    assert len(glued_pairs(found)) == len(found) - 1
+    assert len(triangles.pairs) == len(found) - 1
     sides = {(u, v) for a, b, c in found.tolist() for u, v in ((a, b), (b, c), (c, a))}
     n = len(points)
     assert {side for side in sides if side[::-1] not in sides} == {(i, (i + 1) % n) for i in range(n)}
 
 
-def assert_locally_delaunay(points, found):
+def assert_locally_delaunay(points, triangles):
     """Angles across from an inner edge add up to no more than half a turn; that makes it so everywhere."""
     z = points @ np.array([1, 1j])
+    found = triangles.faces
     corners = np.stack([found, np.roll(found, -1, axis=1), np.roll(found, -2, axis=1)], axis=2).reshape(-1, 3)
     start, end, apex = corners.T
     angle = np.abs(np.angle((z[start] - z[apex]) / (z[end] - z[apex])))
-    one, other = glued_pairs(found).T
+    one, other = triangles.pairs.T
     assert (angle[one] + angle[other]).max(initial=0) < math.pi + 1e-7
 
 
@@ -62,11 +69,13 @@ def disks():
 def test_round_triangles_of_the_same_disk(points):
     for immersion in list(immersions(points))[:3]:
         drawn = immersion.arrangement.curve.points
-        faces = sweep_triangles(immersion)
-        found = delaunay_triangles(drawn, faces)
-        assert_same_disk(drawn, faces, found)
+        swept = sweep_triangles(immersion)
+        found = delaunay_triangles(drawn, swept)
+        assert_same_disk(drawn, swept.faces, found)
         assert_locally_delaunay(drawn, found)
-        assert as_set(flip_edges(drawn, found)) == as_set(found)
+        flipped = flip_edges(drawn, found)
+        assert flipped.twin.tolist() == twins_of(flipped.faces).tolist()
+        assert as_set(flipped.faces) == as_set(found.faces)
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -76,8 +85,8 @@ def test_the_same_as_flips_find(seed):
     points = np.array(random_curves.glued_disk(rng, 50), dtype=np.float64)
     immersion = next(immersions(points))
     drawn = immersion.arrangement.curve.points
-    faces = sweep_triangles(immersion)
-    assert as_set(delaunay_triangles(drawn, faces)) == as_set(flip_edges(drawn, faces))
+    swept = sweep_triangles(immersion)
+    assert as_set(delaunay_triangles(drawn, swept).faces) == as_set(flip_edges(drawn, swept).faces)
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -85,25 +94,25 @@ def test_plain_python_and_machine_code_give_the_same(seed, monkeypatch):
     pytest.importorskip("numba")
     points = np.array(random_curves.ribbon_outline(np.random.default_rng(seed), 200), dtype=np.float64)
     immersion = next(immersions(points))
-    drawn, faces = immersion.arrangement.curve.points, sweep_triangles(immersion)
+    drawn, swept = immersion.arrangement.curve.points, sweep_triangles(immersion)
     found = []
     for machine_code in (False, True):
         monkeypatch.setattr(compiled, "_machine_code_pays", lambda steps, yes=machine_code: yes)
-        found.append(delaunay_triangles(drawn, faces).tolist())
+        found.append([array.tolist() for array in delaunay_triangles(drawn, swept)])
     assert found[0] == found[1]
 
 
 def test_tiny_coordinates_take_fractions():
     points = ladder(9) * 2.0**-600
     immersion = next(immersions(ladder(9)))
-    faces = sweep_triangles(immersion)
+    swept = sweep_triangles(immersion)
     drawn = immersion.arrangement.curve.points
-    assert as_set(delaunay_triangles(points, faces)) == as_set(delaunay_triangles(drawn, faces))
+    assert as_set(delaunay_triangles(points, swept).faces) == as_set(delaunay_triangles(drawn, swept).faces)
 
 
 def test_single_triangle():
     triangle = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
-    assert delaunay_triangles(triangle, np.array([(0, 1, 2)])).tolist() == [[0, 1, 2]]
+    assert delaunay_triangles(triangle, glued([(0, 1, 2)])).faces.tolist() == [[0, 1, 2]]
 
 
 @pytest.mark.parametrize("m", [500, 2000])
@@ -115,7 +124,7 @@ def test_steps_grow_hardly_faster_than_the_points(m, monkeypatch):
     monkeypatch.setattr(module, "wants_flip", lambda *given: steps.append(1) or count(*given))
     points = ladder(m)
     fans = [(i, i + 1, 2 * m - 1) for i in range(m - 1)] + [(m - 1, m + j, m + j + 1) for j in range(m - 1)]
-    found = delaunay_triangles(points, np.array(fans))
+    found = delaunay_triangles(points, glued(fans))
     assert_same_disk(points, np.array(fans), found)
     assert_locally_delaunay(points, found)
     assert len(steps) < 4 * m * math.log2(m)

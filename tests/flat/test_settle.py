@@ -11,6 +11,7 @@ import plyfold as pf
 from plyfold.certify import check_pieces
 from plyfold.errors import CurveError, GeneralPositionError, InputError, NotImmersibleError
 from plyfold.flat.settle import Settled, settle, settled_triangles
+from plyfold.halfedges import GluedTriangles, twins_of
 from plyfold.mesh.refine import given_outline
 from reference import random_curves
 from reference.certificates import is_immersed_disk
@@ -195,7 +196,7 @@ def test_whatever_the_triangles_were(diagonals):
         for a, b, c in product(range(6), repeat=3)
         if a < b < c and {frozenset((a, b)), frozenset((b, c)), frozenset((a, c))} <= hexagon
     ]
-    settled = settle(pf.Curve(PINCH), np.array(faces))
+    settled = settle(pf.Curve(PINCH), GluedTriangles(np.array(faces), twins_of(np.array(faces))))
     assert isinstance(settled, Settled)
     assert {frozenset(settled.point[face].tolist()) for face in settled.faces} == {
         frozenset({0, 4, 5}),
@@ -243,7 +244,9 @@ def test_loops_and_cusps():
             continue
         if immersion:
             drawn, settled = immersion.arrangement.given, settled_triangles(immersion)
-            check_pieces(drawn.loops, drawn.points[settled.point], settled.faces, drawn.cusps)
+            check_pieces(
+                drawn.loops, drawn.points[settled.point], settled.faces, drawn.cusps, twins=settled.triangles.twin
+            )
             places = [rational(drawn.points[settled.point[face]].tolist()) for face in settled.faces]
             outlines = [side for loop in drawn.loops for side in sides(rational(loop.tolist()))]
             assert are_the_same([side for triangle in places for side in sides(triangle)], outlines)

@@ -12,13 +12,15 @@ from plyfold.certify import check_immersed_disk
 from plyfold.errors import GeneralPositionError
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.flat.sweep_line import empty_skip_list, link_above, sweep_order, sweep_plan, unlink
+from plyfold.halfedges import twins_of
 from plyfold.predicates import as_coordinates, turn
 from reference import random_curves
 
 
 def certify(immersion):
     points = immersion.arrangement.curve.points
-    faces = sweep_triangles(immersion)
+    faces, twin = sweep_triangles(immersion)
+    assert twin.tolist() == twins_of(faces).tolist()
     assert faces.shape == (len(points) - 2, 3)
     check_immersed_disk(points, points, faces, boundary=np.arange(len(points)))
     return faces
@@ -81,7 +83,10 @@ def test_a_hundred_sheets():
 def test_beyond_the_products_of_doubles(factor):
     """The same triangles in fractions, where products of coordinates over- or underflow."""
     points = CURVES["ten-gon"].curve.points
-    assert sweep_triangles(pf.find_immersion(points * factor)).tolist() == certify(pf.find_immersion(points)).tolist()
+    assert (
+        sweep_triangles(pf.find_immersion(points * factor)).faces.tolist()
+        == certify(pf.find_immersion(points)).tolist()
+    )
 
 
 def test_order_is_exact():

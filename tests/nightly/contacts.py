@@ -85,8 +85,9 @@ def certified(outline: pf.Outline) -> bool:
     if not immersion:
         return False
     loops, cusps = list(drawn.given.loops), list(drawn.given.cusps)
-    check_limit(loops, list(drawn.outline.loops), pf.triangulate(drawn.outline), cusps)
-    check_pieces(loops, outline.points, pf.triangulate(outline), cusps)
+    check_limit(*pf.limit_of(immersion))
+    faces, twins = pf.triangulate(outline, twins=True)
+    check_pieces(loops, outline.points, faces, cusps, twins=twins)
     certify_sheets(immersion, loops, cusps)
     return True
 

@@ -318,3 +318,24 @@ def random_touching_loops(rng: np.random.Generator) -> list[list[tuple[int, int]
         loop = grid_points(rng, size, int(rng.integers(3, 6)))
         loops += [loop] if any(turns(loop, times) for times in (-1, 1)) else []
     return loops
+
+
+def random_rectangles_with_cusps(rng: np.random.Generator) -> tuple[list[list[tuple[int, int]]], list[list[int]]]:
+    """Two rectangles on a small grid, each with a corner in the other, or on it, which is a cusp."""
+    while True:
+        loops = [_rectangle(rng) for _ in range(2)]
+        inside = [_corners_in(loop, other) for loop, other in zip(loops, loops[::-1], strict=True)]
+        if all(inside):
+            at = [int(rng.choice(corners)) for corners in inside]
+            if loops[0][at[0]] != loops[1][at[1]]:
+                return loops, [[int(corner == here) for corner in range(4)] for here in at]
+
+
+def _rectangle(rng: np.random.Generator) -> list[tuple[int, int]]:
+    (left, right), (low, high) = (sorted(map(int, rng.choice(6, 2, replace=False))) for _ in range(2))
+    return [(left, low), (right, low), (right, high), (left, high)]
+
+
+def _corners_in(one: Sequence[tuple[int, int]], other: Sequence[tuple[int, int]]) -> list[int]:
+    (left, low), (right, high) = other[0], other[2]
+    return [corner for corner, (x, y) in enumerate(one) if left <= x <= right and low <= y <= high]

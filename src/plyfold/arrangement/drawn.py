@@ -8,11 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from plyfold.arrangement.general_position import GeneralPosition, in_general_position
-from plyfold.arrangement.maps import CellWalk, Code, Map, in_bounded_cells, oriented, outer_dart, walked_round
+from plyfold.arrangement.maps import CellWalk, Code, Map, oriented, outer_dart, walked_round
 from plyfold.arrangement.marks import cusps_of_outline, with_marks
 from plyfold.arrangement.nesting import nest
-from plyfold.arrangement.planar_map import windings_of_loops
-from plyfold.arrangement.polylines import polygon_turning_numbers
 from plyfold.clock import Watch
 from plyfold.outline.curve import Outline, backward_numbers
 
@@ -63,19 +61,15 @@ def _drawn_curve(placed: GeneralPosition) -> DrawnMap:
 def _drawn_loops(placed: GeneralPosition, watch: Watch) -> DrawnMap:
     """Return the map of several loops as they are directed."""
     outline, visits = placed.outline, placed.visits
-    exact = placed.exact
-    found = nest(placed.joined, visits, watch, None if exact is None else exact[placed.joined.number])
-    left = windings_of_loops(visits.partner, visits.ccw, found.first_visit, found.outside, found.bridges)
+    found = nest(outline.points, outline.first_point, visits, watch, placed.exact)
     none = np.zeros(len(visits.partner), dtype=np.int64)
-    code = Code(visits.partner, visits.ccw, found.first_visit, left, visits.edge, none)
+    code = Code(visits.partner, visits.ccw, found.first_visit, found.left, visits.edge, none)
     plain = Map(code, found.outside, found.bridges)
-    walked = walked_round(plain)
-    inner = in_bounded_cells(plain, walked)
-    feet = [mark for number in inner for mark in found.feet[number]]
-    is_left = found.bridges[inner] % 2 == 0
-    drawn = with_marks(plain, cusps_of_outline(outline, visits.edge), feet, is_left)
+    inner = found.is_bounded.nonzero()[0]
+    feet = found.feet.taken(np.concatenate([inner, len(found.bridges) + inner]))
+    drawn = with_marks(plain, cusps_of_outline(outline, visits.edge), feet, found.bridges[inner] % 2 == 0)
     crossings = visits.point[np.arange(len(visits.point)) < visits.partner]
-    turning = polygon_turning_numbers(outline.points if exact is None else exact, outline.first_point)
     settled = {"exact_signs": visits.exact_signs, "reversed": bool(placed.turned_round)}
     more = {"given": placed.given, "numbers": placed.numbers, "crossings": crossings, "begun": placed.begun} | settled
-    return DrawnMap(drawn, walked if drawn is plain else walked_round(drawn), turning, outline, more)
+    turning = tuple(found.turning.tolist())
+    return DrawnMap(drawn, walked_round(drawn), turning, outline, more)

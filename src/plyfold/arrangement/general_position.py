@@ -19,7 +19,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from plyfold.arrangement.crossings import Contacts, Visits
+from plyfold.arrangement.crossings import Contacts, Visits, find_contacts, order_visits
 from plyfold.arrangement.crowded_cusps import crowded_cusps, cusps_that_stay, lie_inside, stay_inside
 from plyfold.arrangement.infinitesimal import (
     MovingPoints,
@@ -30,7 +30,7 @@ from plyfold.arrangement.infinitesimal import (
     same_outside,
     signed_pairs,
 )
-from plyfold.arrangement.meetings import JoinedLoops, joined_loops, meetings, visits_along
+from plyfold.arrangement.meetings import meetings, visits_along
 from plyfold.arrangement.nesting import nest, same_nest
 from plyfold.arrangement.noding import Noding, node_outline
 from plyfold.arrangement.outward import are_moved, outward_vectors, whole_vectors, winds_backward
@@ -70,7 +70,6 @@ class GeneralPosition:
         The same points in the same order where they were given, without spikes.
     numbers : (points,) int
         The number that each point has in the outline that came in.
-    joined : JoinedLoops
     visits : Visits
         Of the outline in general position.
     turned_round : bool or None
@@ -85,7 +84,6 @@ class GeneralPosition:
     outline: Outline
     given: Outline
     numbers: Ints
-    joined: JoinedLoops
     visits: Visits
     turned_round: bool | None
     begun: Fractions | None = None
@@ -159,12 +157,11 @@ def without_contacts(
     outline: Outline, policy: Literal["perturb", "raise"], watch: Watch = UNWATCHED
 ) -> GeneralPosition | InContact:
     """Return an outline that is in general position as it is, or what there is to know before points of it move."""
-    joined = _joined(outline)
-    contacts = meetings(joined, watch)
+    contacts = meetings(outline, watch)
     if policy == "raise" or len(contacts.touches) == 0:
-        visits = visits_along(joined, contacts)
+        visits = visits_along(outline, contacts)
         if len(contacts.touches) == 0 and len(visits.triple) == 0:
-            return GeneralPosition(outline, outline, np.arange(len(outline)), joined, visits, None)
+            return GeneralPosition(outline, outline, np.arange(len(outline)), visits, None)
         if policy == "raise":
             raise _not_general(outline, contacts, visits)
     return InContact(outline, *without_spikes(outline), contacts)
@@ -188,10 +185,6 @@ def _not_general(outline: Outline, contacts: Contacts, visits: Visits) -> Genera
         where=_places(outline, contacts, visits),
         hint='move these vertices, or use general_position="perturb"',
     )
-
-
-def _joined(outline: Outline) -> JoinedLoops:
-    return joined_loops(outline.points, outline.first_point)
 
 
 def _places(outline: Outline, contacts: Contacts, visits: Visits) -> list[tuple[float, float]]:
@@ -220,7 +213,7 @@ def _directed(found: InContact, watch: Watch) -> GeneralPosition:
 
 def touching_points(outline: Outline) -> Ints:
     """Return the points of an outline that lie on foreign edges or on each other."""
-    return np.unique(meetings(_joined(outline)).touches[:, 0])
+    return np.unique(meetings(outline).touches[:, 0])
 
 
 # ---- moves -----------------------------------------------------------------------------------------------------------
@@ -265,7 +258,7 @@ def separated(
     same immersions. But only if all of them, or all but two, move outward, all sheets there have a cell in common, so
     that they lie over it in one order, as they must over the single point.
     """
-    touching = _Touching(given, contacts or meetings(_joined(given), watch), sense, watch)
+    touching = _Touching(given, contacts or meetings(given, watch), sense, watch)
     stays, moves = _points_to_move(given, touching.contacts, way)
     scatter = 0
     while scatter < _ATTEMPTS:
@@ -276,14 +269,14 @@ def separated(
         moves, scatter = moves._replace(points=np.union1d(moves.points, more)), scatter + (len(more) == 0)
     raise GeneralPositionError(
         "strands touch or overlap, and cusps that stay hold them together",
-        where=_places(given, touching.contacts, visits_along(_joined(given), touching.contacts)),
+        where=_places(given, touching.contacts, visits_along(given, touching.contacts)),
         hint="move these vertices by hand",
     )
 
 
 def number_of_ways(given: Outline) -> int:
     """Return in how many ways touching points may move: 1, but where cusps lie on each other."""
-    return crowded_cusps(given, meetings(_joined(given))).n_ways if given.has_cusps else 1
+    return crowded_cusps(given, meetings(given)).n_ways if given.has_cusps else 1
 
 
 def _points_to_move(given: Outline, contacts: Contacts, way: int) -> tuple[Ints, _Moves]:
@@ -297,7 +290,7 @@ def _points_to_move(given: Outline, contacts: Contacts, way: int) -> tuple[Ints,
     edges = edge[stays[vertex] & lie_inside(given, contacts)]
     if len(crowded.points):
         # Edges of cusps that give way may go inward; so all others move outward that meet there.
-        edges = np.union1d(edges, visits_along(_joined(given), contacts).triple)
+        edges = np.union1d(edges, visits_along(given, contacts).triple)
     points = np.setdiff1d(np.concatenate([vertex, edges, given.next_point[edges]]), np.flatnonzero(stays))
     return np.flatnonzero(stays), _Moves(points, crowded.points, crowded.way(way))
 
@@ -330,18 +323,17 @@ def _shown(
     Or the edges that meet in one point, however little they move.
     """
     given = touching.given
-    joined = joined_loops(points, given.first_point)
-    found = meetings(joined, touching.watch)
+    found = find_contacts(points, touching.watch, given.first_point)
     wanted, shown = (signed_pairs(some.edges, some.from_right, len(points)) for some in (crossings, found))
     if len(found.touches) or not np.array_equal(wanted, shown):
         return None
-    visits = visits_along(joined, found)
+    visits = order_visits(points, found, given.first_point)
     in_order, together = order_along_edges(motion, visits)
     if len(together):
         return np.unique(together)
-    if len(visits.triple) or not (in_order.all() and _lie_alike(motion, joined, visits)):
+    if len(visits.triple) or not (in_order.all() and _lie_alike(motion, points, given.first_point, visits)):
         return None
-    return _placed(touching, points, joined, visits, motion.places)
+    return _placed(touching, points, visits, motion.places)
 
 
 def _as_begun(touching: _Touching, motion: MovingPoints, crossings: Contacts) -> GeneralPosition | Ints:
@@ -349,12 +341,10 @@ def _as_begun(touching: _Touching, motion: MovingPoints, crossings: Contacts) ->
     visits = begun_visits(motion, crossings)
     if len(visits.triple):
         return np.unique(visits.triple)
-    return _placed(touching, motion.points, _joined(touching.given), visits, motion.places)
+    return _placed(touching, motion.points, visits, motion.places)
 
 
-def _placed(
-    touching: _Touching, points: Floats, joined: JoinedLoops, visits: Visits, begun: Fractions
-) -> GeneralPosition:
+def _placed(touching: _Touching, points: Floats, visits: Visits, begun: Fractions) -> GeneralPosition:
     """Return an outline with its points moved."""
     given = touching.given
     repairs = *given.repairs, *_moves(given.points, points, begun)
@@ -362,15 +352,15 @@ def _placed(
     # that move inward next to all of it.
     cusps = np.concatenate(given.cusps) + (tips(given) if given.has_cusps and touching.sense > 0 else 0)
     outline = outline_of_points(points, given.loop_of_point, cusps, given.rows, repairs)
-    return GeneralPosition(outline, given, np.arange(len(given)), joined, visits, False, begun)
+    return GeneralPosition(outline, given, np.arange(len(given)), visits, False, begun)
 
 
-def _lie_alike(motion: MovingPoints, joined: JoinedLoops, visits: Visits) -> bool:
+def _lie_alike(motion: MovingPoints, points: Floats, first_point: Ints, visits: Visits) -> bool:
     """Tell whether moved loops show their outside where it is, and lie in each other, as when they begin to move."""
-    if joined.is_one_loop:
-        return same_outside(motion, joined.points)
-    begun = replace(joined, points=motion.points[joined.number])
-    return same_nest(nest(joined, visits), nest(begun, visits, exact=motion.moved[joined.number]))
+    if len(first_point) == 2:
+        return same_outside(motion, points)
+    begun = nest(motion.points, first_point, visits, exact=motion.moved)
+    return same_nest(nest(points, first_point, visits), begun)
 
 
 def _steps(points: Floats) -> list[float]:

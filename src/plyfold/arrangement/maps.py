@@ -22,7 +22,6 @@ __all__ = [
     "CellWalk",
     "Code",
     "Map",
-    "in_bounded_cells",
     "numbered_crossings",
     "oriented",
     "outer_dart",
@@ -79,25 +78,9 @@ def oriented(partner: Ints, ccw: Bools, outer: int, is_directed: bool = False) -
 def walked_round(drawn: Map) -> CellWalk:
     """Return the dart after each, where the boundary of each cell starts, their darts, and the cell of each dart."""
     following = next_darts(drawn.code.partner, drawn.code.ccw, drawn.code.first_visit)
-    boundaries = cell_boundaries(following, int(drawn.outside[0]))
-    if len(drawn.outside) + len(drawn.same_cell) > 1:
-        outside = np.stack([np.full_like(drawn.outside, drawn.outside[0]), drawn.outside], axis=1)
-        joined = joined_cells(*boundaries[:2], np.concatenate([drawn.same_cell, outside]))
-        return following, *joined, cell_of_each_dart(*joined)
-    return following, *boundaries
-
-
-def in_bounded_cells(plain: Map, walked: CellWalk) -> list[int]:
-    """Return which of the pairs of darts with the same cell lie in a bounded one."""
-    inner: list[int] = np.flatnonzero(walked[3][plain.same_cell[:, 0]]).tolist()
-    return inner
-
-
-def cell_of_each_dart(cell_start: Ints, cell_darts: Ints) -> Ints:
-    """Return the cell on the left of each dart, given the darts cell by cell."""
-    cell_of_dart = np.empty_like(cell_darts)
-    cell_of_dart[cell_darts] = np.repeat(np.arange(len(cell_start) - 1), np.diff(cell_start))
-    return cell_of_dart
+    if len(drawn.outside) + len(drawn.same_cell) == 1:
+        return following, *cell_boundaries(following, int(drawn.outside[0]))
+    return following, *joined_cells(following, drawn.outside, drawn.same_cell)
 
 
 def numbered_crossings(partner: Ints) -> Ints:

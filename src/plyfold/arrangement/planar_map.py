@@ -11,10 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrays import Bools, Ints
-from plyfold.core.buffers import flat
-from plyfold.core.cells import walk_cells
+from plyfold.core.buffers import all_flat, flat
+from plyfold.core.cells import follow_darts, walk_cells, walk_joined_cells
 from plyfold.errors import GaussCodeError
-from plyfold.graphs import components
 from plyfold.ragged import count_each
 
 __all__ = [
@@ -25,9 +24,9 @@ __all__ = [
     "joined_cells",
     "left_windings",
     "next_darts",
+    "number_of_borders",
     "reversed_code",
     "whitney_turning_number",
-    "windings_of_loops",
 ]
 
 
@@ -88,6 +87,11 @@ def borders_at_visits(first_visit: Ints) -> tuple[Ints, Ints]:
     return before, after
 
 
+def number_of_borders(first_visit: Ints) -> int:
+    """Return how many borders loops have, given the first visit of each and their number."""
+    return int(np.maximum(first_visit[1:] - first_visit[:-1], 1).sum())
+
+
 def next_darts(partner: Ints, ccw: Bools, first_visit: Ints | None = None) -> Ints:
     """Return the dart that follows each dart around the cell on its left, of one loop or of several.
 
@@ -96,12 +100,8 @@ def next_darts(partner: Ints, ccw: Bools, first_visit: Ints | None = None) -> In
     follows itself.
     """
     first_visit = np.array([0, len(partner)]) if first_visit is None else first_visit
-    before, after = borders_at_visits(first_visit)
-    following = np.arange(2 * int(np.maximum(first_visit[1:] - first_visit[:-1], 1).sum()))
-    outgoing, incoming = 2 * after[partner], 2 * before[partner] + 1
-    goes_on = ccw | (partner == np.arange(len(partner)))
-    following[2 * before] = np.where(goes_on, outgoing, incoming)
-    following[2 * after + 1] = np.where(goes_on, incoming, outgoing)
+    following = np.empty(2 * number_of_borders(first_visit), dtype=np.int64)
+    follow_darts(*all_flat(partner, ccw.view(np.uint8), first_visit, following))
     return following
 
 
@@ -135,26 +135,25 @@ def cell_boundaries(following: Ints, outer: int) -> tuple[Ints, Ints, Ints]:
     return np.concatenate([start[:cells], [len(following)]]), darts, cell
 
 
-def joined_cells(cycle_start: Ints, cycle_darts: Ints, same_cell: Ints) -> tuple[Ints, Ints]:
-    """Return the boundaries of cells of which some have several, orbit after orbit, those by their lowest darts.
+def joined_cells(following: Ints, outside: Ints, same_cell: Ints) -> tuple[Ints, Ints, Ints]:
+    """Return what :func:`cell_boundaries` does, of cells of which some have several orbits.
 
     Parameters
     ----------
-    cycle_start, cycle_darts
-        The orbits, as from :func:`cell_boundaries`.
+    following : (darts,) int
+        The dart after each dart around the cell on its left.
+    outside : (o,) int
+        Darts of the unbounded cell.
     same_cell : (m, 2) int
         Pairs of darts on the boundary of the same cell.
 
-    Returns
-    -------
-    cell_start : (cells + 1,) int
-    cell_darts : (darts,) int
-        The unbounded cell first, the others by their lowest darts.
+    Notes
+    -----
+    O(darts). The orbits of a cell follow each other by their lowest darts.
     """
-    size = np.diff(cycle_start)
-    cycle_of_dart = np.empty_like(cycle_darts)
-    cycle_of_dart[cycle_darts] = np.repeat(np.arange(len(size)), size)
-    return cycles_by_cell(cycle_start, cycle_darts, components(len(size), *cycle_of_dart[same_cell].T))
+    darts, start, cell = np.empty((3, len(following)), dtype=np.int64)
+    cells = walk_joined_cells(*all_flat(following, outside, same_cell, darts, start, cell))
+    return np.concatenate([start[:cells], [len(following)]]), darts, cell
 
 
 def cycles_by_cell(cycle_start: Ints, cycle_darts: Ints, cell: Ints) -> tuple[Ints, Ints]:
@@ -163,61 +162,6 @@ def cycles_by_cell(cycle_start: Ints, cycle_darts: Ints, cell: Ints) -> tuple[In
     order = np.lexsort((cycle_darts[cycle_start[:-1]], cell))
     darts = cycle_darts[np.repeat(cycle_start[order], size[order]) + count_each(size[order])]
     return np.append(0, np.cumsum(np.bincount(cell, weights=size).astype(np.int64))), darts
-
-
-def windings_of_loops(partner: Ints, ccw: Bools, first_visit: Ints, outside: Ints, same_cell: Ints) -> Ints:
-    """Return the winding number on the left of each border of several loops.
-
-    Parameters
-    ----------
-    partner, ccw, first_visit
-        The visits to crossings, without marks.
-    outside : (o,) int
-        Darts of the unbounded cell.
-    same_cell : (m, 2) int
-        Pairs of darts that have the same cell on their left; with the crossings and ``outside`` they connect all loops.
-
-    Notes
-    -----
-    O(k), and O(loops) in plain Python.
-    """
-    before, after = borders_at_visits(first_visit)
-    along = _along_each_loop(ccw, first_visit, after)
-    loop = np.repeat(np.arange(len(first_visit) - 1), np.maximum(np.diff(first_visit), 1))
-    # The top cell of a crossing is on the left of both strands.
-    first = np.flatnonzero(ccw)
-    tops = np.stack([2 * before[first], 2 * after[partner[first]]], axis=1)
-    joined = np.concatenate([tops[loop[tops[:, 0] // 2] != loop[tops[:, 1] // 2]], same_cell])
-    level, node = along[joined // 2] - joined % 2, 1 + loop[joined // 2]
-    links = np.concatenate([node, np.stack([np.zeros_like(outside), 1 + loop[outside // 2]], axis=1)])
-    rise = np.concatenate([level[:, 0] - level[:, 1], outside % 2 - along[outside // 2]])
-    return np.asarray(along + _heights(len(first_visit), links, rise)[1 + loop])
-
-
-def _along_each_loop(ccw: Bools, first_visit: Ints, after: Ints) -> Ints:
-    """Return the winding number on the left of each border, less that of its loop's first border."""
-    passed = np.cumsum(np.where(ccw, -1, 1))
-    visits = first_visit[1:] - first_visit[:-1]
-    along, crossed = np.zeros(int(np.maximum(visits, 1).sum()), dtype=np.int64), visits > 0
-    along[after] = passed - passed[first_visit[:-1][crossed]].repeat(visits[crossed])
-    return along
-
-
-def _heights(nodes: int, links: Ints, rise: Ints) -> Ints:
-    """Return a height for each node, 0 for the first: along each link it grows by its rise."""
-    some = np.unique(links[:, 0] * nodes + links[:, 1], return_index=True)[1]
-    beside: list[list[tuple[int, int]]] = [[] for _ in range(nodes)]
-    for (start, end), up in zip(links[some].tolist(), rise[some].tolist(), strict=True):
-        beside[start].append((end, up))
-        beside[end].append((start, -up))
-    height, waiting = {0: 0}, [0]
-    while waiting:
-        node = waiting.pop()
-        for other, up in beside[node]:
-            if other not in height:
-                height[other] = height[node] + up
-                waiting.append(other)
-    return np.array([height[node] for node in range(nodes)])
 
 
 def left_windings(ccw: Bools, outer: int) -> Ints:

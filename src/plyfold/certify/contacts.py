@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
+from math import lcm
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from plyfold.certify.disk import Sides, corners_of_fans, surface_sides
-from plyfold.certify.exact import Bools, Floats, Ints, Loops, as_loops, as_vertices, finite
-from plyfold.certify.immersed import check_immersed_surface, turns_too_many
-from plyfold.certify.places import ExactPlaces, Point, doubles, on_edges, require_positive
+from plyfold.certify.exact import Bools, Floats, Ints, Loops, as_loops, as_vertices, exact_points, finite
+from plyfold.certify.immersed import require_immersed, turns_too_many, walked
+from plyfold.certify.places import ExactPlaces, Point, doubles, on_edges, rationals, require_positive
 from plyfold.errors import CertificateError
 
 __all__ = ["check_boundary", "check_limit", "check_pieces"]
@@ -27,8 +28,13 @@ _Loops: TypeAlias = npt.ArrayLike | Sequence[npt.ArrayLike]
 # ---- the moves -------------------------------------------------------------------------------------------------------
 
 
-def check_limit(
-    loops: _Loops, moved: _Loops, faces: npt.ArrayLike, cusps: _Loops | None = None, free: npt.ArrayLike = ()
+def check_limit(  # noqa: PLR0913, PLR0917 - an outline, where it has moved, and what it bounds there
+    loops: _Loops,
+    moved: _Loops,
+    faces: npt.ArrayLike,
+    cusps: _Loops | None = None,
+    free: npt.ArrayLike = (),
+    twins: npt.ArrayLike | None = None,
 ) -> None:
     """Check that an outline is the limit of outlines of immersed surfaces, which come to it from outside.
 
@@ -37,13 +43,16 @@ def check_limit(
     loops : array_like, shape (n, 2), or a sequence of such
         The points of one closed curve or of several, with the surface on the left of each, as they were given.
     moved : array_like, shape (n, 2), or a sequence of such
-        The same points, some of which were moved a little.
+        The same points, some of which were moved a little; as numbers of any kind, also fractions, which moves may need
+        that are infinitely small.
     faces : array_like of int, shape (m, 3)
         Triangles on the points, numbered loop after loop, that are a surface with the moved outline as its boundary.
     cusps : array_like of int, shape (n,), or a sequence of such, optional
         How many full turns the angle at each point has more than one sees; none by default.
     free : array_like of int, optional
         The numbers of points that may have moved in any direction.
+    twins : array_like of int, shape (3 m,), optional
+        How the triangles are glued, as in :func:`check_immersed_surface`.
 
     Raises
     ------
@@ -71,27 +80,43 @@ def check_limit(
     Traceback (most recent call last):
     plyfold.errors.CertificateError: triangle 1 is flat or turned over, at (1, 1.1), (1, 0.9), (0, 2)
     """
-    outline, goal = as_loops(loops, cusps), as_loops(moved, cusps)
-    if not np.array_equal(outline.first, goal.first):
+    way = _as_way(loops, moved, cusps)
+    n = len(way.given)
+    sides = surface_sides(faces, n, twins)
+    there = rationals(way.moved)
+    require_immersed(sides, walked(replace(way.outline, points=there.near), there.near, sides, np.arange(n)), there)
+    movers = np.flatnonzero([here != gone for here, gone in zip(way.given, way.moved, strict=True)])
+    _require_outward(way, np.setdiff1d(movers, as_vertices(free, n, "the row of free points")))
+    _require_positive_on_the_way(way, np.asarray(faces), movers)
+    _require_no_spike_on_the_way(way, movers)
+
+
+@dataclass(frozen=True, eq=False)
+class _Way:
+    """Where the points of an outline were given, and where they were moved to."""
+
+    outline: Loops
+    given: list[Point]
+    moved: list[Point]
+
+
+def _as_way(loops: _Loops, moved: _Loops, cusps: _Loops | None) -> _Way:
+    outline = as_loops(loops, cusps)
+    if not np.array_equal(outline.first, as_loops(moved, cusps).first):
         raise CertificateError("the moved outline has other numbers of points than the given one")
-    n = len(outline.points)
-    check_immersed_surface(moved, goal.points, faces, np.arange(n), cusps)
-    movers = np.flatnonzero((outline.points != goal.points).any(axis=1))
-    _require_outward(outline, goal, np.setdiff1d(movers, as_vertices(free, n, "the row of free points")))
-    _require_positive_on_the_way(outline, goal, np.asarray(faces), movers)
-    _require_no_spike_on_the_way(outline, goal, movers)
+    return _Way(outline, exact_points(loops), exact_points(moved))
 
 
-def _require_outward(outline: Loops, goal: Loops, movers: Ints) -> None:
+def _require_outward(way: _Way, movers: Ints) -> None:
     """Check that points go to the right of both their edges; a cusp has no outside, and must not go."""
-    before, after = _neighbours(outline)
-    points = doubles(np.concatenate([outline.points, goal.points]))
-    moved = movers + len(outline.points)
+    before, after = _neighbours(way.outline)
+    points = rationals([*way.given, *way.moved])
+    moved = movers + len(way.given)
     inward = points.cross_sign(before[movers], movers, movers, moved) >= 0
     inward |= points.cross_sign(movers, after[movers], movers, moved) >= 0
-    inward |= outline.cusps[movers] > 0
+    inward |= way.outline.cusps[movers] > 0
     if inward.any():
-        raise CertificateError("a point was moved, but not outward", where=outline.points[movers[inward]])
+        raise CertificateError("a point was moved, but not outward", where=way.outline.points[movers[inward]])
 
 
 def _neighbours(outline: Loops) -> tuple[Ints, Ints]:
@@ -102,39 +127,37 @@ def _neighbours(outline: Loops) -> tuple[Ints, Ints]:
     return before, after
 
 
-def _require_positive_on_the_way(outline: Loops, goal: Loops, faces: Ints, movers: Ints) -> None:
+def _require_positive_on_the_way(way: _Way, faces: Ints, movers: Ints) -> None:
     """Check that triangles with corners that moved keep their orientation until these are back."""
     for triangle in np.flatnonzero(np.isin(faces, movers).any(axis=1)).tolist():
-        now, then = _on_the_way(outline, goal, faces[triangle])
+        now, then = _on_the_way(way, faces[triangle])
         first, middle, last = _crosses(_step(now, 0, 1), _step(now, 0, 2), _step(then, 0, 1), _step(then, 0, 2))
         if first < 0 or middle < 0 or last <= 0:
-            where = outline.points[faces[triangle]]
+            where = way.outline.points[faces[triangle]]
             raise CertificateError(f"triangle {triangle} turns over on the way to the points as given", where=where)
 
 
-def _require_no_spike_on_the_way(outline: Loops, goal: Loops, movers: Ints) -> None:
+def _require_no_spike_on_the_way(way: _Way, movers: Ints) -> None:
     """Check that no corner near points that moved doubles back before these are back, nor when they are."""
-    before, after = _neighbours(outline)
+    before, after = _neighbours(way.outline)
     for point in np.unique(np.concatenate([movers, before[movers], after[movers]])).tolist():
         corner = np.array([before[point], point, after[point]])
-        now, then = _on_the_way(outline, goal, corner)
+        now, then = _on_the_way(way, corner)
         arriving, leaving = _step(now, 0, 1), _step(now, 1, 2)
         later = _step(then, 0, 1), _step(then, 1, 2)
         turns = _crosses(arriving, leaving, *later)
         ahead = _crosses(arriving, _turned(leaving), later[0], _turned(later[1]))
         if not (min(turns) > 0 or max(turns) < 0 or min(ahead) > 0):
-            where = outline.points[[point]]
+            where = way.outline.points[[point]]
             raise CertificateError("the outline doubles back on the way to the points as given", where=where)
 
 
-def _on_the_way(outline: Loops, goal: Loops, corners: Ints) -> tuple[list[Whole], list[Whole]]:
+def _on_the_way(way: _Way, corners: Ints) -> tuple[list[Whole], list[Whole]]:
     """Return where three points were given and where they were moved to, in whole multiples of a common unit."""
-    values = np.concatenate([outline.points[corners], goal.points[corners]]).ravel().tolist()
-    ratios = [value.as_integer_ratio() for value in values]
-    unit = max(below for _, below in ratios)
-    whole = [above * (unit // below) for above, below in ratios]
-    places = list(zip(whole[::2], whole[1::2], strict=True))
-    return places[:3], places[3:]
+    places = [*(way.given[corner] for corner in corners), *(way.moved[corner] for corner in corners)]
+    unit = lcm(*(number.denominator for place in places for number in place))
+    whole = [(int(x * unit), int(y * unit)) for x, y in places]
+    return whole[:3], whole[3:]
 
 
 def _step(places: list[Whole], start: int, end: int) -> Whole:
@@ -165,6 +188,8 @@ def check_pieces(  # noqa: PLR0913, PLR0917 - an outline, a mesh, and where it i
     cusps: _Loops | None = None,
     boundary: npt.ArrayLike | None = None,
     along: npt.ArrayLike | None = None,
+    *,
+    twins: npt.ArrayLike | None = None,
 ) -> None:
     """Check that a flat mesh is what an outline that touches itself bounds, cut where it has no width.
 
@@ -183,6 +208,8 @@ def check_pieces(  # noqa: PLR0913, PLR0917 - an outline, a mesh, and where it i
         The vertices on the boundary, and the edge of the outline along which it leaves each of them. Then a vertex
         stands for the exact point of its edge that is nearest to it, as in :func:`check_immersed_surface`; without
         these, it must be on the outline as it is.
+    twins : array_like of int, shape (3 m,), optional
+        How the triangles are glued, as in :func:`check_immersed_surface`.
 
     Raises
     ------
@@ -211,8 +238,8 @@ def check_pieces(  # noqa: PLR0913, PLR0917 - an outline, a mesh, and where it i
     >>> check_pieces(neck, neck, [(0, 1, 7), (0, 7, 8), (2, 3, 4)])
     """
     outline, near = as_loops(loops, cusps), finite(vertices_xy, 2)
-    triangles, vertex = corners_of_fans(faces, len(near))
-    sides = surface_sides(triangles, len(vertex))
+    triangles, vertex = corners_of_fans(faces, len(near), twins)
+    sides = surface_sides(triangles, len(vertex), twins)
     rim = np.flatnonzero(sides.twin < 0)
     start, end = sides.start[rim], sides.end[rim]
     if boundary is None:

@@ -152,14 +152,14 @@ def closed_sides(faces: npt.ArrayLike, n_vertices: int) -> Sides:
     return sides
 
 
-def corners_of_fans(faces: npt.ArrayLike, n_vertices: int) -> tuple[Ints, Ints]:
+def corners_of_fans(faces: npt.ArrayLike, n_vertices: int, twins: npt.ArrayLike | None = None) -> tuple[Ints, Ints]:
     """Cut triangles apart at vertices where only these meet, no sides; return them with numbers for the new vertices.
 
     Also the old number of each of these.
     """
     triangles = as_faces(faces, n_vertices)
     start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
-    twin = _twins(start, end, n_vertices)
+    twin = _twins(start, end, n_vertices) if twins is None else _as_twins(twins, start, end)
     corner = np.arange(len(start))
     across = twin[np.where(corner % 3 == 0, corner + 2, corner - 1)]
     inner = np.flatnonzero(across >= 0)
@@ -189,11 +189,11 @@ def _pieces(sides: Sides, n_vertices: int) -> list[tuple[int, int]]:
     return sorted(zip(loops.tolist(), euler.tolist(), strict=True))
 
 
-def surface_sides(faces: npt.ArrayLike, n_vertices: int) -> Sides:
-    """Return the sides of a mesh that is a surface, with or without boundary."""
+def surface_sides(faces: npt.ArrayLike, n_vertices: int, twins: npt.ArrayLike | None = None) -> Sides:
+    """Return the sides of a mesh that is a surface, with or without boundary; by their ends, or as they are glued."""
     triangles = as_faces(faces, n_vertices)
     start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
-    twin = _twins(start, end, n_vertices)
+    twin = _twins(start, end, n_vertices) if twins is None else _as_twins(twins, start, end)
     sides = Sides(start, end, twin, _boundary_sides(start, twin, n_vertices))
     _require_one_fan_each(sides, n_vertices)
     return sides
@@ -216,6 +216,22 @@ def _twins(start: Ints, end: Ints, n_vertices: int) -> Ints:
     wanted = end * n_vertices + start
     found = order[np.minimum(np.searchsorted(key[order], wanted), len(order) - 1)]
     return np.where(key[found] == wanted, found, -1)
+
+
+def _as_twins(twins: npt.ArrayLike, start: Ints, end: Ints) -> Ints:
+    """Return how sides are glued, if it is in pairs that run along each other in opposite directions."""
+    twin = np.asarray(twins)
+    if twin.shape != start.shape or twin.dtype.kind not in "iu" or twin.min() < -1 or twin.max() >= len(start):
+        raise CertificateError(f"twins are not one number for each of {len(start)} sides, from -1 on")
+    inner = np.flatnonzero(twin >= 0)
+    other = twin[inner]
+    wrong = (twin[other] != inner) | (start[other] != end[inner]) | (end[other] != start[inner])
+    if wrong.any():
+        side = inner[np.argmax(wrong)]
+        raise CertificateError(
+            f"side {side}, from vertex {start[side]} to vertex {end[side]}, and its twin do not match"
+        )
+    return twin.astype(np.int64)
 
 
 def _boundary_sides(start: Ints, twin: Ints, n_vertices: int) -> Ints:

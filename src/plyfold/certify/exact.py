@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import TypeAlias, cast
 
 import numpy as np
@@ -20,6 +21,7 @@ __all__ = [
     "as_loops",
     "as_vertices",
     "different",
+    "exact_points",
     "finite",
     "next_along_loops",
     "pair_keys",
@@ -88,6 +90,12 @@ def as_loops(
     if len(same := np.flatnonzero((found.edges[:, 0] == found.edges[:, 1]).all(axis=1))):
         raise CertificateError("the curve has the same point twice in a row", where=found.points[same[:1]])
     return found
+
+
+def exact_points(loops: npt.ArrayLike | Sequence[npt.ArrayLike]) -> list[tuple[Fraction, Fraction]]:
+    """Return the points of one loop, or of a list of several, as rational numbers: exactly as they are given."""
+    rows = cast("Sequence[npt.ArrayLike]", loops if _are_several(loops) else [loops])
+    return [(Fraction(x), Fraction(y)) for row in rows for x, y in np.asarray(row).tolist()]
 
 
 def _are_several(loops: npt.ArrayLike | Sequence[npt.ArrayLike]) -> bool:

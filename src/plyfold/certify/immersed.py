@@ -80,12 +80,14 @@ def check_immersed_disk(
     require_on_edges(sides, walked(as_loops([curve_points], None if cusps is None else [cusps]), near, sides, boundary))
 
 
-def check_immersed_surface(
+def check_immersed_surface(  # noqa: PLR0913 - an outline, a mesh, where it is on the outline, and how it is glued
     loops: npt.ArrayLike | Sequence[npt.ArrayLike],
     vertices_xy: npt.ArrayLike,
     faces: npt.ArrayLike,
     boundary: npt.ArrayLike,
     cusps: npt.ArrayLike | Sequence[npt.ArrayLike] | None = None,
+    *,
+    twins: npt.ArrayLike | None = None,
 ) -> None:
     """Check that a flat mesh is an immersed surface with an outline as its boundary.
 
@@ -99,6 +101,9 @@ def check_immersed_surface(
         Vertices along the loops, one loop after the other, each from the loop's first point.
     cusps : array_like of int, shape (n,), or a sequence of such, optional
         How many full turns the angle at each point of each loop has more than one sees; none by default.
+    twins : array_like of int, shape (3 m,), optional
+        The side beyond each side of each triangle, −1 on the boundary, for surfaces on which several edges join the
+        same two cusps: side i of triangle t, from its corner i to the next, is 3 t + i. By default corners tell it.
 
     Raises
     ------
@@ -123,7 +128,7 @@ def check_immersed_surface(
     plyfold.errors.CertificateError: the given boundary is not a row of all boundary vertices of the mesh
     """
     near = finite(vertices_xy, 2)
-    sides = surface_sides(faces, len(near))
+    sides = surface_sides(faces, len(near), twins)
     require_on_edges(sides, walked(as_loops(loops, cusps), near, sides, boundary))
 
 

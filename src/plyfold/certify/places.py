@@ -7,11 +7,12 @@ the way to the exact point can do; where that does not decide, in rational numbe
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
-from typing import TypeAlias
+from typing import ClassVar, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -19,7 +20,7 @@ import numpy.typing as npt
 from plyfold.certify.exact import Bools, Floats, Ints
 from plyfold.errors import CertificateError
 
-__all__ = ["ExactPlaces", "are_crossing", "doubles", "on_edges", "require_positive"]
+__all__ = ["ExactPlaces", "Point", "are_crossing", "doubles", "on_edges", "rationals", "require_positive"]
 
 Point: TypeAlias = tuple[Fraction, Fraction]
 Signs: TypeAlias = npt.NDArray[np.int8]
@@ -52,6 +53,8 @@ class ExactPlaces:
     edges: Ints
     off: Floats
     curve: Floats
+    # Whether the doubles were given, and places are what they stand for.
+    doubles_are_given: ClassVar[bool] = True
 
     def of(self, vertices: Ints) -> ExactPlaces:
         """Return the places of some vertices, numbered anew."""
@@ -154,6 +157,30 @@ def doubles(points: Floats) -> ExactPlaces:
     return ExactPlaces(points, nothing, np.zeros(len(points)), np.empty((0, 2, 2)))
 
 
+@dataclass(frozen=True, eq=False)
+class _RationalPlaces(ExactPlaces):
+    """Places that are given in rational numbers."""
+
+    points: Sequence[Point]
+    doubles_are_given: ClassVar[bool] = False
+
+    def of(self, vertices: Ints) -> ExactPlaces:
+        """Return the places of some vertices, numbered anew."""
+        return rationals([self.points[vertex] for vertex in vertices.tolist()])
+
+    def exact(self, vertex: int) -> Point:
+        """Return a place in rational numbers."""
+        return self.points[vertex]
+
+
+def rationals(points: Sequence[Point]) -> ExactPlaces:
+    """Return places that are given in rational numbers, as near to doubles as may be."""
+    near = np.array(points, dtype=np.float64).reshape(-1, 2)
+    is_double = [x == a and y == b for (x, y), (a, b) in zip(points, near.tolist(), strict=True)]
+    off = np.where(is_double, 0.0, np.spacing(np.abs(near).max(axis=1)))
+    return _RationalPlaces(near, np.full((len(near), 2), -1), off, np.empty((0, 2, 2)), points)
+
+
 def on_edges(near: Floats, edges: Ints, curve: Floats, given: Bools) -> ExactPlaces:
     """Return places on edges with these ends; those that are given are doubles, whatever edges they are on."""
     off = np.zeros(len(near))
@@ -215,10 +242,10 @@ def _scaled(directions: Floats) -> tuple[Floats, Floats]:
 
 
 def require_positive(places: ExactPlaces, triangles: Ints) -> None:
-    """Check that all triangles are strictly counter-clockwise, also with the doubles that are near their corners."""
+    """Check that all triangles are strictly counter-clockwise, also with the doubles that were given for corners."""
     a, b, c = triangles.T
     sign, doubt = places.cross_sign_and_doubt(a, b, a, c)
-    again = np.flatnonzero(doubt & (places.off[triangles] > 0).any(axis=1))
+    again = np.flatnonzero(doubt & (places.off[triangles] > 0).any(axis=1) & places.doubles_are_given)
     sign[again] = np.minimum(sign[again], doubles(places.near).turn(triangles[again]))
     if len(bad := np.flatnonzero(sign <= 0)):
         raise CertificateError(f"triangle {bad[0]} is flat or turned over", where=places.near[triangles[bad[0]]])

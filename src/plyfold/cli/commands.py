@@ -18,6 +18,7 @@ from plyfold.cli.lift import add_lift_command
 from plyfold.cli.progress import clear_progress
 from plyfold.cli.repair import add_repair_command
 from plyfold.cli.sketch import add_sketch_command
+from plyfold.cli.standard_output import through_standard_output
 from plyfold.cli.streams import complain, is_of_a_stream, over_any_streams
 from plyfold.errors import NotEmbeddableError, NotImmersibleError, PlyfoldError, TimeLimitError
 from plyfold_command import INTERRUPTED, INTERRUPTED_SENTENCE
@@ -43,6 +44,7 @@ examples:
   plyfold check contour.json --cusp 0:12x2   with a point where the surface turns further than one sees
   plyfold lift loop.svg -o loop.html         the layered surface, as a 3D page for any browser
   plyfold lift loop.csv -o a.glb -o a.obj    as meshes; the ending chooses the format
+  plyfold lift loop.csv -o - --format stl    to standard output
   plyfold draw loop.svg -o loop.png          cells, disk layout, layers and surface in one picture
   plyfold repair stroke.svg -o disk.svg      without its tiny loops, where these keep it from being a disk
   plyfold split loop.svg -o pieces.geojson   simple polygons that cover the disk once
@@ -87,7 +89,7 @@ def main(arguments: list[str] | None = None) -> int:
 def _answer(options: argparse.Namespace) -> int:
     """Run a command, and return its exit code; errors are sentences."""
     try:
-        return int(options.run(options))
+        return int(through_standard_output(options, options.run))
     except (NotImmersibleError, NotEmbeddableError) as error:
         return _complain(options, error, NO_DISK)
     except TimeLimitError as error:

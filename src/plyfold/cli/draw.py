@@ -22,6 +22,7 @@ from plyfold.cli.inputs import (
     write_texts,
 )
 from plyfold.cli.progress import Stopwatch
+from plyfold.cli.standard_output import say_written
 from plyfold.cli.streams import complain
 from plyfold.errors import InputError, NotEmbeddableError, NotImmersibleError
 from plyfold.io.saving import save_bytes
@@ -96,7 +97,7 @@ def _draw(options: argparse.Namespace) -> int:
     if obstruction is not None:
         complain(f"plyfold: {obstruction}")
     for path in options.output:
-        print(f"wrote {path}")
+        say_written(path)
     return DISK if obstruction is None else NO_DISK
 
 
@@ -127,7 +128,7 @@ def _draw_mask(options: argparse.Namespace) -> int:
     print(f"{rows} rows of {columns} pixels, transform {' '.join(f'{number:.12g}' for number in transform)}")
     for path in options.output:
         save_bytes(path, MASK_WRITERS[Path(path).suffix.lower()](mask), options.force)
-        print(f"  wrote {path}")
+        say_written(path)
     return DISK
 
 

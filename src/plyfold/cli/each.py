@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from plyfold.cli.drawing import read_file
 from plyfold.cli.inputs import BAD_INPUT, DISK, NO_DISK, UNKNOWN
+from plyfold.cli.standard_output import asks_for_standard_output
 from plyfold.errors import InputError
 from plyfold_command import INTERRUPTED
 
@@ -54,6 +55,8 @@ def _open(found: list[Contents], options: argparse.Namespace) -> int:
         raise InputError("--index chooses one shape, and --each takes all", hint="give one of them")
     if options.file.startswith("gallery:"):
         raise InputError("a curve of the gallery is one shape", hint="leave out --each")
+    if asks_for_standard_output(options):
+        raise InputError("--each writes several files, and standard output is one", hint="name a file")
     found.append(read_file(options))
     return DISK
 

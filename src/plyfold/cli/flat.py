@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -22,6 +23,7 @@ from plyfold.cli.inputs import (
     write_texts,
 )
 from plyfold.cli.progress import Stopwatch
+from plyfold.cli.standard_output import say_written
 from plyfold.loading import FOR_MESHES, load_libraries
 from plyfold.wording import counted
 
@@ -125,18 +127,24 @@ def _direction(turned: bool) -> str:
 
 def _triangulate(options: argparse.Namespace) -> int:
     from plyfold.flat.triangulate import chosen_immersion, triangulate
-    from plyfold.io.pieces import TRIANGLE_WRITERS
+    from plyfold.io.pieces import as_csv, as_obj
 
     watch = Stopwatch()
-    refuse_outputs(options, tuple(TRIANGLE_WRITERS))
+    refuse_outputs(options, (".obj", ".csv"))
     outline = read_drawing(options, watch)
     arranged = arrange_outline(outline, options, watch)
     say_notes(arranged.outline)
     watch("triangulating")
-    faces, points = triangulate(outline, chosen_immersion(arranged, None)), outline.points
+    immersion = chosen_immersion(arranged, None)
+    faces = triangulate(outline, immersion)
+
+    def mesh() -> str:
+        """Return a mesh of round triangles whose pieces have no vertex in common."""
+        return as_obj(*triangulate(outline, immersion, refine=math.inf))
+
     watch.stop()
     print(f"{len(faces):,} triangles")
-    write_texts(options, {ending: partial(write, points, faces) for ending, write in TRIANGLE_WRITERS.items()})
+    write_texts(options, {".obj": mesh, ".csv": partial(as_csv, faces)})
     return DISK
 
 
@@ -161,7 +169,7 @@ def _unwrap(options: argparse.Namespace) -> int:
     sheets = counted(unwound.immersion.n_sheets, "sheet")
     print(f"{len(unwound.faces):,} triangles in {sheets}, none of them flipped in the disk")
     for path in options.output:
-        print(f"  wrote {path}")
+        say_written(path)
     return DISK
 
 

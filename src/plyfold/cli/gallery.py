@@ -6,6 +6,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from plyfold.cli.inputs import add_format
+from plyfold.cli.standard_output import say_written
 from plyfold.errors import InputError
 from plyfold.io.saving import refuse_existing, refuse_output
 
@@ -24,8 +26,9 @@ def add_gallery_command(commands: Any) -> None:
         "-o",
         "--output",
         metavar="OUT",
-        help="a .csv, .json, .geojson, .wkt or .svg file, all of which are read back exactly",
+        help="a .csv, .json, .geojson, .wkt or .svg file, all of which are read back exactly, or - for standard output",
     )
+    add_format(gallery)
     gallery.add_argument("--all", metavar="DIR", help="save all curves there, as CSV files")
     gallery.add_argument("--force", action="store_true", help="replace existing files")
 
@@ -63,7 +66,7 @@ def _save_curve(options: argparse.Namespace) -> None:
 
     refuse_output(options.output, tuple(OUTLINE_WRITERS), options.force)
     save(named_curve(options.name).outline, options.output, force=options.force)
-    print(f"wrote {options.output}")
+    say_written(options.output)
 
 
 def _save_gallery(options: argparse.Namespace) -> None:
@@ -78,4 +81,4 @@ def _save_gallery(options: argparse.Namespace) -> None:
         refuse_existing(path, options.force)
     for path, named in gallery.items():
         save(named.outline, path, force=options.force)
-        print(f"wrote {path}")
+        say_written(str(path))

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from plyfold.cli.drawing import add_drawing_options, read_outline
 from plyfold.cli.progress import Stopwatch
+from plyfold.cli.standard_output import say_written
 from plyfold.clock import Clock, Watch
 from plyfold.errors import InputError, NotImmersibleError, TimeLimitError
 from plyfold.io.saving import refuse_output, save_bytes
@@ -30,6 +31,7 @@ __all__ = [
     "NO_DISK",
     "UNKNOWN",
     "add_command",
+    "add_format",
     "add_outputs",
     "add_repair",
     "add_time_limit",
@@ -150,8 +152,21 @@ def read_drawing(options: argparse.Namespace, watch: Stopwatch, clock: Clock | N
 
 def add_outputs(command: argparse.ArgumentParser, endings: str) -> None:
     """Give a subcommand the options ``-o``, of which there must be one, and ``--force``."""
-    command.add_argument("-o", "--output", action="append", required=True, metavar="OUT", help=f"one of {endings}")
+    command.add_argument(
+        "-o",
+        "--output",
+        action="append",
+        required=True,
+        metavar="OUT",
+        help=f"one of {endings}; or - for standard output, in the format that --format names",
+    )
+    add_format(command)
     command.add_argument("--force", action="store_true", help="replace existing files, but never the drawing")
+
+
+def add_format(command: argparse.ArgumentParser) -> None:
+    """Give a subcommand the option that names the format of standard output."""
+    command.add_argument("--format", metavar="ENDING", help="the format of what -o - writes to standard output")
 
 
 def read_arrangement(options: argparse.Namespace, watch: Stopwatch, clock: Clock | None = None) -> Arrangement:
@@ -248,7 +263,7 @@ def write_texts(options: argparse.Namespace, content: dict[str, Callable[[], str
     texts = {path: content[Path(path).suffix.lower()]() for path in options.output}
     for path, text in texts.items():
         save_bytes(path, text.encode(), options.force)
-        print(f"  wrote {path}")
+        say_written(path)
 
 
 def title(file: str) -> str:

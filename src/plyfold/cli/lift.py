@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from plyfold.cli.inputs import DISK, add_command, add_outputs, add_repair, add_time_limit, prepare, title
 from plyfold.cli.progress import Stopwatch, timing
+from plyfold.cli.standard_output import say_written
 from plyfold.clock import Clock
 from plyfold.wording import counted
 
@@ -80,7 +81,7 @@ def _lift(options: argparse.Namespace) -> int:
         print(f"  it passes through itself along {len(surface.intersections)} curve(s)")
     print(timing(watch))
     for path in options.output:
-        print(f"  wrote {path}")
+        say_written(path)
     return DISK
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from plyfold.core.buffers import WholeBuffer
+from plyfold.core.buffers import WholeBuffer, whole_room
 
-__all__ = ["join_lakes", "sum_down", "walk_cells"]
+__all__ = ["follow_darts", "join_lakes", "representative", "sum_down", "walk_cells", "walk_joined_cells"]
 
 
 def walk_cells(following: WholeBuffer, outer: int, darts: WholeBuffer, start: WholeBuffer, cell: WholeBuffer) -> int:
@@ -51,6 +51,138 @@ def walk_cells(following: WholeBuffer, outer: int, darts: WholeBuffer, start: Wh
     return count
 
 
+def follow_darts(partner: WholeBuffer, ccw: WholeBuffer, first_visit: WholeBuffer, following: WholeBuffer) -> None:
+    """Find the dart that follows each around the cell on its left, see `planar_map.next_darts`.
+
+    Parameters
+    ----------
+    partner : buffer of int
+        The other visit to the same crossing; a mark is its own partner.
+    ccw : buffer of bool
+        Whether the other strand crosses from right to left.
+    first_visit : buffer of int
+        The first visit of each loop, and their number.
+    following : buffer of int
+        Room for two darts for each border.
+
+    Examples
+    --------
+    >>> from array import array
+    >>> following = array("q", [0] * 4)
+    >>> follow_darts(array("q", [1, 0]), array("B", [1, 0]), array("q", [0, 2]), following)
+    >>> following.tolist()
+    [2, 1, 0, 3]
+    """
+    before, after = whole_room(len(partner)), whole_room(len(partner))
+    border = 0
+    for loop in range(len(first_visit) - 1):
+        start, end = first_visit[loop], first_visit[loop + 1]
+        for visit in range(start, end):
+            after[visit] = border + visit - start
+            before[visit] = after[visit] - 1 if visit > start else border + end - start - 1
+        if end == start:
+            following[2 * border], following[2 * border + 1] = 2 * border, 2 * border + 1
+            border += 1
+        border += end - start
+    for visit in range(len(partner)):
+        other = partner[visit]
+        goes_on, turns_back = 2 * after[other], 2 * before[other] + 1
+        if not (ccw[visit] or other == visit):
+            goes_on, turns_back = turns_back, goes_on
+        following[2 * before[visit]], following[2 * after[visit] + 1] = goes_on, turns_back
+
+
+def walk_joined_cells(
+    following: WholeBuffer,
+    outside: WholeBuffer,
+    same_cell: WholeBuffer,
+    darts: WholeBuffer,
+    start: WholeBuffer,
+    cell: WholeBuffer,
+) -> int:
+    """Walk round every cell as :func:`walk_cells` does, where cells may have several boundary cycles.
+
+    Those of one cell follow each other by their lowest darts.
+
+    Parameters
+    ----------
+    following, darts, start, cell
+        See there.
+    outside : buffer of int
+        Darts of the unbounded cell.
+    same_cell : buffer of int
+        Pairs of darts with the same cell on their left. With ``outside`` they tell of all cycles to which cells they
+        belong.
+
+    Returns
+    -------
+    int
+        How many cells there are.
+
+    Examples
+    --------
+    Two rings, one inside the other.
+
+    >>> from array import array
+    >>> darts, start, cell = array("q", [0] * 4), array("q", [0] * 4), array("q", [-1] * 4)
+    >>> same = walk_joined_cells(array("q", [0, 1, 2, 3]), array("q", [1]), array("q", [2, 0]), darts, start, cell)
+    >>> same, darts.tolist(), start.tolist()[:3], cell.tolist()
+    (3, [1, 0, 2, 3], [0, 1, 3], [1, 0, 1, 2])
+    """
+    cycle, joined = whole_room(len(following)), whole_room(len(following) + 1)
+    cycles = _walk_cycles(following, cycle, joined)
+    for place in range(1, len(outside)):
+        _join_cycles(joined, cycle[outside[0]], cycle[outside[place]])
+    for pair in range(len(same_cell) // 2):
+        _join_cycles(joined, cycle[same_cell[2 * pair]], cycle[same_cell[2 * pair + 1]])
+    number = whole_room(cycles)
+    number[representative(joined, cycle[outside[0]])] = count = 1
+    for dart in range(len(following)):
+        lake = representative(joined, cycle[dart])
+        if number[lake] == 0:
+            count += 1
+            number[lake] = count
+        cell[dart] = number[lake] - 1
+    _list_darts(following, cell, count, darts, start)
+    return count
+
+
+def _walk_cycles(following: WholeBuffer, cycle: WholeBuffer, joined: WholeBuffer) -> int:
+    """Number the cycles of darts from 1 on by their lowest darts, each joined to itself; return the next number."""
+    count = 1
+    for first in range(len(following)):
+        if cycle[first] == 0:
+            joined[count] = count
+            dart = first
+            while cycle[dart] == 0:
+                cycle[dart] = count
+                dart = following[dart]
+            count += 1
+    return count
+
+
+def _join_cycles(joined: WholeBuffer, one: int, other: int) -> None:
+    """Join the cells of two cycles."""
+    joined[representative(joined, one)] = representative(joined, other)
+
+
+def _list_darts(following: WholeBuffer, cell: WholeBuffer, cells: int, darts: WholeBuffer, start: WholeBuffer) -> None:
+    """List the darts cell by cell, cycle after cycle, and note where each cell starts."""
+    size, is_listed = whole_room(cells + 1), whole_room(len(cell))
+    for dart in range(len(cell)):
+        size[cell[dart] + 1] += 1
+    for number in range(cells):
+        start[number] = size[number]
+        size[number + 1] += size[number]
+    for first in range(len(cell)):
+        dart, here = first, cell[first]
+        while is_listed[dart] == 0:
+            is_listed[dart] = 1
+            darts[size[here]] = dart
+            size[here] += 1
+            dart = following[dart]
+
+
 def join_lakes(lake: WholeBuffer, other: WholeBuffer, joined: WholeBuffer, joins: WholeBuffer) -> None:
     """Join the lakes on both sides of each border, one after another, unless they are joined already (Kruskal).
 
@@ -64,7 +196,7 @@ def join_lakes(lake: WholeBuffer, other: WholeBuffer, joined: WholeBuffer, joins
         1 will be written for each border that joins two lakes.
     """
     for border in range(len(lake)):
-        here, there = _representative(joined, lake[border]), _representative(joined, other[border])
+        here, there = representative(joined, lake[border]), representative(joined, other[border])
         if here != there:
             joined[here] = there
             joins[border] = 1
@@ -88,7 +220,7 @@ def sum_down(highest_first: WholeBuffer, drain: WholeBuffer, total: WholeBuffer)
             total[drain[cell]] += total[cell]
 
 
-def _representative(joined: WholeBuffer, member: int) -> int:
+def representative(joined: WholeBuffer, member: int) -> int:
     """Return the member that stands for all that were joined to a member, see `graphs.representative`."""
     while joined[member] != member:
         joined[member] = member = joined[joined[member]]

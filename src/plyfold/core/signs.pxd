@@ -12,6 +12,6 @@ cdef int _sign_of_products(
     double ax, double ay, double bx, double by, double cx, double cy, double dx, double dy
 ) noexcept
 cdef bint _is_exact_product(double a, double b, double c, double d) noexcept
-cdef bint _is_exact_difference(double a, double b) noexcept
+cpdef double rest_of_difference(double a, double b) noexcept
 cdef double _product(double one, double other) noexcept
-cdef double _rest_of_product(double one, double other) noexcept
+cpdef double rest_of_product(double one, double other) noexcept

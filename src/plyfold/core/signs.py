@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from plyfold.predicates import exact_cross
 
-__all__ = ["exact_sign", "quick_sign", "sign_of_fractions"]
+__all__ = ["exact_sign", "quick_sign", "rest_of_difference", "rest_of_product", "sign_of_fractions"]
 
 # What is neither sign, nor zero: it takes fractions to tell.
 _OPEN = 2
@@ -64,7 +64,7 @@ def _sign_of_products(ax: float, ay: float, bx: float, by: float, cx: float, cy:
     # Rounding is monotone: products that round to different numbers differ in the same sense.
     if left != right:
         return 1 if left > right else -1
-    left_rest, right_rest = _rest_of_product(bx - ax, dy - cy), _rest_of_product(by - ay, dx - cx)
+    left_rest, right_rest = rest_of_product(bx - ax, dy - cy), rest_of_product(by - ay, dx - cx)
     return 1 if left_rest > right_rest else -1 if left_rest < right_rest else 0
 
 
@@ -72,16 +72,16 @@ def _is_exact_product(a: float, b: float, c: float, d: float) -> bool:
     """Tell whether (b − a)(d − c) is the sum of two doubles, its product and its rest."""
     if a == b or c == d:
         return True
-    size, rest = abs(_product(b - a, d - c)), _rest_of_product(b - a, d - c)
+    size, rest = abs(_product(b - a, d - c)), rest_of_product(b - a, d - c)
     is_safe = _SMALL_PRODUCT < size < _LARGE_PRODUCT and rest - rest == 0.0
-    return is_safe and _is_exact_difference(a, b) and _is_exact_difference(c, d)
+    return is_safe and rest_of_difference(a, b) == 0.0 == rest_of_difference(c, d)
 
 
-def _is_exact_difference(a: float, b: float) -> bool:
-    """Tell whether b − a is not rounded (the error term of Knuth's two-sum is zero)."""
+def rest_of_difference(a: float, b: float) -> float:
+    """Return what rounding takes off b − a (the error term of Knuth's two-sum)."""
     difference = b - a
     minus_a = difference - b
-    return (b - (difference - minus_a)) - (a + minus_a) == 0.0
+    return (b - (difference - minus_a)) - (a + minus_a)
 
 
 def _product(one: float, other: float) -> float:
@@ -89,7 +89,7 @@ def _product(one: float, other: float) -> float:
     return 0.0 if one == 0.0 or other == 0.0 else one * other
 
 
-def _rest_of_product(one: float, other: float) -> float:
+def rest_of_product(one: float, other: float) -> float:
     """Return what rounding takes off a product (Dekker); both numbers are split into two of 26 bits (Veltkamp)."""
     if one == 0.0 or other == 0.0:
         return 0.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import permutations, product
 from typing import TYPE_CHECKING, Literal, overload
 
 import numpy as np
@@ -14,12 +15,14 @@ from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import InputError, PrecisionError
 from plyfold.flat.delaunay import delaunay_triangles
 from plyfold.flat.layers import signed_layers
-from plyfold.flat.settle import settled_by_points
+from plyfold.flat.settle import settled_triangles
 from plyfold.flat.triangulate import chosen_immersion
 from plyfold.graphs import components, spanning_tree
-from plyfold.halfedges import ends_of, glued_pairs
+from plyfold.halfedges import GluedTriangles, ends_of
 from plyfold.immersion.immersion import Immersion
-from plyfold.mesh.refine import drawn_outline, given_outline
+from plyfold.mesh.refine import given_outline
+from plyfold.mesh.strips import as_numbers
+from plyfold.outline.curve import Outline
 from plyfold.outline.given import OutlineLike, as_outline
 from plyfold.outline.points import refuse_tiny
 from plyfold.predicates import orient
@@ -112,14 +115,15 @@ def _pieces_of_immersion(chosen: Immersion) -> list[Polygon]:
     """Return the polygons of an immersed surface."""
     drawn = chosen.arrangement
     refuse_tiny(given_outline(drawn).points, "polygons")
-    settled = settled_by_points(chosen)
+    settled = settled_triangles(chosen)
     points = given_outline(drawn).points[settled.point]
     # Round triangles overlap fewer others than long ones.
-    faces = delaunay_triangles(points, settled.faces)
+    triangles = delaunay_triangles(points, settled.triangles)
     if not chosen.is_disk or drawn.cusp_index.any():
-        return _pieces_of_surface(points, faces, np.concatenate(drawn_outline(drawn).cusps)[settled.point] > 0)
+        return _pieces_of_surface(points, triangles, _may_be_cusps(given_outline(drawn), points))
+    faces = triangles.faces
     conflicts = _crossing_sides(drawn, faces) if len(settled.cuts) == 0 else [set() for _ in faces]
-    tree = _forest(faces)
+    tree = _forest(triangles)
     while True:
         piece = _pieces(conflicts, *tree)
         polygons = _outlined(points, faces, piece)
@@ -134,6 +138,11 @@ def _pieces_of_immersion(chosen: Immersion) -> list[Polygon]:
             conflicts[triangle] |= others
 
 
+def _may_be_cusps(given: Outline, corners: Floats) -> Bools:
+    """Tell which corners are where a cusp is: after a cut there, the turns may be those of another one in the place."""
+    return np.isin(as_numbers(corners), as_numbers(given.points[np.concatenate(given.cusps) > 0]))
+
+
 def _outlined(points: Floats, faces: Ints, piece: Ints) -> npt.NDArray[np.object_]:
     """Return the polygon of each piece: its corners follow each other in the order of the curve."""
     part, corner = np.divmod(np.unique(np.repeat(piece, 3) * len(points) + faces.ravel()), len(points))
@@ -141,19 +150,31 @@ def _outlined(points: Floats, faces: Ints, piece: Ints) -> npt.NDArray[np.object
     return polygons
 
 
-def _pieces_of_surface(points: Floats, faces: Ints, is_cusp: Bools) -> list[Polygon]:
+def _pieces_of_surface(points: Floats, triangles: GluedTriangles, is_cusp: Bools) -> list[Polygon]:
     """Return the pieces of a surface with holes or cusps: all triangles that overlap are found at once."""
+    faces = triangles.faces
     conflicts: list[set[int]] = [set() for _ in faces]
     for triangle, others in _overlaps(points, faces, [np.arange(len(faces))], is_cusp).items():
         conflicts[triangle] |= others
-    piece = _pieces(conflicts, *_forest(faces))
+    for one, other in _double_neighbours(triangles):
+        conflicts[one].add(other)
+    piece = _pieces(conflicts, *_forest(triangles))
     polygons = [shapely.coverage_union_all(shapely.polygons(points[faces[members]])) for members in _members(piece)]
     return [polygon for union in polygons for polygon in shapely.get_parts(shapely.orient_polygons(union)).tolist()]
 
 
-def _forest(faces: Ints) -> tuple[list[int], list[int]]:
+def _double_neighbours(triangles: GluedTriangles) -> Iterator[tuple[int, int]]:
+    """Yield pairs of triangles with sides between the same two cusps that are not the same edge, both ways round."""
+    for edges in triangles.doubles:
+        for one, other in permutations(edges.tolist(), 2):
+            beside = [[side // 3 for side in (edge, triangles.twin[edge]) if side >= 0] for edge in (one, other)]
+            yield from product(*beside)
+
+
+def _forest(triangles: GluedTriangles) -> tuple[list[int], list[int]]:
     """Return the triangles in an order, and for each the one before it that it hangs on; −1 for one in each part."""
-    first, second = glued_pairs(faces).T // 3
+    faces = triangles.faces
+    first, second = triangles.pairs.T // 3
     roots = np.unique(components(len(faces), first, second), return_index=True)[1]
     # Node 0, on which these hang, stands for no triangle.
     start, end = np.append(np.zeros_like(roots), first + 1), np.append(roots, second) + 1

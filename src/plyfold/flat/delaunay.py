@@ -24,7 +24,7 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.compiled import called_from_loops, run_loop
-from plyfold.halfedges import before, following, glued_pairs
+from plyfold.halfedges import GluedTriangles, before, flip, following
 from plyfold.predicates import Coordinates, as_coordinates, turn
 
 __all__ = ["delaunay_triangles", "flip_edges", "wants_flip"]
@@ -86,19 +86,19 @@ class _Disk(NamedTuple):
 _LEFT, _RIGHT, _REMOVED, _LADDER = range(4)
 
 
-def delaunay_triangles(points: Floats, faces: Ints) -> Ints:
+def delaunay_triangles(points: Floats, triangles: GluedTriangles) -> GluedTriangles:
     """Replace triangles by others on the same corners: no circle round one contains a corner that is seen from it.
 
     Parameters
     ----------
     points : (n, 2) float
-    faces : (m, 3) int
-        Counter-clockwise triangles that make a disk without inner vertices.
+    triangles : GluedTriangles
+        Counter-clockwise triangles that make a disk, or another surface, without inner vertices.
 
     Returns
     -------
-    (m, 3) int
-        Triangles of the same disk, counter-clockwise, exactly. Whether circles contain a corner is decided as far as
+    GluedTriangles
+        Triangles of the same surface, counter-clockwise, exactly. Whether circles contain a corner is decided as far as
         rounding errors let it.
 
     Notes
@@ -109,18 +109,19 @@ def delaunay_triangles(points: Floats, faces: Ints) -> Ints:
     Examples
     --------
     >>> flat_kite = np.array([(0.0, 0.0), (4.0, -1.0), (8.0, 0.0), (4.0, 1.0)])
-    >>> delaunay_triangles(flat_kite, np.array([(0, 1, 2), (0, 2, 3)])).tolist()
+    >>> halves = GluedTriangles(np.array([(0, 1, 2), (0, 2, 3)]), np.array([-1, -1, 3, 2, -1, -1]))
+    >>> delaunay_triangles(flat_kite, halves).faces.tolist()
     [[2, 3, 1], [1, 3, 0]]
     """
-    places = as_coordinates(points)
-    size = 3 * len(faces)
-    cuts = np.random.default_rng(_SEED).permutation(glued_pairs(faces))
-    names = np.arange(size)
-    triangles = _Triangles(faces.ravel().copy(), np.full(size, -1), names, names.copy())
+    places, faces = as_coordinates(points), triangles.faces
+    cuts = np.random.default_rng(_SEED).permutation(triangles.pairs)
+    names = np.arange(faces.size)
+    apart = _Triangles(faces.ravel().copy(), np.full(faces.size, -1), names, names.copy())
     chains = np.zeros(2 * len(faces) + 4, dtype=np.int64)
     room = _Room(chains, np.zeros(4, dtype=np.int64), *np.zeros((5, len(faces) + 2), dtype=np.int64))
     given = (places, _Cuts(*cuts.T.copy()), room)
-    return run_loop(_open_all, _STEPS_PER_CUT * len(cuts), given, triangles).start.reshape(-1, 3)
+    found = run_loop(_open_all, _STEPS_PER_CUT * len(cuts), given, apart)
+    return GluedTriangles(found.start.reshape(-1, 3), found.beyond)
 
 
 def _open_all(given: tuple[Coordinates, _Cuts, _Room], triangles: _Triangles) -> int:
@@ -281,35 +282,33 @@ def _rebuild(disk: _Disk, foot: int) -> None:
 _CLEARLY = 1e-9
 
 
-def flip_edges(points: Floats, faces: Ints) -> Ints:
+def flip_edges(points: Floats, triangles: GluedTriangles) -> GluedTriangles:
     """Flip inner edges until, as a rule, no circle around a triangle contains the corner beyond one of its edges.
 
     Parameters
     ----------
     points : (n, 2) float
-    faces : (m, 3) int
-        Counter-clockwise triangles that make a disk.
+    triangles : GluedTriangles
+        Counter-clockwise triangles that make a surface.
 
     Returns
     -------
-    (m, 3) int
-        Triangles of the same disk, counter-clockwise, exactly. Cost: O(m) if they are round already, O(m²) at worst.
+    GluedTriangles
+        Triangles of the same surface, counter-clockwise, exactly. Cost: O(m) if they are round already, O(m²) at worst.
     """
     places = Coordinates(*(numbers.tolist() for numbers in as_coordinates(points)))
-    # No two edges join the same points: between them would lie a disk of two straight sides, without angles.
-    apex = {(u, v): w for a, b, c in faces.tolist() for u, v, w in ((a, b, c), (b, c, a), (c, a, b))}
-    waiting = [edge for edge in apex if edge[0] < edge[1]]
+    start, beyond = triangles.faces.ravel().tolist(), triangles.twin.tolist()
+    waiting = triangles.pairs[:, 0].tolist()
     while waiting:
-        u, v = waiting.pop()
-        a, b = apex.get((u, v)), apex.get((v, u))
-        if a is None or b is None or not wants_flip(places, (u, b, v, a)):
+        side = waiting.pop()
+        other = beyond[side]
+        if other < 0:
             continue
-        del apex[u, v], apex[v, u]
-        for p, q, r in ((u, b, a), (b, v, a)):
-            apex[p, q], apex[q, r], apex[r, p] = r, p, q
-        waiting += [(u, b), (b, v), (v, a), (a, u)]
-    rows = [(u, v, w) for (u, v), w in apex.items() if u < v and u < w]
-    return np.array(rows, dtype=np.int64).reshape(-1, 3)
+        corners = start[side], start[before(other)], start[other], start[before(side)]
+        if wants_flip(places, corners):
+            flip(start, beyond, side)
+            waiting += [side, before(side), other, before(other)]
+    return GluedTriangles(np.array(start, dtype=np.int64).reshape(-1, 3), np.array(beyond, dtype=np.int64))
 
 
 @called_from_loops

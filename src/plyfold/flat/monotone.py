@@ -2,6 +2,10 @@
 
 A polygon gets its vertices in the order of a sweeping line. As soon as a triangle can be cut off at its end, it is.
 
+Two vertices do not tell an edge: round two cusps a surface winds so often that several edges may join them. So edges
+have numbers of their own. The two triangles, of one polygon or of two, that have sides of the same number are beside
+each other there.
+
 References
 ----------
 .. [GJPT78] M. R. Garey, D. S. Johnson, F. P. Preparata, R. E. Tarjan, "Triangulating a simple polygon", Information
@@ -27,29 +31,36 @@ __all__ = [
     "close",
     "count_up",
     "empty_triangles",
+    "new_edge",
     "new_polygon",
 ]
 
-_POLYGONS, _ENTRIES, TRIANGLES = range(3)
+_POLYGONS, _ENTRIES, TRIANGLES, _EDGES = range(4)
 
 
 class Stacks(NamedTuple):
     """The polygons as far as they are not cut into triangles yet: a vertex, and a chain of others on one side.
 
-    They are stacks whose entries hold a vertex and the entry before, or −1. The chain is above, ``side`` 1, or below,
-    −1; there is none, 0, beside a single vertex. It bends inward: no triangle can be cut off.
+    They are stacks whose entries hold a vertex and the entry before, or −1, and the edge from there. The chain is
+    above, ``side`` 1, or below, −1; there is none, 0, beside a single vertex. It bends inward: no triangle can be cut
+    off.
     """
 
     last: Ints
     side: Ints
     vertex: Ints
     before: Ints
+    edge: Ints
 
 
 class Triangles(NamedTuple):
-    """The triangles, and how many there are of: polygons, entries, triangles."""
+    """The triangles, the edges at their sides, and how many there are of: polygons, entries, triangles, edges.
+
+    Side i of a triangle runs from its corner i to the next one.
+    """
 
     faces: Ints
+    sides: Ints
     counts: Ints
 
 
@@ -67,7 +78,8 @@ class MonotonePolygons(NamedTuple):
 
 def empty_triangles(most: int) -> Triangles:
     """Return room for triangles."""
-    return Triangles(np.empty((most, 3), dtype=np.int64), np.zeros(3, dtype=np.int64))
+    faces, sides = np.empty((2, most, 3), dtype=np.int64)
+    return Triangles(faces, sides, np.zeros(4, dtype=np.int64))
 
 
 @called_from_loops
@@ -79,60 +91,101 @@ def count_up(counts: Ints, what: int) -> int:
 
 
 @called_from_loops
+def new_edge(polygons: MonotonePolygons) -> int:
+    """Return a number for an edge."""
+    return count_up(polygons.output.counts, _EDGES)
+
+
+@called_from_loops
 def new_polygon(polygons: MonotonePolygons, vertex: int) -> int:
     """Return a polygon that begins at a vertex."""
     polygon = count_up(polygons.output.counts, _POLYGONS)
     polygons.stacks.side[polygon] = 0
-    _push(polygons, polygon, vertex, -1)
+    _push(polygons, polygon, vertex, (-1, -1))
     return polygon
 
 
 @called_from_loops
-def _push(polygons: MonotonePolygons, polygon: int, vertex: int, before: int) -> None:
+def _push(polygons: MonotonePolygons, polygon: int, vertex: int, behind: tuple[int, int]) -> None:
+    """Put a vertex on a stack; behind it are an entry, and an edge from there."""
     stacks = polygons.stacks
     entry = count_up(polygons.output.counts, _ENTRIES)
     stacks.vertex[entry] = vertex
-    stacks.before[entry] = before
+    stacks.before[entry], stacks.edge[entry] = behind
     stacks.last[polygon] = entry
 
 
 @called_from_loops
-def add_vertex(polygons: MonotonePolygons, polygon: int, vertex: int, side: int) -> None:
-    """Add a vertex to a polygon, on its upper (1) or lower (−1) side, and cut off all triangles that can be."""
+def add_vertex(polygons: MonotonePolygons, polygon: int, vertex: int, side: int, edge: int) -> None:
+    """Add a vertex to a polygon, on its upper (1) or lower (−1) side, and cut off all triangles that can be.
+
+    The edge is the one along this side that leads to the vertex.
+    """
     stacks = polygons.stacks
     last = stacks.last[polygon]
     if stacks.side[polygon] == -side:
-        close(polygons, polygon, vertex)
+        across = new_edge(polygons)
+        close(polygons, polygon, vertex, across, edge)
         stacks.before[last] = -1
-        left = last
+        behind = (last, across)
     else:
-        left = _cut_off(polygons, polygon, vertex, False)
+        behind = _cut_off(polygons, polygon, vertex, edge, -1)
     stacks.side[polygon] = side
-    _push(polygons, polygon, vertex, left)
+    _push(polygons, polygon, vertex, behind)
 
 
 @called_from_loops
-def close(polygons: MonotonePolygons, polygon: int, vertex: int) -> None:
-    """Cut all that is left of a polygon into triangles with a vertex that faces its chain."""
-    _cut_off(polygons, polygon, vertex, True)
+def close(polygons: MonotonePolygons, polygon: int, vertex: int, near: int, far: int) -> None:
+    """Cut all that is left of a polygon into triangles with a vertex that faces its chain.
+
+    Edges lead to the vertex from the near end of the chain, which is the last one, and from the far end.
+    """
+    _cut_off(polygons, polygon, vertex, near, far)
 
 
 @called_from_loops
-def _cut_off(polygons: MonotonePolygons, polygon: int, vertex: int, faces_chain: bool) -> int:
-    """Cut triangles with a new vertex off the end of a polygon's chain; return the entry up to which it is left."""
-    stacks, faces = polygons.stacks, polygons.output.faces
-    above = stacks.side[polygon] > 0
+def _cut_off(polygons: MonotonePolygons, polygon: int, vertex: int, edge: int, last_edge: int) -> tuple[int, int]:
+    """Cut triangles with a new vertex off the end of a polygon's chain; return what is left behind the vertex.
+
+    That is an entry, and the edge from there. The first of these triangles has an edge to the vertex, and if this faces
+    the chain, so that they are cut off up to the far end, the last of them has another one.
+    """
+    stacks = polygons.stacks
     entry: int = stacks.last[polygon]
     while stacks.before[entry] >= 0:
-        near, far = stacks.vertex[entry], stacks.vertex[stacks.before[entry]]
-        second, third = (vertex, near) if above else (near, vertex)
-        side = turn(polygons.places, far, second, third)
-        if side < 0 or (side == 0 and not _is_cut_flat(polygons, (far, near, vertex), faces_chain)):
+        before = stacks.before[entry]
+        corners = stacks.vertex[before], stacks.vertex[entry], vertex
+        if not _is_cut(polygons, corners, stacks.side[polygon], last_edge >= 0):
             break
-        triangle = count_up(polygons.output.counts, TRIANGLES)
-        faces[triangle][0], faces[triangle][1], faces[triangle][2] = far, second, third
-        entry = stacks.before[entry]
-    return entry
+        rung = last_edge if last_edge >= 0 and stacks.before[before] < 0 else new_edge(polygons)
+        _add_triangle(polygons, corners, (stacks.edge[entry], edge, rung), stacks.side[polygon])
+        entry, edge = before, rung
+    return entry, edge
+
+
+@called_from_loops
+def _is_cut(polygons: MonotonePolygons, corners: tuple[int, int, int], side: int, faces_chain: bool) -> bool:
+    """Tell whether a triangle is cut off: two corners on a chain on some side, the far one first, and the new one."""
+    far, near, vertex = corners
+    sign = side * turn(polygons.places, far, vertex, near)
+    return sign > 0 or (sign == 0 and _is_cut_flat(polygons, corners, faces_chain))
+
+
+@called_from_loops
+def _add_triangle(
+    polygons: MonotonePolygons, corners: tuple[int, int, int], edges: tuple[int, int, int], side: int
+) -> None:
+    """Add a triangle of such corners, counter-clockwise; each of the edges joins one of them to the next."""
+    faces, sides, _ = polygons.output
+    (far, near, vertex), (chain, other, rung) = corners, edges
+    triangle = count_up(polygons.output.counts, TRIANGLES)
+    faces[triangle][0], sides[triangle][1] = far, other
+    if side > 0:
+        faces[triangle][1], faces[triangle][2] = vertex, near
+        sides[triangle][0], sides[triangle][2] = rung, chain
+    else:
+        faces[triangle][1], faces[triangle][2] = near, vertex
+        sides[triangle][0], sides[triangle][2] = chain, rung
 
 
 @called_from_loops

@@ -23,16 +23,16 @@ from typing import NamedTuple
 import numpy as np
 
 from plyfold.arrays import Bools, Floats, Ints
-from plyfold.errors import InputError, PlyfoldError
+from plyfold.errors import PlyfoldError
 from plyfold.flat.sweep import sweep_triangles
 from plyfold.graphs import components
-from plyfold.halfedges import before, ends_of, following, twins_of
+from plyfold.halfedges import GluedTriangles, before, ends_of, flip, following, glue
 from plyfold.immersion.immersion import Immersion, Piece
 from plyfold.mesh.refine import given_outline, is_moved
 from plyfold.outline.curve import Outline
 from plyfold.predicates import Coordinates, as_coordinates, orient, turn
 
-__all__ = ["Settled", "settle", "settled_by_points", "settled_triangles", "what_is_left"]
+__all__ = ["Settled", "settle", "settled_triangles", "what_is_left"]
 
 
 class Settled(NamedTuple):
@@ -40,9 +40,9 @@ class Settled(NamedTuple):
 
     Parameters
     ----------
-    faces : (m, 3) int
-        Their corners, counter-clockwise, each with some area; glued along common sides. Each corner of each piece of
-        the surface has a number of its own, in their order along the outline.
+    triangles : GluedTriangles
+        Counter-clockwise, each with some area. Each corner of each piece of the surface has a number of its own, in
+        their order along the outline.
     point : (corners,) int
         The point of the outline from which the boundary leaves each corner, or one that touches it there.
     inside : (corners,) bool
@@ -51,24 +51,27 @@ class Settled(NamedTuple):
         The first point of the outline at each place where the surface was cut, in order.
     """
 
-    faces: Ints
+    triangles: GluedTriangles
     point: Ints
     inside: Bools
     cuts: Ints
+
+    @property
+    def faces(self) -> Ints:
+        """The corners of each triangle, (m, 3)."""
+        return self.triangles.faces
 
 
 class _Surface(NamedTuple):
     """Triangles by their half-edges, which start at points of the outline.
 
-    ``beyond`` is the half-edge on the other side; it is −1 on the boundary, where ``edge`` is the edge of the outline
-    on which the half-edge lies. ``flat`` are triangles without area, ``gone`` those that are no more, and ``touching``
-    points at which the surface was cut.
+    ``beyond`` is the half-edge on the other side; −1 − e on the boundary, along edge e of the outline. ``flat`` are
+    triangles without area, ``gone`` those that are no more, and ``touching`` points at which the surface was cut.
     """
 
     places: Coordinates
     start: list[int]
     beyond: list[int]
-    edge: list[int]
     flat: set[int]
     gone: set[int]
     touching: set[int]
@@ -77,33 +80,18 @@ class _Surface(NamedTuple):
 def settled_triangles(immersion: Immersion) -> Settled:
     """Return triangles of an immersed surface on the points of its outline as given, cut where it touches itself.
 
-    Raises
-    ------
-    InputError
-        If the outline touches itself, and two sides of triangles join the same two cusps.
-
     Notes
     -----
     Signs and places are exact. As :func:`sweep_triangles`; where strands touch also O(n log n), some steps for each
     triangle without area, and at worst some for each pair of these on a line.
     """
-    faces, given = sweep_triangles(immersion), given_outline(immersion.arrangement)
-    if not is_moved(immersion.arrangement):
-        return _as_it_is(faces, len(given))
-    _refuse_double_sides(given, _as_it_is(faces, len(given)))
-    return settle(given, faces)
+    triangles, given = sweep_triangles(immersion), given_outline(immersion.arrangement)
+    return settle(given, triangles) if is_moved(immersion.arrangement) else _as_it_is(triangles, len(given))
 
 
-def _as_it_is(faces: Ints, n: int) -> Settled:
+def _as_it_is(triangles: GluedTriangles, n: int) -> Settled:
     """Return triangles on n points of an outline that stay as they are."""
-    return Settled(faces, np.arange(n), np.zeros(n, dtype=bool), np.empty(0, dtype=np.int64))
-
-
-def settled_by_points(immersion: Immersion) -> Settled:
-    """Return the same; refuse any triangles of which the corners do not tell how they are glued."""
-    settled = settled_triangles(immersion)
-    _refuse_double_sides(given_outline(immersion.arrangement), settled)
-    return settled
+    return Settled(triangles, np.arange(n), np.zeros(n, dtype=bool), np.empty(0, dtype=np.int64))
 
 
 def what_is_left(immersion: Immersion) -> tuple[tuple[tuple[float, float], ...], tuple[Piece, ...]]:
@@ -127,7 +115,7 @@ def what_is_left(immersion: Immersion) -> tuple[tuple[tuple[float, float], ...],
 def _pieces(settled: Settled) -> tuple[Piece, ...]:
     """Count pieces of which each corner is on the boundary once: with b corners and t triangles, 2χ is b − t."""
     start, end = ends_of(settled.faces)
-    on_boundary = twins_of(settled.faces) < 0
+    on_boundary = settled.triangles.twin < 0
     loop_of = components(len(settled.point), start[on_boundary], end[on_boundary])
     piece_of = components(len(settled.point), start, end)
     twice_euler = np.bincount(piece_of) - np.bincount(piece_of[settled.faces[:, 0]])
@@ -138,30 +126,14 @@ def _pieces(settled: Settled) -> tuple[Piece, ...]:
     return tuple(map(Piece, map(tuple, loops), (twice_euler // 2).tolist()))
 
 
-def _refuse_double_sides(given: Outline, settled: Settled) -> None:
-    """Refuse triangles of which two sides join the same corners.
-
-    They are on the same line then, and leave their ends in the same direction: at both there is a cusp.
-    """
-    if np.count_nonzero(np.concatenate(given.cusps)) > 1:
-        start, end = ends_of(settled.faces)
-        key, times = np.unique(start * len(settled.point) + end, return_counts=True)
-        if len(double := key[times > 1]):
-            raise InputError(
-                "two sides of triangles join the same two cusps",
-                where=given.points[settled.point[list(divmod(int(double[0]), len(settled.point)))]],
-                hint="put a vertex on an edge near one of them",
-            )
-
-
-def settle(given: Outline, faces: Ints) -> Settled:
+def settle(given: Outline, triangles: GluedTriangles) -> Settled:
     """Return the surface that triangles make when the points of their outline go back to where they were given.
 
     Parameters
     ----------
     given : Outline
-    faces : (n − 2χ, 3) int
-        Triangles on its points, counter-clockwise or flat. No two inner sides join the same points.
+    triangles : GluedTriangles
+        n − 2χ triangles on its points, counter-clockwise or flat.
 
     Notes
     -----
@@ -172,20 +144,23 @@ def settle(given: Outline, faces: Ints) -> Settled:
     Two triangles that meet in a point:
 
     >>> from plyfold.outline.curve import Curve
+    >>> from plyfold.halfedges import twins_of
     >>> bow = Curve([(0, 0), (1, 1), (2, 0), (2, 2), (1, 1), (0, 2)])
-    >>> settle(bow, np.array([(0, 1, 5), (1, 4, 5), (1, 2, 4), (2, 3, 4)])).faces.tolist()
+    >>> faces = np.array([(0, 1, 5), (1, 4, 5), (1, 2, 4), (2, 3, 4)])
+    >>> settle(bow, GluedTriangles(faces, twins_of(faces))).faces.tolist()
     [[0, 4, 5], [2, 3, 1]]
     """
-    sign = orient(*given.points[faces].swapaxes(0, 1))
+    sign = orient(*given.points[triangles.faces].swapaxes(0, 1))
     if (sign > 0).all():
-        return _as_it_is(faces, len(given))
-    return _numbered(given, _without_flat_triangles(given.points, faces, np.flatnonzero(sign == 0)))
+        return _as_it_is(triangles, len(given))
+    return _numbered(given, _without_flat_triangles(given.points, triangles, np.flatnonzero(sign == 0)))
 
 
-def _without_flat_triangles(points: Floats, faces: Ints, flat: Ints) -> _Surface:
+def _without_flat_triangles(points: Floats, triangles: GluedTriangles, flat: Ints) -> _Surface:
     places = Coordinates(*(numbers.tolist() for numbers in as_coordinates(points)))
-    start = faces.ravel().tolist()
-    surface = _Surface(places, start, twins_of(faces).tolist(), start.copy(), set(flat.tolist()), set(), set())
+    start = triangles.faces.ravel()
+    beyond = np.where(triangles.twin < 0, -1 - start, triangles.twin)
+    surface = _Surface(places, start.tolist(), beyond.tolist(), set(flat.tolist()), set(), set())
     waiting = flat.tolist()
     while waiting:
         triangle = waiting.pop()
@@ -232,13 +207,6 @@ def _longest_side(surface: _Surface, triangle: int) -> int:
     return following(middle)
 
 
-def _glue(surface: _Surface, half_edge: int, other: int, edge: int) -> None:
-    """Put a half-edge beside another one or, if that is −1, on an edge of the outline."""
-    surface.beyond[half_edge], surface.edge[half_edge] = other, edge
-    if other >= 0:
-        surface.beyond[other] = half_edge
-
-
 def _remove(surface: _Surface, triangle: int) -> None:
     surface.gone.add(triangle)
     surface.flat.discard(triangle)
@@ -246,34 +214,31 @@ def _remove(surface: _Surface, triangle: int) -> None:
 
 def _collapse(surface: _Surface, short: int) -> None:
     """Cut the surface at a side that has become a point; the triangles on both sides of it go."""
-    for side in (short, surface.beyond[short]):
+    beyond = surface.beyond
+    for side in (short, beyond[short]):
         surface.touching.add(surface.start[side])
-        one, other = (surface.beyond[rest] for rest in (following(side), before(side)))
+        one, other = beyond[following(side)], beyond[before(side)]
         if one >= 0:
-            _glue(surface, one, other, surface.edge[before(side)])
+            glue(beyond, one, other)
         elif other >= 0:
-            _glue(surface, other, one, surface.edge[following(side)])
+            glue(beyond, other, one)
         _remove(surface, side // 3)
 
 
 def _open(surface: _Surface, longest: int) -> None:
     """Take away a triangle whose longest side is on the boundary: what is beyond its other sides comes to lie there."""
+    beyond = surface.beyond
     for rest in (following(longest), before(longest)):
-        if surface.beyond[rest] >= 0:
-            _glue(surface, surface.beyond[rest], -1, surface.edge[longest])
+        if beyond[rest] >= 0:
+            glue(beyond, beyond[rest], beyond[longest])
     surface.touching.add(surface.start[before(longest)])
     _remove(surface, longest // 3)
 
 
 def _flip(surface: _Surface, side: int) -> None:
-    """Replace the side between two triangles by the other diagonal of the two."""
+    """Replace the side between two triangles by the other diagonal of the two; see which of them are flat."""
     start, other = surface.start, surface.beyond[side]
-    ahead, other_ahead = following(side), following(other)
-    outer = [(surface.beyond[half_edge], surface.edge[half_edge]) for half_edge in (other_ahead, ahead)]
-    start[ahead], start[other_ahead] = start[before(other)], start[before(side)]
-    _glue(surface, side, *outer[0])
-    _glue(surface, other, *outer[1])
-    _glue(surface, ahead, other_ahead, -1)
+    flip(start, surface.beyond, side)
     for triangle in (side // 3, other // 3):
         if turn(surface.places, *start[3 * triangle : 3 * triangle + 3]) > 0:
             surface.flat.discard(triangle)
@@ -288,20 +253,20 @@ def _numbered(given: Outline, surface: _Surface) -> Settled:
     """Give each corner of each piece a number of its own: that of the boundary's half-edge which starts there."""
     kept = np.setdiff1d(np.arange(len(surface.start) // 3), list(surface.gone))
     half_edges = (3 * kept[:, None] + np.arange(3)).ravel()
-    number = np.full(len(surface.start) + 1, -1)
+    number = np.empty(len(surface.start), dtype=np.int64)
     number[half_edges] = np.arange(len(half_edges))
-    start, edge = (np.array(values, dtype=np.int64)[half_edges] for values in (surface.start, surface.edge))
-    beyond = number[np.array(surface.beyond, dtype=np.int64)[half_edges]]
-    boundary = _along_outline(given, start, edge, np.flatnonzero(beyond < 0))
-    fan = _fans(beyond)
+    start, beyond = (np.array(values, dtype=np.int64)[half_edges] for values in (surface.start, surface.beyond))
+    edge, twin = -1 - beyond, np.where(beyond < 0, -1, number[beyond])
+    boundary = _along_outline(given, start, edge, np.flatnonzero(twin < 0))
+    fan = _fans(twin)
     if not np.array_equal(np.sort(fan[boundary]), np.arange(fan.max(initial=-1) + 1)):
         raise PlyfoldError("internal check failed: every corner is on the boundary once", where=given.points[:1])
     corner = np.empty(len(boundary), dtype=np.int64)
     corner[fan[boundary]] = np.arange(len(boundary))
     start, edge = start[boundary], edge[boundary]
     inside = (given.points[start] != given.points[edge]).any(axis=1)
-    faces, cuts = corner[fan].reshape(-1, 3), _first_points(given, surface.touching)
-    return Settled(faces, np.where(inside, start, edge), inside, cuts)
+    triangles = GluedTriangles(corner[fan].reshape(-1, 3), twin)
+    return Settled(triangles, np.where(inside, start, edge), inside, _first_points(given, surface.touching))
 
 
 def _along_outline(given: Outline, start: Ints, edge: Ints, boundary: Ints) -> Ints:
@@ -313,12 +278,12 @@ def _along_outline(given: Outline, start: Ints, edge: Ints, boundary: Ints) -> I
     return boundary[np.lexsort([y, x, edge[boundary]])]
 
 
-def _fans(beyond: Ints) -> Ints:
+def _fans(twin: Ints) -> Ints:
     """Return a number for each half-edge, the same for those that start at the same corner of the same piece."""
-    half_edges = np.arange(len(beyond))
-    across = beyond[before(half_edges)]
+    half_edges = np.arange(len(twin))
+    across = twin[before(half_edges)]
     inner = np.flatnonzero(across >= 0)
-    return components(len(beyond), inner, across[inner])
+    return components(len(twin), inner, across[inner])
 
 
 def _first_points(given: Outline, touching: set[int]) -> Ints:

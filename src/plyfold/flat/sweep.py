@@ -24,7 +24,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from plyfold.arrays import Ints
+from plyfold.arrays import Floats, Ints
 from plyfold.compiled import called_from_loops, run_loop
 from plyfold.errors import PlyfoldError, PrecisionError
 from plyfold.flat.monotone import (
@@ -36,58 +36,19 @@ from plyfold.flat.monotone import (
     close,
     count_up,
     empty_triangles,
+    new_edge,
     new_polygon,
 )
-from plyfold.flat.sweep_line import (
-    TILTS,
-    SkipList,
-    SweepPlan,
-    empty_skip_list,
-    link_above,
-    sweep_order,
-    sweep_plan,
-    unlink,
-)
+from plyfold.flat.sweep_line import TILTS, SkipList, empty_skip_list, link_above, sweep_plan, unlink
+from plyfold.flat.swept_drawing import SweptDrawing, swept_drawing
+from plyfold.halfedges import GluedTriangles, twins_of_edges
 from plyfold.immersion.immersion import Immersion
 from plyfold.mesh.begun import drawings_of
-from plyfold.mesh.refine import borders_at_points, drawn_outline, given_outline, is_moved
-from plyfold.mesh.sheets import seams_of, twisted_bridges
+from plyfold.mesh.refine import given_outline, is_moved
+from plyfold.mesh.sheets import twisted_bridges
 from plyfold.predicates import Coordinates, as_coordinates, orient, turn
 
-__all__ = ["sweep_triangles"]
-
-
-class _Drawing(NamedTuple):
-    """What is swept: the order of events, and the gluing.
-
-    ``order`` is that of :func:`sweep_order`, and ``rank`` the place of each vertex in it; ``following`` and
-    ``preceding`` are its neighbours on its loop. Bridges have edges and ends of their own, numbered after all vertices.
-    ``arriving`` and ``leaving`` are the borders that end and begin at each vertex, or the one that it is on;
-    ``before`` and ``after`` those at each visit. ``cusp`` is the index of each vertex, ``bridge_of_foot`` the bridge
-    whose second foot is at each visit, ``bridge_at`` the one whose first foot is at each vertex, or −1, and ``above``
-    tells which bridges begin above the edge that their second foot is on. ``flat`` is 1 if triangles may be flat. The
-    sheet beyond a dart, seen from a sheet on its left, is ``beyond[row[dart] + sheet]``, or −1.
-    """
-
-    order: Ints
-    rank: Ints
-    following: Ints
-    preceding: Ints
-    partner: Ints
-    visit_edge: Ints
-    arriving: Ints
-    leaving: Ints
-    before: Ints
-    after: Ints
-    cusp: Ints
-    bridge_of_foot: Ints
-    bridge_at: Ints
-    above: Ints
-    flat: Ints
-    bridge_border: Ints
-    own_sheet: Ints
-    row: Ints
-    beyond: Ints
+__all__ = ["sweep_as_drawn", "sweep_triangles"]
 
 
 class _Strands(NamedTuple):
@@ -120,14 +81,14 @@ class _Sweep(NamedTuple):
     """Everything."""
 
     places: Coordinates
-    drawing: _Drawing
+    drawing: SweptDrawing
     nodes: SkipList
     strands: _Strands
     intervals: _Intervals
     polygons: MonotonePolygons
 
 
-def sweep_triangles(immersion: Immersion) -> Ints:
+def sweep_triangles(immersion: Immersion) -> GluedTriangles:
     """Return triangles on the points of an immersion's outline, by number, that make the immersed surface.
 
     Parameters
@@ -137,9 +98,9 @@ def sweep_triangles(immersion: Immersion) -> Ints:
 
     Returns
     -------
-    (n − 2χ, 3) int
-        Counter-clockwise, exactly, where the outline's points were given; only if strands touch there, some may have no
-        area. χ is the Euler characteristic.
+    GluedTriangles
+        n − 2χ triangles, where χ is the Euler characteristic; counter-clockwise, exactly, where the outline's points
+        were given; only if strands touch there, some may have no area. Several edges may join two cusps.
 
     Notes
     -----
@@ -148,21 +109,18 @@ def sweep_triangles(immersion: Immersion) -> Ints:
     Examples
     --------
     >>> from plyfold import find_immersion
-    >>> sweep_triangles(find_immersion([(0, 0), (4, 0), (1, 1), (0, 4)])).tolist()
-    [[0, 2, 3], [0, 1, 2]]
+    >>> found = sweep_triangles(find_immersion([(0, 0), (4, 0), (1, 1), (0, 4)]))
+    >>> found.faces.tolist(), found.twin.tolist()
+    ([[0, 2, 3], [0, 1, 2]], [5, -1, -1, -1, -1, 0])
     """
-    given = given_outline(immersion.arrangement).points
-    triangles = len(given) - 2 * immersion.arrangement.euler_characteristic
     if not is_moved(immersion.arrangement):
-        faces = _swept_triangles(immersion, TILTS[0])
-        if len(faces) == triangles:
-            return faces
-        raise PlyfoldError("internal check failed: the triangles make the surface", where=given[:1])
+        return sweep_as_drawn(immersion)
+    given = given_outline(immersion.arrangement).points
     for drawn in drawings_of(immersion.arrangement):
         for tilt in TILTS:
-            faces = _swept_triangles(replace(immersion, arrangement=drawn), tilt)
-            if len(faces) == triangles and (orient(*given[faces].swapaxes(0, 1)) >= 0).all():
-                return faces
+            found = _swept_triangles(replace(immersion, arrangement=drawn), tilt, given)
+            if len(found.faces) == _expected(immersion) and (orient(*given[found.faces].swapaxes(0, 1)) >= 0).all():
+                return found
     raise PrecisionError(
         "touching strands were moved apart by more than there is room for",
         where=given[(given != immersion.arrangement.exact_points).any(axis=1)][:1],
@@ -170,56 +128,41 @@ def sweep_triangles(immersion: Immersion) -> Ints:
     )
 
 
-def _swept_triangles(immersion: Immersion, tilt: float) -> Ints:
-    """Return the triangles that are found by a line of some tilt: all, unless moved strands confuse it."""
+def sweep_as_drawn(immersion: Immersion) -> GluedTriangles:
+    """Return triangles on the points that an immersion's outline is drawn with, by number: moved ones if any were.
+
+    They are counter-clockwise there, exactly.
+    """
+    found = _swept_triangles(immersion, TILTS[0], None)
+    if len(found.faces) == _expected(immersion):
+        return found
+    where = given_outline(immersion.arrangement).points[:1]
+    raise PlyfoldError("internal check failed: the triangles make the surface", where=where)
+
+
+def _expected(immersion: Immersion) -> int:
+    """Return the number of triangles on the points of an outline."""
+    return len(given_outline(immersion.arrangement)) - 2 * immersion.arrangement.euler_characteristic
+
+
+def _swept_triangles(immersion: Immersion, tilt: float, given: Floats | None) -> GluedTriangles:
+    """Return the triangles that are found by a line of some tilt, as is right on the points that are drawn, or given.
+
+    They are all, unless moved strands confuse the line.
+    """
     plan = sweep_plan(immersion.arrangement, twisted_bridges(immersion), tilt)
-    drawing = _drawing(immersion, plan)
+    drawing = swept_drawing(immersion, plan, given is not None)
     n = len(drawing.cusp)
     ahead = drawing.rank[:n] < drawing.rank[drawing.following[:n]]
     starts = int((ahead > ahead[drawing.preceding]).sum())
     turns = int((drawing.cusp + 1)[drawing.cusp > 0].sum())
-    places = given_places = as_coordinates(plan.exact)
-    if is_moved(immersion.arrangement):
-        given_places = as_coordinates(given_outline(immersion.arrangement).points)
-    given = (places, given_places, drawing, *_room(n, starts, turns, len(plan.bridges)))
+    places = as_coordinates(plan.exact)
+    corners = places if given is None else as_coordinates(given)
+    told = (places, corners, drawing, *_room(n, starts, turns, len(plan.bridges)))
     # Room for one more: if there were more, that would be seen.
-    room = empty_triangles(n - 2 * immersion.arrangement.euler_characteristic + 1)
-    output = run_loop(_swept, len(drawing.order), given, room)
-    return output.faces[: output.counts[TRIANGLES]]
-
-
-def _drawing(immersion: Immersion, plan: SweepPlan) -> _Drawing:
-    arrangement, n, bridges = immersion.arrangement, plan.n_vertices, len(plan.bridges)
-    order = sweep_order(plan)
-    rank = np.empty(n + len(arrangement.partner), dtype=np.int64)
-    rank[order] = np.arange(len(order))
-    seams = seams_of(immersion)
-    arriving, leaving = borders_at_points(arrangement)
-    bridge_of_foot, bridge_at = np.full(len(arrangement.partner), -1), np.full(n, -1)
-    bridge_of_foot[plan.second_foot], bridge_at[plan.first_foot] = np.arange(bridges), np.arange(bridges)
-    preceding = np.empty(n, dtype=np.int64)
-    preceding[plan.following[:n]] = np.arange(n)
-    return _Drawing(
-        order=order,
-        rank=np.concatenate([rank[:n], rank[plan.first_foot], rank[n + plan.second_foot]]),
-        following=plan.following,
-        preceding=preceding,
-        partner=arrangement.partner,
-        visit_edge=arrangement.visit_edge,
-        arriving=arriving,
-        leaving=leaving,
-        before=arrangement.border_before,
-        after=arrangement.border_after,
-        cusp=np.concatenate(drawn_outline(arrangement).cusps),
-        bridge_of_foot=bridge_of_foot,
-        bridge_at=bridge_at,
-        above=plan.above,
-        flat=np.array([int(is_moved(arrangement))]),
-        bridge_border=arrangement.n_borders + plan.bridges,
-        own_sheet=immersion.own_sheet,
-        row=seams.row,
-        beyond=seams.table,
-    )
+    output = run_loop(_swept, len(drawing.order), told, empty_triangles(_expected(immersion) + 1))
+    found = output.counts[TRIANGLES]
+    return GluedTriangles(output.faces[:found], twins_of_edges(output.sides[:found].ravel()))
 
 
 def _room(n: int, starts: int, turns: int, bridges: int) -> tuple[SkipList, _Strands, _Intervals, Stacks]:
@@ -233,12 +176,12 @@ def _room(n: int, starts: int, turns: int, bridges: int) -> tuple[SkipList, _Str
         empty_skip_list(2 * starts + bridges),
         _Strands(none[0], *rows(2, n + bridges), *rows(1, 2 * starts + bridges + 1)),
         _Intervals(none[1], *rows(1, n + bridges), *rows(3, starts)),
-        Stacks(*rows(2, starts + turns), *rows(2, 3 * (n + turns))),
+        Stacks(*rows(2, starts + turns), *rows(3, 3 * (n + turns))),
     )
 
 
 def _swept(
-    given: tuple[Coordinates, Coordinates, _Drawing, SkipList, _Strands, _Intervals, Stacks], output: Triangles
+    given: tuple[Coordinates, Coordinates, SweptDrawing, SkipList, _Strands, _Intervals, Stacks], output: Triangles
 ) -> int:
     """Sweep; return how many triangles there are."""
     places, given_places, drawing, nodes, strands, intervals, stacks = given
@@ -300,13 +243,13 @@ def _cross(sweep: _Sweep, visit: int) -> None:
 
 
 @called_from_loops
-def _runs_ahead(drawing: _Drawing, edge: int) -> bool:
+def _runs_ahead(drawing: SweptDrawing, edge: int) -> bool:
     """Tell whether an edge runs in the direction in which the line moves."""
     return bool(drawing.rank[edge] < drawing.rank[drawing.following[edge]])
 
 
 @called_from_loops
-def _border_behind(drawing: _Drawing, visit: int, edge: int) -> int:
+def _border_behind(drawing: SweptDrawing, visit: int, edge: int) -> int:
     """Return the border that the line comes to behind a visit."""
     border: int = drawing.after[visit] if _runs_ahead(drawing, edge) else drawing.before[visit]
     return border
@@ -330,7 +273,7 @@ def _take_over(sweep: _Sweep, old: int, new: int, vertex: int) -> None:
 
 
 @called_from_loops
-def _border_at(drawing: _Drawing, edge: int, vertex: int) -> int:
+def _border_at(drawing: SweptDrawing, edge: int, vertex: int) -> int:
     """Return the border that an edge is on at a vertex where it starts or ends."""
     border: int = drawing.leaving[vertex] if edge == vertex else drawing.arriving[vertex]
     return border
@@ -418,9 +361,11 @@ def _end(sweep: _Sweep, vertex: int, convex: bool) -> None:
     arriving, leaving = sweep.drawing.preceding[vertex], vertex
     lower, upper = intervals.of_edge[leaving], intervals.of_edge[arriving]
     if convex:
-        close(sweep.polygons, intervals.bottom[lower], vertex)
-        if intervals.top[lower] != intervals.bottom[lower]:
-            close(sweep.polygons, intervals.top[lower], vertex)
+        bottom, top = intervals.bottom[lower], intervals.top[lower]
+        edge = new_edge(sweep.polygons)
+        close(sweep.polygons, bottom, vertex, edge, new_edge(sweep.polygons))
+        if top != bottom:
+            close(sweep.polygons, top, vertex, edge, new_edge(sweep.polygons))
     else:
         _meet(sweep, lower, vertex, 1)
         _meet(sweep, upper, vertex, -1)
@@ -455,8 +400,7 @@ def _wind(sweep: _Sweep, vertex: int, comes: bool, goes: bool) -> None:
         around += (0 if convex else 1) - (1 if comes else 0)
     sheet = drawing.own_sheet[drawing.leaving[vertex]]
     for turn_number in range(around):
-        if turn_number > 0 or not on_left:
-            sheet = _next_sheet(drawing, vertex, sheet, turn_number > 0, on_left)
+        sheet = _sheet_above(drawing, vertex, sheet, turn_number > 0, on_left)
         interval = _interval_around(sweep, sheet, place)
         _cut(sweep, interval, vertex)
         _join(sweep, current, intervals.top[interval], intervals.upper_edge[interval])
@@ -496,17 +440,24 @@ def _first_at_cusp(sweep: _Sweep, vertex: int, comes: bool, goes: bool) -> int:
 
 
 @called_from_loops
-def _next_sheet(drawing: _Drawing, vertex: int, sheet: int, whole: bool, on_left: bool) -> int:
-    """Return the sheet that lies a whole turn round a cusp further on, on the same side of the outline, or half a turn.
+def _sheet_above(drawing: SweptDrawing, vertex: int, sheet: int, whole: bool, on_left: bool) -> int:
+    """Return the sheet right above a cusp to which one comes from its leaving edge, or by a whole turn from above.
 
-    A turn leads over the arriving edge to the right side, and over the leaving edge to the left side.
+    A turn leads over the arriving edge to the right side, over the leaving edge to the left side, and over a bridge
+    that begins there. First comes the arriving edge if the outline has on its left what is right above.
     """
-    to_right, to_left = 2 * drawing.arriving[vertex], 2 * drawing.leaving[vertex] + 1
-    if whole and not on_left:
-        sheet = drawing.beyond[drawing.row[to_left] + sheet]
-    sheet = drawing.beyond[drawing.row[to_right] + sheet]
-    if whole and on_left:
-        sheet = drawing.beyond[drawing.row[to_left] + sheet]
+    bridge = drawing.bridge_at[vertex]
+    at_bridge = drawing.before_bridge[bridge] if bridge >= 0 else -1
+    underway = whole
+    for passed in range(3):
+        if underway and passed == at_bridge:
+            sheet = drawing.beyond[drawing.row[2 * drawing.bridge_border[bridge] + 1] + sheet]
+        if passed < 2:
+            leaves = on_left == (passed == 1)
+            if underway:
+                dart = 2 * drawing.leaving[vertex] + 1 if leaves else 2 * drawing.arriving[vertex]
+                sheet = drawing.beyond[drawing.row[dart] + sheet]
+            underway = underway or leaves
     return sheet
 
 
@@ -542,10 +493,11 @@ def _meet(sweep: _Sweep, interval: int, vertex: int, side: int) -> None:
     intervals = sweep.intervals
     bottom, top = intervals.bottom[interval], intervals.top[interval]
     near, far = (top, bottom) if side > 0 else (bottom, top)
+    edge = new_edge(sweep.polygons)
     if near != far:
-        close(sweep.polygons, near, vertex)
+        close(sweep.polygons, near, vertex, edge, new_edge(sweep.polygons))
         intervals.bottom[interval] = intervals.top[interval] = far
-    add_vertex(sweep.polygons, far, vertex, side)
+    add_vertex(sweep.polygons, far, vertex, side, edge)
 
 
 @called_from_loops
@@ -571,6 +523,7 @@ def _cut(sweep: _Sweep, interval: int, vertex: int) -> None:
             bottom = seen
         else:
             top = seen
-    add_vertex(sweep.polygons, bottom, vertex, 1)
-    add_vertex(sweep.polygons, top, vertex, -1)
+    edge = new_edge(sweep.polygons)
+    add_vertex(sweep.polygons, bottom, vertex, 1, edge)
+    add_vertex(sweep.polygons, top, vertex, -1, edge)
     intervals.bottom[interval], intervals.top[interval] = bottom, top

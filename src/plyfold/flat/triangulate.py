@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, overload
+from typing import Literal, NamedTuple, overload
 
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrangement.spikes import without_spikes
 from plyfold.arrays import Floats, Ints
-from plyfold.errors import InputError, NotImmersibleError
+from plyfold.errors import InputError, NotImmersibleError, PrecisionError
 from plyfold.flat.delaunay import delaunay_triangles, flip_edges
-from plyfold.flat.settle import settled_by_points, settled_triangles
+from plyfold.flat.settle import settled_triangles
+from plyfold.halfedges import GluedTriangles, ends_of, split_in_three, split_in_two
 from plyfold.immersion.immersion import Immersion, require_immersion
 from plyfold.immersion.solve import find_immersion
 from plyfold.mesh.cells import refuse_max_area
@@ -24,16 +25,26 @@ __all__ = ["chosen_immersion", "triangulate"]
 
 
 @overload
-def triangulate(curve: OutlineLike, immersion: Immersion | None = None, refine: None = None) -> Ints: ...
+def triangulate(
+    curve: OutlineLike, immersion: Immersion | None = None, refine: None = None, *, twins: Literal[False] = False
+) -> Ints: ...
 
 
 @overload
-def triangulate(curve: OutlineLike, immersion: Immersion | None = None, *, refine: float) -> tuple[Floats, Ints]: ...
+def triangulate(
+    curve: OutlineLike, immersion: Immersion | None = None, refine: None = None, *, twins: Literal[True]
+) -> tuple[Ints, Ints]: ...
+
+
+@overload
+def triangulate(
+    curve: OutlineLike, immersion: Immersion | None = None, *, refine: float, twins: Literal[False] = False
+) -> tuple[Floats, Ints]: ...
 
 
 def triangulate(
-    curve: OutlineLike, immersion: Immersion | None = None, refine: float | None = None
-) -> Ints | tuple[Floats, Ints]:
+    curve: OutlineLike, immersion: Immersion | None = None, refine: float | None = None, *, twins: bool = False
+) -> Ints | tuple[Ints, Ints] | tuple[Floats, Ints]:
     """Cut the disk that a curve bounds into n − 2 triangles on the curve's own n points, or the surface of any outline.
 
     Parameters
@@ -44,7 +55,9 @@ def triangulate(
         The surface to triangulate, if the outline bounds several; by default the first one.
     refine : float, optional
         Largest area of a triangle, in square units of the drawing. Points are then added inside the surface, none on
-        its boundary.
+        its boundary. ``math.inf`` adds none for the sake of area, so that triangles are round and no more.
+    twins : bool, optional
+        Without ``refine``: tell also which sides are glued.
 
     Returns
     -------
@@ -56,10 +69,16 @@ def triangulate(
 
         A surface that touches itself (``immersion.touches``) is cut there, and falls into pieces. Then n counts every
         corner of every piece, and χ is that of all pieces together. Where a point touches the inside of an edge, it is
-        a corner on both sides.
+        a corner on both sides: faces name points, and a point may be several corners of the surface.
+    twins : (3 (n − 2χ),) int
+        With ``twins``. The side beyond each side of each triangle, −1 on the boundary; side i of triangle t, from its
+        corner i to the next one, is 3 t + i. Faces do not tell that where sides join the same points and are not the
+        same edge: between cusps, round which the surface winds, and along cuts.
     points, faces : (m, 2) float and (m', 3) int
-        With ``refine``. The first points are the outline's, all of them; those that touch the inside of an edge where
-        the surface is cut follow, once more for each corner there, so that pieces have no vertex in common.
+        With ``refine``: a mesh, of which faces tell how it is glued. The first points are the outline's, all of them;
+        those that touch the inside of an edge where the surface is cut follow, once more for each corner there, so that
+        pieces have no vertex in common. Where several edges of triangles join the same two cusps, all but one of them
+        have a vertex in their middle.
 
     Raises
     ------
@@ -68,10 +87,11 @@ def triangulate(
     MemoryLimitError
         If the gluing of the sheets would not fit into memory.
     InputError
-        If ``refine`` is no positive number or makes too many triangles, or the immersion is one of another outline;
-        with ``refine``, also if two sides of triangles join the same two cusps.
-    GeneralPositionError
-        If touching strands cannot be moved apart by as little as it takes to see how the surface lies.
+        If ``refine`` is no positive number or makes too many triangles, or is there together with ``twins``; or the
+        immersion is one of another outline.
+    PrecisionError
+        If touching strands cannot be moved apart by as little as it takes to see how the surface lies; with ``refine``,
+        if there is no double in the middle between two cusps.
 
     Notes
     -----
@@ -115,10 +135,14 @@ def triangulate(
     chosen = chosen_immersion(outline, immersion)
     came_in = _points_that_came_in(outline, chosen.arrangement)
     if refine is not None:
+        if twins:
+            raise InputError("with refine, faces tell which sides are twins", hint="leave out twins")
         return _refined(chosen, came_in, refine)
     settled = settled_triangles(chosen)
     faces = came_in.number[settled.point[settled.faces]]
-    return faces if isinstance(curve, Outline) or not isinstance(outline, Outline) else outline.rows[faces]
+    if isinstance(outline, Outline) and not isinstance(curve, Outline):
+        faces = outline.rows[faces]
+    return (faces, settled.triangles.twin) if twins else faces
 
 
 class _CameIn(NamedTuple):
@@ -185,31 +209,46 @@ def _refined(immersion: Immersion, came_in: _CameIn, max_area: float) -> tuple[F
     if isinstance(max_area, bool) or not isinstance(max_area, int | float | np.number):
         raise InputError(f"the largest area of a triangle must be a number, not {max_area!r}")
     refuse_max_area(given, max_area)
-    point, inside = (settled := settled_by_points(immersion)).point, settled.inside
+    point, inside = (settled := settled_triangles(immersion)).point, settled.inside
     points = np.concatenate([came_in.points, given[point[inside]]])
     number = np.where(inside, len(came_in.points) - 1 + np.cumsum(inside), came_in.number[point])
     # Flips alone would take quadratic time where triangles are long.
-    round_triangles = delaunay_triangles(given[point], settled.faces)
-    return _split_large(points, number[round_triangles], max_area)
+    faces, twin = delaunay_triangles(given[point], settled.triangles)
+    return _split_double(*_split_large(points, GluedTriangles(number[faces], twin), max_area))
 
 
-def _split_large(points: Floats, faces: Ints, max_area: float) -> tuple[Floats, Ints]:
+def _split_large(points: Floats, triangles: GluedTriangles, max_area: float) -> tuple[Floats, GluedTriangles]:
     """Split triangles at their centres until none is larger than allowed, or none of those can be split exactly.
 
     Edges are flipped after each round, so that triangles stay as round as their points allow.
     """
     while True:
-        faces = flip_edges(points, faces)
-        a, b, c = points[faces].swapaxes(0, 1)
+        triangles = flip_edges(points, triangles)
+        a, b, c = points[triangles.faces].swapaxes(0, 1)
         (ux, uy), (vx, vy) = (b - a).T, (c - a).T
         large = np.flatnonzero(ux * vy - uy * vx > 2 * max_area)
         centre = a[large] + ((b - a)[large] + (c - a)[large]) / 3
         inside = [orient(p[large], q[large], centre) > 0 for p, q in ((a, b), (b, c), (c, a))]
         large, centre = large[np.all(inside, axis=0)], centre[np.all(inside, axis=0)]
         if len(large) == 0:
-            return points, faces
-        new = len(points) + np.arange(len(large))
-        first, second, third = faces[large].T
-        parts = [(first, second, new), (second, third, new), (third, first, new)]
-        faces = np.concatenate([np.delete(faces, large, axis=0), *(np.stack(part, axis=1) for part in parts)])
+            return points, triangles
+        triangles = split_in_three(triangles, large, len(points) + np.arange(len(large)))
         points = np.concatenate([points, centre])
+
+
+def _split_double(points: Floats, triangles: GluedTriangles) -> tuple[Floats, Ints]:
+    """Put points in the middle of edges that join the same points as another one; then corners tell what is glued."""
+    while doubles := triangles.doubles:
+        side = int(doubles[0][-1])
+        ends = [ends[side] for ends in ends_of(triangles.faces)]
+        middle = len(points)
+        points = np.concatenate([points, (points[ends] / 2).sum(axis=0, keepdims=True)])
+        triangles = split_in_two(triangles, side, middle)
+        beside = triangles.faces[(triangles.faces == middle).any(axis=1)]
+        if (orient(*points[beside].swapaxes(0, 1)) <= 0).any():
+            raise PrecisionError(
+                "two edges of triangles join the same two cusps, and double precision has no point between these",
+                where=points[ends],
+                hint="put a vertex on an edge near one of them",
+            )
+    return points, triangles.faces

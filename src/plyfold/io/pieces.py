@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from shapely import Polygon
 
 
-__all__ = ["POLYGON_WRITERS", "TRIANGLE_WRITERS"]
+__all__ = ["POLYGON_WRITERS", "as_csv", "as_obj"]
 
 
 def as_geojson(polygons: Sequence[Polygon], properties: Sequence[dict[str, Any]]) -> str:
@@ -60,10 +60,9 @@ def as_obj(points: Floats, faces: Ints) -> str:
     return "".join([*rows, *(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces.tolist())])
 
 
-def as_csv(points: Floats, faces: Ints) -> str:
+def as_csv(faces: Ints) -> str:
     """Return the triangles alone, as numbers of points counted from 0."""
     return "a,b,c\n" + "".join(f"{a},{b},{c}\n" for a, b, c in faces.tolist())
 
 
 POLYGON_WRITERS = {".geojson": as_geojson, ".wkt": as_wkt, ".svg": as_svg}
-TRIANGLE_WRITERS = {".obj": as_obj, ".csv": as_csv}

@@ -7,17 +7,21 @@ import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import BinaryIO, TypeAlias
 
 from plyfold.errors import InputError
 from plyfold.options import refuse_unless_flag
 
-__all__ = ["draft_in", "refuse_existing", "refuse_output", "save_bytes", "unfinished"]
+__all__ = ["Target", "draft_in", "refuse_existing", "refuse_output", "save_bytes", "unfinished"]
+
+# Where something is written to: a path, or a file that is open for bytes.
+Target: TypeAlias = str | os.PathLike[str] | BinaryIO
 
 # Drafts that are to be removed when the program is ended at this moment.
 unfinished: set[Path] = set()
 
 
-def refuse_existing(path: str | os.PathLike[str], force: bool = False) -> None:
+def refuse_existing(path: Target, force: bool = False) -> None:
     """Raise FileExistsError if a file exists and is not to be replaced.
 
     Examples
@@ -27,21 +31,23 @@ def refuse_existing(path: str | os.PathLike[str], force: bool = False) -> None:
     FileExistsError: /dev/null exists already and was not overwritten; force (--force) replaces it
     """
     refuse_unless_flag("force", force)
+    if not isinstance(path, str | os.PathLike):
+        return
     if Path(path).is_dir():
         raise IsADirectoryError(f"{path} is a folder")
     if Path(path).exists() and not force:
         raise FileExistsError(f"{path} exists already and was not overwritten; force (--force) replaces it")
 
 
-def save_bytes(path: str | os.PathLike[str], content: bytes, force: bool = False) -> None:
+def save_bytes(path: Target, content: bytes, force: bool = False) -> None:
     """Write a file so that it appears complete or not at all, even if the program is killed.
 
     A symbolic link stays, and the file that it leads to is written. A file that is replaced keeps its permissions.
-    What is no file on a disk, such as a pipe or a terminal, is written to as it is.
+    What is no file on a disk, such as a pipe or a terminal, is written to as it is, and so is an open file.
 
     Parameters
     ----------
-    path : path
+    path : path or binary file
     content : bytes
     force : bool
         Replace an existing file.
@@ -53,6 +59,9 @@ def save_bytes(path: str | os.PathLike[str], content: bytes, force: bool = False
     OSError
         If the folder is missing, cannot be written to, or is full.
     """
+    if not isinstance(path, str | os.PathLike):
+        path.write(content)
+        return
     refuse_existing(path, force)
     target = Path(os.path.realpath(path))
     try:

@@ -5,20 +5,23 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 import numpy as np
+import numpy.typing as npt
 
 from plyfold.arrays import Floats, Ints
 from plyfold.colours import layer_colour, rgb, sheet_colour
 from plyfold.disk.motion import shapes_of_disk
-from plyfold.errors import InputError, PrecisionError
+from plyfold.errors import InputError, PlyfoldError, PrecisionError
 from plyfold.io.mesh.model import DETAIL, Material, Model, size_of, summed_at_vertices
 from plyfold.options import refuse_unless_flag
 from plyfold.ragged import next_in_rows
 
 if TYPE_CHECKING:
+    import trimesh
+
     from plyfold.surface.lift import Surface
     from plyfold.surface.thicken import Solid
 
-__all__ = ["Colouring", "model_of_solid", "model_of_surface"]
+__all__ = ["Colouring", "model_of_solid", "model_of_surface", "trimesh_of"]
 
 Colouring: TypeAlias = Literal["layers", "sheets"]
 
@@ -94,6 +97,27 @@ def model_of_solid(solid: Solid, colours: Colouring = "layers", unwrapped: bool 
         uv=None if model.uv is None else _twice(model.uv, cusps),
         shapes={name: _twice(places, cusps) + up for name, places in model.shapes.items()},
     )
+
+
+def trimesh_of(model: Model) -> trimesh.Trimesh:
+    """Return a model as a mesh of the library trimesh, its vertices and triangles in the same order."""
+    try:
+        import trimesh
+    except ImportError as error:
+        raise PlyfoldError("a mesh of trimesh needs that library", hint="pip install trimesh") from error
+    shades = np.array([rgb(material.colour) for material in model.materials])[model.material]
+    return trimesh.Trimesh(
+        vertices=model.vertices,
+        faces=model.faces,
+        face_attributes={"sheet": model.material},
+        vertex_colors=None if model.colours is None else _bytes(model.colours),
+        face_colors=_bytes(shades) if model.colours is None else None,
+        process=False,
+    )
+
+
+def _bytes(colours: Floats) -> npt.NDArray[np.uint8]:
+    return np.rint(255 * colours).astype(np.uint8)
 
 
 def _unwrapped(surface: Surface, wanted: bool | None) -> tuple[Floats | None, dict[str, Floats]]:

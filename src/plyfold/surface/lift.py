@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import chain
 from pathlib import Path
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -29,7 +29,7 @@ from plyfold.errors import (
 from plyfold.immersion.immersion import Immersion, require_disk
 from plyfold.immersion.solve import find_immersion, watched_immersions
 from plyfold.io.mesh.saving import refuse_ending, save_model
-from plyfold.io.saving import save_bytes
+from plyfold.io.saving import Target, save_bytes
 from plyfold.layering.embedding import find_embedding
 from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
@@ -48,7 +48,7 @@ from plyfold.options import refuse_unless_flag, refuse_unless_number
 from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.given import OutlineLike
 from plyfold.surface.chords import split_chords
-from plyfold.surface.files import Colouring, model_of_surface
+from plyfold.surface.files import Colouring, model_of_surface, trimesh_of
 from plyfold.surface.glue import cusps_of, intersection_curves, stack_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, flat_weight, refuse_stiffness, smooth_heights
 from plyfold.surface.left import kinds_of, loops_of, may_touch
@@ -56,7 +56,13 @@ from plyfold.surface.stairs import Steps, heights_of_stairs, with_cusps_apart, w
 from plyfold.surface.thicken import Solid, thicken
 from plyfold.wording import counted
 
+if TYPE_CHECKING:
+    import trimesh
+
 __all__ = ["Surface", "layering_of", "lift"]
+
+# They need a file with a path.
+_FILMS = (".gif", ".mp4")
 
 # Distance of neighbouring sheets, as a fraction of the drawing's larger side.
 _DEFAULT_GAP = 0.05
@@ -218,20 +224,21 @@ class Surface:
         """
         return thicken(self, thickness)
 
-    def export(
+    def export(  # noqa: PLR0913 - options of formats
         self,
-        path: str | os.PathLike[str],
+        path: Target,
         force: bool = False,
         title: str | None = None,
         *,
         colours: Colouring = "layers",
         unwrapped: bool | None = None,
+        ending: str | None = None,
     ) -> None:
         """Write the surface to a file.
 
         Parameters
         ----------
-        path : path
+        path : path or binary file
             The ending chooses the format: ``.glb``, ``.obj``, ``.ply``, ``.stl``, ``.3mf``, or ``.html`` for a 3D page
             that works in any browser with no network; or ``.gif``, or ``.mp4`` where ffmpeg is installed, for a film of
             the round disk that unwinds onto the drawing and rises to the surface.
@@ -246,6 +253,9 @@ class Surface:
             In a GLB, OBJ or PLY, texture coordinates from :meth:`unwrap`; in a GLB, moreover, the surface flat on the
             table and unwound to a disk, as morph targets ``flat`` and ``disk`` and an animation. By default, if the
             surface is a disk and double precision can hold it unwound.
+        ending : str, optional
+            Chooses the format, as an open file has no ending of its own. An OBJ in one names no materials, and films
+            go into files with paths only.
 
         Raises
         ------
@@ -256,15 +266,39 @@ class Surface:
         PrecisionError
             If the numbers of the format cannot hold the surface, or doubles cannot hold the disk that is asked for.
         """
-        suffix = refuse_ending(path, (".html", ".gif", ".mp4"))
+        named = isinstance(path, str | os.PathLike)
+        suffix = refuse_ending(path, (".html", *_FILMS) if named else (".html",), ending)
         if suffix == ".html":
-            save_bytes(path, self._page(title or Path(path).stem), force)
-        elif suffix in (".gif", ".mp4"):
+            save_bytes(path, self._page(title or (Path(str(path)).stem if named else "plyfold")), force)
+        elif suffix in _FILMS:
             from plyfold.draw.film import save_film
 
-            save_film(self, path, force)
+            save_film(self, str(path), force)
         else:
-            save_model(lambda: model_of_surface(self, colours, unwrapped), path, force)
+            save_model(lambda: model_of_surface(self, colours, unwrapped), path, force, ending)
+
+    def to_trimesh(self, colours: Colouring = "layers") -> trimesh.Trimesh:
+        """Return the surface as a mesh of trimesh_, which must be installed, vertex for vertex and face for face.
+
+        Parameters
+        ----------
+        colours : {"layers", "sheets"}
+            A colour at each vertex, of its layers, or of each triangle, of its sheet.
+
+        Returns
+        -------
+        trimesh.Trimesh
+            ``face_attributes["sheet"]`` has the sheet of each triangle.
+
+        .. _trimesh: https://trimesh.org
+
+        Examples
+        --------
+        >>> mesh = lift([(0, 0), (4, 0), (0, 3)], max_area=10.0).to_trimesh()
+        >>> mesh.faces.tolist(), float(mesh.area)
+        ([[0, 1, 2]], 6.0)
+        """
+        return trimesh_of(model_of_surface(self, colours, unwrapped=False))
 
     def show(self) -> None:
         """Open the 3D page in the browser, from a temporary file that stays until the system cleans up."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -13,12 +12,15 @@ from plyfold.certify import check_solid
 from plyfold.errors import InputError, PrecisionError
 from plyfold.halfedges import ends_of
 from plyfold.io.mesh.saving import save_model
+from plyfold.io.saving import Target
 from plyfold.options import refuse_unless_number
 from plyfold.ragged import next_in_rows
-from plyfold.surface.files import Colouring, model_of_solid
+from plyfold.surface.files import Colouring, model_of_solid, trimesh_of
 from plyfold.surface.left import kinds_of, may_touch
 
 if TYPE_CHECKING:
+    import trimesh
+
     from plyfold.surface.lift import Surface
 
 __all__ = ["Solid", "thicken"]
@@ -86,16 +88,17 @@ class Solid:
 
     def export(
         self,
-        path: str | os.PathLike[str],
+        path: Target,
         force: bool = False,
         colours: Colouring = "layers",
         unwrapped: bool | None = None,
+        ending: str | None = None,
     ) -> None:
         """Write the solid to a file; see :meth:`Surface.export`. There is no page of a solid.
 
         Parameters
         ----------
-        path : path
+        path : path or binary file
             The ending chooses the format: ``.stl``, ``.3mf``, ``.glb``, ``.obj`` or ``.ply``.
         force : bool
             Replace an existing file.
@@ -103,8 +106,17 @@ class Solid:
             A colour for each layer, in smooth transition, or a material for each sheet.
         unwrapped : bool, optional
             With texture coordinates and other shapes, where the format has them.
+        ending : str, optional
+            Chooses the format, as an open file has no ending of its own.
         """
-        save_model(lambda: model_of_solid(self, colours, unwrapped), path, force)
+        save_model(lambda: model_of_solid(self, colours, unwrapped), path, force, ending)
+
+    def to_trimesh(self, colours: Colouring = "layers") -> trimesh.Trimesh:
+        """Return the solid as a mesh of trimesh_; see :meth:`Surface.to_trimesh`.
+
+        .. _trimesh: https://trimesh.org
+        """
+        return trimesh_of(model_of_solid(self, colours, unwrapped=False))
 
 
 def thicken(surface: Surface, thickness: float) -> Solid:

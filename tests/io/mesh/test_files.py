@@ -1,6 +1,7 @@
 """Mesh files, read back by other libraries."""
 
 import dataclasses
+import re
 import zipfile
 from xml.etree import ElementTree
 
@@ -152,7 +153,7 @@ def test_ply_with_a_colour_for_each_sheet(surface, tmp_path):
     read = meshio.read(tmp_path / "out.ply")
     (block,) = read.cells
     assert np.array_equal(read.points[block.data], surface.vertices[surface.faces])
-    assert np.array_equal(read.point_data["sheet"][block.data], np.repeat(surface.sheet, 3).reshape(-1, 3))
+    assert np.array_equal(sheets_said(tmp_path / "out.ply")[block.data], np.repeat(surface.sheet, 3).reshape(-1, 3))
     expected = np.rint(255 * np.array([rgb(sheet_colour(sheet)) for sheet in surface.sheet]))
     colour = np.stack([read.point_data[name] for name in ("red", "green", "blue")], axis=1)
     assert (colour[block.data].astype(np.uint8) == expected[:, None]).all()  # meshio takes bytes for signed
@@ -161,6 +162,30 @@ def test_ply_with_a_colour_for_each_sheet(surface, tmp_path):
     surface.export(tmp_path / "bare.ply", colours="sheets", unwrapped=False)
     bare = trimesh.load(tmp_path / "bare.ply", process=False)
     assert (bare.visual.vertex_colors[bare.faces][..., :3] == expected[:, None]).all()
+
+
+def sheets_said(path):
+    """The sheet of each vertex, by the comments in the header."""
+    header = path.read_bytes().split(b"end_header")[0].decode().splitlines()
+    said = [re.match(r"comment sheet_(\d+)_level_\d+: vertices (\d+) to (\d+)", line) for line in header]
+    return np.concatenate([np.repeat(int(one[1]), 1 + int(one[3]) - int(one[2])) for one in said if one])
+
+
+@pytest.mark.parametrize("colours", ["layers", "sheets"])
+def test_ply_for_readers_that_want_one_type(surface, colours, tmp_path):
+    """libigl reads places, normals and textures, and all that is left as one table; of two types, it aborts."""
+    surface.export(tmp_path / "out.ply", colours=colours)
+    header = (tmp_path / "out.ply").read_bytes().split(b"end_header")[0].decode().splitlines()
+    properties = [line.split()[1:] for line in header if line.startswith("property")]
+    assert len({kind for kind, *name in properties if name[-1] not in {*"xyzst", "vertex_indices"}}) == 1
+
+
+def test_a_glb_with_sheets_is_hardly_longer(tmp_path):
+    surface = lift(CURVES["milnor"].curve, triangles=1000)
+    for colours in ("layers", "sheets"):
+        surface.export(tmp_path / f"{colours}.glb", colours=colours)
+    layers, sheets = ((tmp_path / f"{name}.glb").stat().st_size for name in ("layers", "sheets"))
+    assert sheets < 1.2 * layers
 
 
 def test_ply_with_smooth_colours(surface, tmp_path):

@@ -24,6 +24,9 @@ _UNSIGNED, _SINGLE = 5125, 5126
 _VERTICES, _INDICES = 34962, 34963
 _TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3"}
 _SECONDS_PER_SHAPE = 1.5
+# Sheets share their vertices in groups of about so many triangles: one set each would make a file of many small sheets
+# several times as long, and one for all would be read whole for each sheet.
+_TRIANGLES_TOGETHER = 4096
 # The animation rests on the surface first, for programs show the file at some moment after its beginning.
 _REST = 0.5
 
@@ -73,22 +76,27 @@ def _material(material: Material) -> dict[str, Any]:
 
 
 def _primitives(model: Model, buffer: _Buffer) -> list[dict[str, Any]]:
-    """Return a primitive for each material; vertices are doubled where normals jump or materials meet."""
+    """Return a primitive for each material; those of a group share their vertices, which are doubled at its border.
+
+    Vertices are doubled where normals jump, too.
+    """
     shaded, faces, _ = split_vertices(model.faces, model.smooth)
     material = model.material if model.colours is None else np.zeros(len(faces), dtype=np.int64)
     order = np.argsort(material, kind="stable")
-    source, corners, owner = split_vertices(faces[order], material[order])
-    numbers = np.arange(len(_materials(model)) + 1)
-    first_vertex, first_face = np.searchsorted(owner, numbers), np.searchsorted(material[order], numbers)
-    corners = corners - first_vertex[material[order]][:, None]
+    first_face = np.searchsorted(material[order], np.arange(len(_materials(model)) + 1))
+    group = first_face[:-1] // _TRIANGLES_TOGETHER
+    source, corners, owner = split_vertices(faces[order], group[material[order]])
+    numbers, group = np.unique(group, return_inverse=True)
+    first_vertex = np.searchsorted(owner, [*numbers, np.inf])
+    corners = corners - np.repeat(first_vertex[group], np.diff(first_face))[:, None]
     attributes = [
-        {name: buffer.array(values[source], first_vertex, _VERTICES) for name, values in group.items()}
-        for group in _attributes(model, shaded, faces)
+        {name: buffer.array(values[source], first_vertex, _VERTICES) for name, values in one.items()}
+        for one in _attributes(model, shaded, faces)
     ]
     indices = buffer.array(corners.astype("<u4").reshape(-1, 1), 3 * first_face, _INDICES)
     return [
-        _primitive(number, [{name: accessors[number] for name, accessors in one.items()} for one in attributes], index)
-        for number, index in enumerate(indices)
+        _primitive(number, [{name: accessors[shared] for name, accessors in one.items()} for one in attributes], index)
+        for number, (shared, index) in enumerate(zip(group.tolist(), indices, strict=True))
     ]
 
 

@@ -5,7 +5,7 @@ OBJ and PLY keep double precision.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Any, TypeAlias
 
@@ -61,7 +61,7 @@ def material_library(model: Model) -> bytes:
 
 # ---- PLY -------------------------------------------------------------------------------------------------------------
 
-_TYPES = {"f8": "double", "i4": "int", "u1": "uchar"}
+_TYPES = {"f8": "double", "u1": "uchar"}
 
 # Name, type and values of each property.
 _Columns: TypeAlias = list[tuple[str, str, npt.NDArray[Any]]]
@@ -70,31 +70,41 @@ _Columns: TypeAlias = list[tuple[str, str, npt.NDArray[Any]]]
 def ply(model: Model) -> bytes:
     """Return the model as a binary PLY, with colours at the vertices, where readers look for them.
 
-    If each sheet has its colour, vertices between sheets are doubled, one for each sheet with its number as ``sheet``,
-    and come sheet by sheet. Texture coordinates are named ``s`` and ``t``.
+    If each sheet has its colour, vertices between sheets are doubled, one for each sheet, and come sheet by sheet;
+    comments in the header tell which are whose. (As a property the number of the sheet would hinder readers that want
+    one type for what is left beside places and textures, or nothing but corners in triangles.) Texture coordinates are
+    named ``s`` and ``t``.
     """
-    vertices, faces = _tables(model)
-    header = ["ply", "format binary_little_endian 1.0", "comment plyfold", f"element vertex {len(vertices)}"]
+    vertices, faces, comments = _tables(model)
+    header = ["ply", "format binary_little_endian 1.0", "comment plyfold", *comments]
+    header.append(f"element vertex {len(vertices)}")
     header += [f"property {_TYPES[vertices.dtype[name].str[1:]]} {name}" for name in vertices.dtype.names or ()]
     header += [f"element face {len(faces)}", "property list uchar int vertex_indices"]
     return "\n".join([*header, "end_header\n"]).encode() + vertices.tobytes() + faces.tobytes()
 
 
-def _tables(model: Model) -> tuple[npt.NDArray[np.void], npt.NDArray[np.void]]:
-    """Return the tables of vertices and of faces."""
+def _tables(model: Model) -> tuple[npt.NDArray[np.void], npt.NDArray[np.void], Iterable[str]]:
+    """Return the tables of vertices and of faces, and what is said of the sheets."""
     if model.colours is not None:
-        return _vertex_table(model, model.colours), _face_table(model.faces)
+        return _vertex_table(model, model.colours), _face_table(model.faces), ()
     source, corners, sheet = split_vertices(model.faces, model.material)
     colours = np.array([rgb(material.colour) for material in model.materials])[sheet]
     doubled = replace(model, vertices=model.vertices[source], uv=None if model.uv is None else model.uv[source])
-    return _vertex_table(doubled, colours, [("sheet", "<i4", sheet)]), _face_table(corners)
+    return _vertex_table(doubled, colours), _face_table(corners), _whose(model, sheet)
 
 
-def _vertex_table(model: Model, colours: Floats, more: _Columns | None = None) -> npt.NDArray[np.void]:
+def _whose(model: Model, sheet: Ints) -> Iterator[str]:
+    """Yield which vertices are of which sheet."""
+    start = np.searchsorted(sheet, np.arange(len(model.materials) + 1)).tolist()
+    for material, first, end in zip(model.materials, start, start[1:], strict=False):
+        yield f"comment {material.name}: vertices {first} to {end - 1}"
+
+
+def _vertex_table(model: Model, colours: Floats) -> npt.NDArray[np.void]:
     columns = _columns("xyz", "<f8", model.vertices)
     if model.uv is not None:
         columns += _columns("st", "<f8", model.uv)
-    return _table([*columns, *_columns(("red", "green", "blue"), "u1", np.rint(255 * colours)), *(more or [])])
+    return _table([*columns, *_columns(("red", "green", "blue"), "u1", np.rint(255 * colours))])
 
 
 def _face_table(faces: Ints) -> npt.NDArray[np.void]:
