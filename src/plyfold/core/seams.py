@@ -59,9 +59,10 @@ def first_fault(seams: GluedSeams, around: WholeBuffer, taken: WholeBuffer) -> i
     >>> from array import array
     >>> start, around, taken = array("q", [0, 0, 1]), array("q", [1, 0, 1, 0]), array("i", [0, 0, 0])
     >>> sides = array("q", [0, 1]), array("q", [0, 0]), array("q", [1, 2])
-    >>> first_fault(GluedSeams(start, array("i", [1]), array("q", [0, 2]), *sides), array("q"), taken)
+    >>> own, none = array("q", [0, 2]), array("q")
+    >>> first_fault(GluedSeams(start, array("i", [1]), own, *sides), none, taken)
     0
-    >>> first_fault(GluedSeams(start, array("i", [2]), array("q", [0, 2]), *sides), array("q"), array("i", [0] * 3)) == ONCE
+    >>> first_fault(GluedSeams(start, array("i", [2]), own, *sides), none, array("i", [0, 0, 0])) == ONCE
     True
     """
     for seam in range(len(seams.first_left)):
