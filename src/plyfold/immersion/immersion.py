@@ -33,7 +33,7 @@ __all__ = [
 ]
 
 # Bytes for each pair of glued sheets: the result, and what is there while it is made and checked.
-_BYTES_PER_PAIR = 130
+_BYTES_PER_PAIR = 30
 
 
 @dataclass(frozen=True)

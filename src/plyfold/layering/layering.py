@@ -24,6 +24,9 @@ __all__ = [
     "meeting_sheets",
 ]
 
+# Bytes for each pair of glued sheets of a surface made from its levels, and what is there while it is made.
+_BYTES_PER_PAIR = 80
+
 
 @dataclass(frozen=True, eq=False)
 class Layering:
@@ -182,7 +185,7 @@ def layering_of_levels(arranged: Arrangement, level: Ints) -> Layering:
     Layering
         Over each cell the sheets are numbered from below. Cost: O(Σ w), the sheets counted once per border.
     """
-    require_memory_for_gluing(arranged)
+    require_memory_for_gluing(arranged, _BYTES_PER_PAIR)
     first_sheet = starts_of(arranged.winding)
     immersion = Immersion(
         arrangement=arranged,
