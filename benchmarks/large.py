@@ -41,7 +41,7 @@ start = time.process_time()
 try:
     answer = getattr(pf, name)(given)
     said = str(answer)
-except (MemoryError, pf.PlyfoldError) as error:
+except Exception as error:
     answer, said = None, type(error).__name__
 seconds, peak = time.process_time() - start, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 parts = [getattr(answer, part, None) for part in ("own_sheet", "level")]
