@@ -16,6 +16,7 @@ __all__ = [
     "flat",
     "real_room",
     "rough_room",
+    "short_room",
     "whole_room",
 ]
 
@@ -72,3 +73,8 @@ def byte_room(size: int) -> WholeBuffer:
 def rough_room(size: int) -> WholeBuffer:
     """Return room for so many whole numbers of 64 bits, with anything in it."""
     return flat(np.empty(size, dtype=np.int64))
+
+
+def short_room(size: int) -> WholeBuffer:
+    """Return so many zeros, for whole numbers of 32 bits: for numbers of sheets, where there are very many."""
+    return flat(np.zeros(size, dtype=np.int32))
