@@ -5,7 +5,8 @@ import pytest
 
 from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.errors import CurveError, GeneralPositionError
-from plyfold.immersion.solve import bounds_disk, count_immersions, find_immersion, immersions
+from plyfold.immersion.solve import count_immersions, find_immersion, immersions
+from plyfold.immersion.verdict import bounds_disk
 from plyfold.layering.orders.search import find_layering
 from reference import crossings, gluings, layerings, outline_gluings, outline_levels, planar_maps, random_curves
 from reference.outlines import of_gauss

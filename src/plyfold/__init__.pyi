@@ -29,11 +29,11 @@ from .immersion.compare import flip_distance as flip_distance
 from .immersion.cutting import irreducible_kernels as irreducible_kernels
 from .immersion.immersion import Immersion as Immersion
 from .immersion.solve import best_immersion as best_immersion
-from .immersion.solve import bounds_disk as bounds_disk
 from .immersion.solve import count_immersions as count_immersions
 from .immersion.solve import find_immersion as find_immersion
 from .immersion.solve import immersions as immersions
 from .immersion.solve import sample_immersion as sample_immersion
+from .immersion.verdict import bounds_disk as bounds_disk
 from .io.outline_files import save as save
 from .io.reading import read as read
 from .layering.embedding import count_embeddings as count_embeddings

@@ -7,12 +7,25 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Bools", "Complexes", "Floats", "Fractions", "Ints", "Reals", "Signs", "Wholes", "freeze", "read_only"]
+__all__ = [
+    "Bools",
+    "Complexes",
+    "Floats",
+    "Fractions",
+    "Ints",
+    "Reals",
+    "Shorts",
+    "Signs",
+    "Wholes",
+    "freeze",
+    "read_only",
+]
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int64]
+Shorts: TypeAlias = npt.NDArray[np.int32]
 Bools: TypeAlias = npt.NDArray[np.bool_]
 Signs: TypeAlias = npt.NDArray[np.int8]
 Wholes: TypeAlias = npt.NDArray[np.object_]

@@ -12,11 +12,11 @@ from typing import TypeVar
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrays import Bools, Ints
+from plyfold.arrays import Bools, Ints, Shorts
 
 __all__ = ["begun_at", "borders_numbered_back", "numbered_from", "visits_from_base"]
 
-Values = TypeVar("Values", Ints, Bools)
+Values = TypeVar("Values", Ints, Shorts, Bools)
 
 
 def visits_from_base(arrangement: Arrangement) -> Ints:

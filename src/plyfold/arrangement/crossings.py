@@ -12,17 +12,18 @@ import numpy as np
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.core.buffers import all_flat, flat
-from plyfold.core.meetings import Meetings
+from plyfold.core.meetings import Meetings, count_groups
+from plyfold.core.vertices import TINY
 from plyfold.core.visits import VisitsAlong
 from plyfold.predicates import exact_parameter
 from plyfold.ragged import next_in_rows
 
 __all__ = ["Contacts", "Visits", "distinct_numbers", "distinct_pairs", "find_contacts", "order_visits"]
 
-# Products of two larger sides are far from the smallest doubles.
-_TINY = 1e-120
 # `core.meetings` packs the sense of a crossing into its second edge, as the last bit.
 _PACKED = np.array([0, 1])
+# A little room for crossings, beside one number for each edge.
+_SOME_CROSSINGS = 32
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +93,9 @@ def find_contacts(points: Floats, watch: Watch = UNWATCHED, first_point: Ints | 
         Exact. Cost: O(n log n) plus the number of pairs of edges whose bounding boxes meet.
     """
     watch.step()
-    found = Meetings(flat(points), flat(_following(points, first_point)), watch.step)
+    n, groups = len(points), count_groups(len(points))
+    found, whole = Meetings(watch.step), np.empty(2 * groups + n + _SOME_CROSSINGS, dtype=np.int64)
+    found.find(flat(points), flat(_following(points, first_point)), flat(np.empty(4 * n + 8 * groups)), flat(whole))
     crossings, touches = (numbers.as_array().reshape(-1, 2) for numbers in (found.crossings, found.touches))
     return Contacts(
         edges=crossings >> _PACKED,
@@ -151,8 +154,9 @@ def order_visits(points: Floats, contacts: Contacts, first_point: Ints | None = 
     k, following, exponent = len(contacts.edges), _following(points, first_point), _exponent_of_tiny(points)
     points = np.ldexp(points, -exponent) if exponent else points
     edge, order = contacts.edges.T.ravel(), np.empty(2 * k, dtype=np.int64)
-    place, error = np.empty((2, 2 * k))
-    along = VisitsAlong(*all_flat(points, following, edge, order, place, error))
+    real, whole = np.empty((2, 2 * k)), np.empty(len(points) + 2 + 2 * k, dtype=np.int64)
+    (place, error), along = real, VisitsAlong()
+    along.sort(*all_flat(points, following, edge, order, real, whole))
     runs = [
         run
         for low, high in along.unsure.as_array().reshape(-1, 2).tolist()
@@ -160,10 +164,11 @@ def order_visits(points: Floats, contacts: Contacts, first_point: Ints | None = 
     ]
     ends, other = np.stack([points, points[following]]) if runs else points, contacts.edges[:, ::-1].T.ravel()
     triple = [three for run in runs for three in _sort_exactly(ends, order[run], edge, other)]
-    partner, ccw, point = np.empty_like(order), np.empty(2 * k, dtype=bool), np.empty((2 * k, 2))
-    along.join(*all_flat(contacts.from_right.view(np.uint8), partner, ccw.view(np.uint8), point))
+    visit_edge, partner = np.empty((2, 2 * k), dtype=np.int64)
+    ccw, point = np.empty(2 * k, dtype=bool), np.empty((2 * k, 2))
+    along.join(*all_flat(contacts.from_right.view(np.uint8), visit_edge, partner, ccw.view(np.uint8), point))
     return Visits(
-        edge=edge[order],
+        edge=visit_edge,
         partner=partner,
         ccw=ccw,
         point=np.ldexp(point, exponent) if exponent else point,
@@ -175,7 +180,7 @@ def order_visits(points: Floats, contacts: Contacts, first_point: Ints | None = 
 def _exponent_of_tiny(points: Floats) -> int:
     """Return the power of two that a drawing is as large as, if products of its sides would be no doubles; else 0."""
     size = float(np.abs(points).max(initial=0.0))
-    return math.frexp(size)[1] if size < _TINY else 0
+    return math.frexp(size)[1] if size < TINY else 0
 
 
 def _runs(start: int, parameter: Floats, error: Floats) -> Iterator[slice]:

@@ -9,13 +9,11 @@ import numpy as np
 from plyfold.arrangement.planar_map import (
     cell_boundaries,
     joined_cells,
-    left_windings,
     next_darts,
-    reversed_code,
-    whitney_turning_number,
 )
 from plyfold.arrays import Bools, Floats, Ints, Reals
-from plyfold.core.signs import exact_sign
+from plyfold.core.buffers import all_flat, flat
+from plyfold.core.direction import CurveDirection, outer_dart_of_points
 from plyfold.predicates import cross_sign
 
 __all__ = [
@@ -64,15 +62,13 @@ def oriented(partner: Ints, ccw: Bools, outer: int, is_directed: bool = False) -
     That is done, if its direction is not settled, if it makes all winding numbers positive; if nothing does, for a
     positive turning number.
     """
-    left, turning = left_windings(ccw, outer), whitney_turning_number(partner, ccw, outer)
-    no_negative, no_positive = left.min() > 0, left.max() <= 0
-    turned_round = not (is_directed or no_negative or (turning >= 0 and not no_positive))
-    if turned_round:
-        partner, ccw, outer = reversed_code(partner, ccw, outer)
-        left, turning = left_windings(ccw, outer), -turning
+    found, partner, ccw = CurveDirection(), partner.copy(), ccw.copy()
+    left = np.empty(max(len(partner), 1), dtype=np.int64)
+    found.settle(flat(partner), flat(ccw.view(np.uint8)), outer, is_directed, flat(left))
     none = np.zeros(len(partner), dtype=np.int64)
     code = Code(partner, ccw, np.array([0, len(partner)]), left, none[:0], none)
-    return Map(code, np.array([outer]), np.empty((0, 2), dtype=np.int64)), turning, turned_round
+    drawn = Map(code, np.array([found.outer]), np.empty((0, 2), dtype=np.int64))
+    return drawn, found.turning, found.turned_round
 
 
 def walked_round(drawn: Map) -> CellWalk:
@@ -92,12 +88,11 @@ def numbered_crossings(partner: Ints) -> Ints:
 
 def outer_dart(points: Reals, visit_edge: Ints) -> int:
     """Return a dart with the unbounded cell on its left: at the leftmost vertex, on its convex side."""
+    if points.dtype == np.float64:
+        return outer_dart_of_points(*all_flat(points, visit_edge))
     x, y = points.T
     leftmost = np.flatnonzero(x == x.min())
     corner = int(leftmost[y[leftmost].argmin()])
     before, here, after = (points[at].tolist() for at in (corner - 1, corner, (corner + 1) % len(points)))
     border = (int(visit_edge.searchsorted(corner)) - 1) % max(len(visit_edge), 1)
-    # One sign of doubles is sooner found without arrays.
-    are_doubles = points.dtype == np.float64
-    turn = exact_sign(*before, *here, *here, *after) if are_doubles else cross_sign(before, here, here, after)
-    return 2 * border + int(turn > 0)
+    return 2 * border + int(cross_sign(before, here, here, after) > 0)

@@ -21,11 +21,9 @@ __all__ = [
     "checked_code",
     "darts_by_cell",
     "joined_cells",
-    "left_windings",
     "next_darts",
     "number_of_borders",
     "reversed_code",
-    "whitney_turning_number",
 ]
 
 
@@ -100,7 +98,8 @@ def next_darts(partner: Ints, ccw: Bools, first_visit: Ints | None = None) -> In
     """
     first_visit = np.array([0, len(partner)]) if first_visit is None else first_visit
     following = np.empty(2 * number_of_borders(first_visit), dtype=np.int64)
-    follow_darts(*all_flat(partner, ccw.view(np.uint8), first_visit, following))
+    room = np.empty(2 * len(partner), dtype=np.int64)
+    follow_darts(*all_flat(partner, ccw.view(np.uint8), first_visit, following, room))
     return following
 
 
@@ -161,36 +160,6 @@ def darts_by_cell(following: Ints, cell_of_dart: Ints, cells: int) -> tuple[Ints
     list_darts(flat(following), flat(cell_of_dart), cells, flat(darts), flat(start))
     start[cells] = len(following)
     return start, darts
-
-
-def left_windings(ccw: Bools, outer: int) -> Ints:
-    """Return the winding number on the left of each border.
-
-    Past a crossing the curve leaves the left side of the other strand if that one crosses from right to left (one
-    less), and enters it otherwise (one more).
-    """
-    relative = np.where(ccw, -1, 1).cumsum() if len(ccw) else np.zeros(1, dtype=np.int64)
-    border, backward = divmod(outer, 2)
-    return np.asarray(relative - relative[border] + backward, dtype=np.int64)
-
-
-def whitney_turning_number(partner: Ints, ccw: Bools, outer: int) -> int:
-    """Return the turning number from the crossings alone.
-
-    Start on a border of the unbounded cell. With that cell on the right, each crossing counts −1 if the strand met
-    first is crossed from right to left, +1 otherwise, and τ is one more than the sum; with that cell on the left,
-    everything is mirrored [Whi37]_.
-
-    References
-    ----------
-    .. [Whi37] H. Whitney, "On regular closed curves in the plane", Compositio Mathematica 4, 1937.
-    """
-    border, backward = divmod(outer, 2)
-    n = len(partner)
-    since_start = (np.arange(n) - border - 1) % max(n, 1)
-    met_first = since_start < since_start[partner]
-    total = int(np.where(ccw[met_first], -1, 1).sum())
-    return 1 + total if backward else total - 1
 
 
 def reversed_code(partner: Ints, ccw: Bools, outer: int) -> tuple[Ints, Bools, int]:

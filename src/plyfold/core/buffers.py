@@ -7,7 +7,18 @@ from typing import Any, Protocol, TypeAlias, TypeVar, cast, overload
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Buffer", "RealBuffer", "WholeBuffer", "all_flat", "flat", "real_room", "whole_room"]
+__all__ = [
+    "Buffer",
+    "RealBuffer",
+    "WholeBuffer",
+    "all_flat",
+    "byte_room",
+    "flat",
+    "real_room",
+    "rough_room",
+    "short_room",
+    "whole_room",
+]
 
 _Number = TypeVar("_Number")
 
@@ -52,3 +63,18 @@ def real_room(size: int) -> RealBuffer:
 def whole_room(size: int) -> WholeBuffer:
     """Return so many zeros, for whole numbers of 64 bits."""
     return flat(np.zeros(size, dtype=np.int64))
+
+
+def byte_room(size: int) -> WholeBuffer:
+    """Return room for so many numbers from 0 to 255, such as truth values, with anything in it."""
+    return flat(np.empty(size, dtype=np.uint8))
+
+
+def rough_room(size: int) -> WholeBuffer:
+    """Return room for so many whole numbers of 64 bits, with anything in it."""
+    return flat(np.empty(size, dtype=np.int64))
+
+
+def short_room(size: int) -> WholeBuffer:
+    """Return so many zeros, for whole numbers of 32 bits: for numbers of sheets, where there are very many."""
+    return flat(np.zeros(size, dtype=np.int32))

@@ -8,11 +8,14 @@ cpdef Py_ssize_t walk_cells(
 cpdef int join_lakes(
     const int64_t[::1] lake, const int64_t[::1] other, int64_t[::1] joined, int64_t[::1] joins
 ) except -1
-cpdef int sum_down(const int64_t[::1] highest_first, const int64_t[::1] drain, int64_t[::1] total) except -1
 cpdef int64_t root_of(int64_t[::1] joined, int64_t member) except -1
 @cython.locals(before=int64_t[::1], after=int64_t[::1])
 cpdef int follow_darts(
-    const int64_t[::1] partner, const uint8_t[::1] ccw, const int64_t[::1] first_visit, int64_t[::1] following
+    const int64_t[::1] partner,
+    const uint8_t[::1] ccw,
+    const int64_t[::1] first_visit,
+    int64_t[::1] following,
+    int64_t[::1] room,
 ) except -1
 @cython.locals(cycle=int64_t[::1], joined=int64_t[::1], number=int64_t[::1])
 cpdef Py_ssize_t walk_joined_cells(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from plyfold.core.buffers import WholeBuffer, whole_room
 
-__all__ = ["follow_darts", "join_lakes", "list_darts", "root_of", "sum_down", "walk_cells", "walk_joined_cells"]
+__all__ = ["follow_darts", "join_lakes", "list_darts", "root_of", "walk_cells", "walk_joined_cells"]
 
 
 def walk_cells(following: WholeBuffer, outer: int, darts: WholeBuffer, start: WholeBuffer, cell: WholeBuffer) -> int:
@@ -51,7 +51,9 @@ def walk_cells(following: WholeBuffer, outer: int, darts: WholeBuffer, start: Wh
     return count
 
 
-def follow_darts(partner: WholeBuffer, ccw: WholeBuffer, first_visit: WholeBuffer, following: WholeBuffer) -> None:
+def follow_darts(
+    partner: WholeBuffer, ccw: WholeBuffer, first_visit: WholeBuffer, following: WholeBuffer, room: WholeBuffer
+) -> None:
     """Find the dart that follows each around the cell on its left, see `planar_map.next_darts`.
 
     Parameters
@@ -64,16 +66,19 @@ def follow_darts(partner: WholeBuffer, ccw: WholeBuffer, first_visit: WholeBuffe
         The first visit of each loop, and their number.
     following : buffer of int
         Room for two darts for each border.
+    room : buffer of int
+        Room for two numbers for each visit.
 
     Examples
     --------
     >>> from array import array
     >>> following = array("q", [0] * 4)
-    >>> follow_darts(array("q", [1, 0]), array("B", [1, 0]), array("q", [0, 2]), following)
+    >>> room = memoryview(array("q", [0] * 4))
+    >>> follow_darts(array("q", [1, 0]), array("B", [1, 0]), array("q", [0, 2]), following, room)
     >>> following.tolist()
     [2, 1, 0, 3]
     """
-    before, after = whole_room(len(partner)), whole_room(len(partner))
+    before, after = room[: len(partner)], room[len(partner) : 2 * len(partner)]
     border = 0
     for loop in range(len(first_visit) - 1):
         start, end = first_visit[loop], first_visit[loop + 1]
@@ -200,24 +205,6 @@ def join_lakes(lake: WholeBuffer, other: WholeBuffer, joined: WholeBuffer, joins
         if here != there:
             joined[here] = there
             joins[border] = 1
-
-
-def sum_down(highest_first: WholeBuffer, drain: WholeBuffer, total: WholeBuffer) -> None:
-    """Add the total of each cell to that of the cell that it drains into, the highest cells first.
-
-    Parameters
-    ----------
-    highest_first : buffer of int
-        The cells, each before the one that it drains into.
-    drain : buffer of int
-        The lower cell that each cell drains into; a pit itself.
-    total : buffer of int
-        A number for each cell, to which those of all cells above it are added.
-    """
-    for place in range(len(highest_first)):
-        cell = highest_first[place]
-        if drain[cell] != cell:
-            total[drain[cell]] += total[cell]
 
 
 def root_of(joined: WholeBuffer, member: int) -> int:

@@ -2,6 +2,7 @@
 cimport cython
 from libc.stdint cimport int64_t, uint8_t
 
+@cython.final
 cdef class Curls:
     cdef int64_t[::1] partner, first_visit, cell, winding, border
     cdef uint8_t[::1] ccw

@@ -1,11 +1,14 @@
 # C types of `elimination.py`.
+cimport cython
 from libc.stdint cimport int32_t, int64_t
 
+@cython.final
 cdef class Triangle:
     cdef const int32_t[::1] first, row, parent
     cdef const double[::1] value, scale
     cdef double[::1] column
 
+@cython.final
 cdef class Paths:
     cdef const int64_t[::1] start
     cdef const int32_t[::1] node

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from plyfold.core.buffers import WholeBuffer, whole_room
+from plyfold.core.buffers import WholeBuffer
 
-__all__ = ["Gluing", "agree_around", "first_wrong_seam", "wind_round"]
+__all__ = ["APART", "NOT_ONCE", "Gluing", "agree_around", "first_wrong_seam", "wind_round"]
+
+APART, NOT_ONCE = 1, 2
+"""What is wrong along a seam: a sheet is glued to one that does not lie on the left; one on the left is glued twice,
+or neither glued nor the own sheet."""
 
 
 class Gluing:
@@ -14,70 +18,71 @@ class Gluing:
     ----------
     own : buffer of int
         The own sheet of each border.
-    rows : buffer of 3r int
-        The seam, the sheet on its right and the sheet on its left that are glued; by seams and sheets on the right.
+    start : buffer of int
+        Where the sheets of each seam start in ``glued_to``, and where the last ones end.
+    glued_to : buffer of int
+        The sheets on the left that the sheets on the right of each seam are glued to, in order.
     left_sheet, left_sheets : buffer of int
         The first of the sheets on the left of each seam, and how many there are.
-    right_sheet, right_sheets : buffer of int
-        The same on the right.
+    right_sheet : buffer of int
+        The first of the sheets on the right.
     """
 
     def __init__(
         self,
         own: WholeBuffer,
-        rows: WholeBuffer,
+        start: WholeBuffer,
+        glued_to: WholeBuffer,
         left_sheet: WholeBuffer,
         left_sheets: WholeBuffer,
         right_sheet: WholeBuffer,
-        right_sheets: WholeBuffer,
     ) -> None:
-        self.own, self.rows = own, rows
-        self.left_sheet, self.left_sheets = left_sheet, left_sheets
-        self.right_sheet, self.right_sheets = right_sheet, right_sheets
-        self.first_row = whole_room(len(left_sheet) + 1)
-        for seam in range(len(left_sheet)):
-            self.first_row[seam + 1] = self.first_row[seam] + right_sheets[seam]
+        self.own, self.start, self.glued_to = own, start, glued_to
+        self.left_sheet, self.left_sheets, self.right_sheet = left_sheet, left_sheets, right_sheet
 
 
-def first_wrong_seam(gluing: Gluing, is_reached: WholeBuffer) -> int:
-    """Tell what is wrong with the gluing along some seam: 0 for nothing.
+def first_wrong_seam(gluing: Gluing, mark: WholeBuffer) -> int:
+    """Tell what is wrong with the gluing along the first seam that is wrong: 0 for nothing, ``APART`` or ``NOT_ONCE``.
 
-    1 where not every sheet on the right is glued once, 2 where one is glued to a sheet that is not on the left, and 3
-    where two are glued to one, or to the own sheet. As there are as many sheets on the left as there are on the right
-    and own sheets, each is reached once then. ``is_reached`` is room for zeros, one for each sheet on the left of some
-    seam, all counted.
+    ``mark`` is room for zeros, one for each sheet.
+
+    Examples
+    --------
+    Two sheets over the inner cell of a limaçon, one of them glued to that of the outer cell, and then its own sheet:
+
+    >>> from array import array
+    >>> own, start, left = array("q", [0, 2]), array("q", [0, 0, 1]), (array("q", [0, 1]), array("q", [1, 2]))
+    >>> right, mark = array("q", [0, 0]), array("i", [0, 0, 0])
+    >>> first_wrong_seam(Gluing(own, start, array("i", [1]), *left, right), mark)
+    0
+    >>> first_wrong_seam(Gluing(own, start, array("i", [2]), *left, right), array("i", [0, 0, 0])) == NOT_ONCE
+    True
     """
-    if 3 * gluing.first_row[len(gluing.left_sheet)] != len(gluing.rows):
-        return 1
-    start = 0
     for seam in range(len(gluing.left_sheet)):
-        first, reached = gluing.first_row[seam], gluing.right_sheets[seam]
-        for place in range(gluing.right_sheets[seam]):
-            row = 3 * (first + place)
-            if gluing.rows[row] != seam or gluing.rows[row + 1] != gluing.right_sheet[seam] + place:
-                return 1
-            wrong = _reach(gluing, seam, gluing.rows[row + 2], is_reached, start)
-            if wrong > 0:
+        first, end = gluing.start[seam], gluing.start[seam + 1]
+        for pair in range(first, end):
+            wrong = _reach(gluing, seam, gluing.glued_to[pair], mark)
+            if wrong:
                 return wrong
+        reached = end - first
         if seam < len(gluing.own):
-            reached += 1
-            wrong = _reach(gluing, seam, gluing.own[seam], is_reached, start)
-            if wrong > 0:
+            wrong = _reach(gluing, seam, gluing.own[seam], mark)
+            if wrong:
                 return wrong
+            reached += 1
         if reached != gluing.left_sheets[seam]:
-            return 3
-        start += reached
+            return NOT_ONCE
     return 0
 
 
-def _reach(gluing: Gluing, seam: int, sheet: int, is_reached: WholeBuffer, start: int) -> int:
-    """Reach a sheet on the left of a seam; return 2 if it is not there, and 3 if it was reached before."""
+def _reach(gluing: Gluing, seam: int, sheet: int, mark: WholeBuffer) -> int:
+    """Mark a sheet on the left with the number of a seam, from 1 on; return what is wrong if that cannot be."""
     place = sheet - gluing.left_sheet[seam]
     if not 0 <= place < gluing.left_sheets[seam]:
-        return 2
-    if is_reached[start + place] == 1:
-        return 3
-    is_reached[start + place] = 1
+        return APART
+    if mark[sheet] == seam + 1:
+        return NOT_ONCE
+    mark[sheet] = seam + 1
     return 0
 
 
@@ -90,7 +95,7 @@ def agree_around(gluing: Gluing, around: WholeBuffer) -> int:
     for at in range(len(around) // 4):
         a_top, a_bottom, b_top, b_bottom = around[4 * at], around[4 * at + 1], around[4 * at + 2], around[4 * at + 3]
         seam = max(a_bottom, b_bottom)
-        for sheet in range(gluing.right_sheet[seam], gluing.right_sheet[seam] + gluing.right_sheets[seam]):
+        for sheet in range(gluing.right_sheet[seam], gluing.right_sheet[seam] + _count(gluing, seam)):
             if _up(gluing, b_top, _up(gluing, a_bottom, sheet)) != _up(gluing, a_top, _up(gluing, b_bottom, sheet)):
                 return 0
         if not (_carries_own(gluing, a_bottom, a_top, b_top) and _carries_own(gluing, b_bottom, b_top, a_top)):
@@ -105,11 +110,16 @@ def _carries_own(gluing: Gluing, bottom: int, top: int, across: int) -> bool:
     return _up(gluing, across, gluing.own[bottom]) == gluing.own[top]
 
 
+def _count(gluing: Gluing, seam: int) -> int:
+    """Return how many sheets lie on the right of a seam."""
+    return gluing.start[seam + 1] - gluing.start[seam]
+
+
 def _up(gluing: Gluing, seam: int, sheet: int) -> int:
     """Return the sheet on the left that is glued to one on the right of a seam."""
     if seam < 0:
         return sheet
-    return gluing.rows[3 * (gluing.first_row[seam] + sheet - gluing.right_sheet[seam]) + 2]
+    return gluing.glued_to[gluing.start[seam] + sheet - gluing.right_sheet[seam]]
 
 
 def wind_round(gluing: Gluing, index: WholeBuffer, before: WholeBuffer, after: WholeBuffer) -> int:
@@ -134,7 +144,7 @@ def wind_round(gluing: Gluing, index: WholeBuffer, before: WholeBuffer, after: W
 def _sheet_below(gluing: Gluing, border: int, upper: int) -> int:
     """Return the sheet on the right that is glued to one on the left of a border, −1 if that is the own sheet."""
     first = gluing.right_sheet[border]
-    for sheet in range(first, first + gluing.right_sheets[border]):
+    for sheet in range(first, first + _count(gluing, border)):
         if _up(gluing, border, sheet) == upper:
             return sheet
     return -1
@@ -143,7 +153,7 @@ def _sheet_below(gluing: Gluing, border: int, upper: int) -> int:
 def _count_differing(gluing: Gluing, before: int, after: int) -> int:
     """Return how many sheets on the right of two borders are glued to different sheets along them."""
     count, first = 0, gluing.right_sheet[after]
-    for sheet in range(first, first + gluing.right_sheets[after]):
+    for sheet in range(first, first + _count(gluing, after)):
         if _up(gluing, before, sheet) != _up(gluing, after, sheet):
             count += 1
     return count

@@ -1,6 +1,8 @@
 # C types of `halving.py`.
+cimport cython
 from libc.stdint cimport int64_t
 
+@cython.final
 cdef class HalvedMesh:
     cdef int64_t[::1] corner, twin, origin, target, ends
     cdef double[::1] x, y, way

@@ -1,8 +1,10 @@
 # C types of `intervals.py`.
+cimport cython
 from libc.stdint cimport int64_t
 
 cdef int64_t _BITS, _WORDS, _LITTLE
 
+@cython.final
 cdef class Intervals:
     cdef const int64_t[::1] wall, first, bound, plus, block
     cdef readonly int64_t[::1] fits

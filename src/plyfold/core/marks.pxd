@@ -1,6 +1,8 @@
 # C types of `marks.py`.
+cimport cython
 from libc.stdint cimport int64_t, uint8_t
 
+@cython.final
 cdef class Marked:
     cdef int64_t[::1] partner, first_visit, left, moved, visit, border
     cdef uint8_t[::1] ccw

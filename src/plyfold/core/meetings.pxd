@@ -1,4 +1,5 @@
 # C types of `meetings.py`.
+cimport cython
 from libc.stdint cimport int64_t
 
 from plyfold.core.numbers cimport Numbers
@@ -7,6 +8,7 @@ from plyfold.core.signs cimport quick_sign
 cdef int _GROUP, _PAIRS
 cdef double _FAR
 
+@cython.final
 cdef class Meetings:
     cdef readonly Numbers crossings, touches
     cdef readonly Py_ssize_t exact_signs
@@ -16,6 +18,10 @@ cdef class Meetings:
     cdef double[::1] ends, box
     cdef int64_t[::1] heading
 
+    @cython.locals(rest=int64_t[::1])
+    cpdef int find(
+        self, const double[::1] points, const int64_t[::1] following, double[::1] real, int64_t[::1] whole
+    ) except -1
     cdef int _fill_edges(self, const double[::1] points) except -1
     cdef int _fill_groups(self) except -1
     cdef int _fill_leaf(self, Py_ssize_t node) except -1
@@ -31,5 +37,6 @@ cdef class Meetings:
     cdef int _side(self, Py_ssize_t edge, Py_ssize_t other, int end) except? -2
     cdef int _touch(self, Py_ssize_t edge, Py_ssize_t other, int side, int end) except -1
 
+cpdef Py_ssize_t count_groups(Py_ssize_t edges) noexcept
 cdef int _way(double start, double end) noexcept
 cdef bint _is_between(double start, double number, double end) noexcept

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from plyfold.core.buffers import RealBuffer, WholeBuffer, real_room, whole_room
+from plyfold.core.buffers import RealBuffer, WholeBuffer
 from plyfold.core.numbers import Numbers
 from plyfold.core.signs import quick_sign, sign_of_fractions
 
-__all__ = ["Meetings"]
+__all__ = ["Meetings", "count_groups"]
 
 # So many consecutive edges make a group, and after so many pairs of groups it is asked whether there is time left.
 _GROUP = 8
@@ -28,10 +28,6 @@ class Meetings:
 
     Parameters
     ----------
-    points : buffer of 2n float
-        The coordinates, point after point.
-    following : buffer of n int
-        Edge i runs from point i to point ``following[i]``.
     step : callable
         Called now and then; it may raise.
 
@@ -53,23 +49,36 @@ class Meetings:
     Examples
     --------
     >>> from array import array
-    >>> eight = Meetings(array("d", [0, 0, 2, 2, 2, 0, 0, 2]), array("q", [1, 2, 3, 0]), lambda: None)
+    >>> eight, real, whole = Meetings(lambda: None), memoryview(array("d", [0.0] * 24)), array("q", [0] * 16)
+    >>> eight.find(array("d", [0, 0, 2, 2, 2, 0, 0, 2]), array("q", [1, 2, 3, 0]), real, memoryview(whole))
     >>> eight.crossings.as_array().tolist(), eight.touches.size
     ([0, 4], 0)
     """
 
-    def __init__(self, points: RealBuffer, following: WholeBuffer, step: Callable[[], None]) -> None:
-        self.n = len(points) // 2
-        self.following, self.step = following, step
-        self.crossings, self.touches = Numbers(self.n + 32), Numbers(2)
-        self.exact_signs = self.pairs = 0
-        self.ends = real_room(4 * self.n)
+    def __init__(self, step: Callable[[], None]) -> None:
+        self.step = step
+        self.crossings, self.touches = Numbers(), Numbers()
+        self.n = self.leaves = self.exact_signs = self.pairs = 0
+
+    def find(self, points: RealBuffer, following: WholeBuffer, real: RealBuffer, whole: WholeBuffer) -> None:
+        """Find all that meets.
+
+        Parameters
+        ----------
+        points : buffer of 2n float
+            The coordinates, point after point.
+        following : buffer of n int
+            Edge i runs from point i to point ``following[i]``.
+        real, whole : buffer of float and int
+            Room for 4n and eight numbers for each group of edges; for two for each group, and for crossings. See
+            :func:`count_groups`.
+        """
+        self.n, self.following = len(following), following
+        self.leaves = count_groups(self.n)
+        self.ends, self.box = real[: 4 * self.n], real[4 * self.n : 4 * self.n + 8 * self.leaves]
+        self.heading, rest = whole[: 2 * self.leaves], whole[2 * self.leaves :]
+        self.crossings.begin(rest, len(rest))
         self._fill_edges(points)
-        self.leaves = 1
-        while self.leaves * _GROUP < self.n:
-            self.leaves *= 2
-        self.box = real_room(8 * self.leaves)
-        self.heading = whole_room(2 * self.leaves)
         self._fill_groups()
         self._within(1)
 
@@ -242,6 +251,20 @@ class Meetings:
         ):
             self.touches.append(other if end == 0 else self.following[other])
             self.touches.append(edge)
+
+
+def count_groups(edges: int) -> int:
+    """Return into how many groups so many edges are taken: a power of two.
+
+    Examples
+    --------
+    >>> count_groups(3), count_groups(50)
+    (1, 8)
+    """
+    groups = 1
+    while groups * _GROUP < edges:
+        groups *= 2
+    return groups
 
 
 def _way(start: float, end: float) -> int:

@@ -9,6 +9,7 @@ from plyfold.core.signs cimport exact_sign, rest_of_difference, rest_of_product
 cdef int _GROUP, _RAYS
 cdef double _FAR, _PLACE_ERROR, _UNDERFLOW, _LEAST, _LARGEST, _SHARE_ERROR
 
+@cython.final
 cdef class Bridges:
     cdef int64_t[::1] dart, beyond, is_bounded, left, whole
     cdef double[::1] real
@@ -20,6 +21,7 @@ cdef class Bridges:
 
 cpdef double share_along(double start, double end, double between) except? -2
 
+@cython.final
 cdef class Nesting:
     cdef const double[::1] points
     cdef const int64_t[::1] first_point, first_visit, edge, partner

@@ -396,7 +396,7 @@ class Nesting:
             whole_room(self.loops),
             whole_room(len(following)),
         )
-        follow_darts(self.partner, self.ccw, self.first_visit, following)
+        follow_darts(self.partner, self.ccw, self.first_visit, following, whole_room(2 * len(self.partner)))
         self._wind_along(found.left)
         for ray in range(len(corner)):
             loop = self.loop[corner[ray]]
@@ -501,7 +501,7 @@ class Nesting:
         return self._border(self.loop_of_visit[visit], visit)
 
     def count_turns(self, turning: WholeBuffer) -> None:
-        """Count how often each loop turns round, see `planar_map.whitney_turning_number`."""
+        """Count how often each loop turns round, see `core.direction`."""
         for loop in range(self.loops):
             start, end = self.first_visit[loop], self.first_visit[loop + 1]
             begin = self._visits_before(self.leftmost[loop])

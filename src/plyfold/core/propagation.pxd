@@ -1,8 +1,10 @@
 # C types of `propagation.py`.
+cimport cython
 from libc.stdint cimport int64_t
 
 cdef int _LETTERS
 
+@cython.final
 cdef class Parts:
     cdef Py_ssize_t labels
     cdef const int64_t[::1] label, block
@@ -22,6 +24,7 @@ cdef class Parts:
     ) except? -1
     cdef Py_ssize_t _place_parts(self, int64_t[::1] start) except? -1
 
+@cython.final
 cdef class Propagation:
     cdef readonly Parts parts
     cdef readonly Py_ssize_t letters, labels, walked

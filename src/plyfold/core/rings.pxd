@@ -1,21 +1,26 @@
 # C types of `rings.py`.
+cimport cython
 from libc.stdint cimport int64_t
 
 cdef int _LEFT_OVER
 
+@cython.final
 cdef class Rings:
     cdef readonly const int64_t[::1] around, bottom, own_a, own_b, at, place
 
+@cython.final
 cdef class Work:
     cdef readonly const int64_t[::1] start, size, seam, in_tree, own
     cdef int64_t[::1] missing, sum_port, sum_upper, open_around, ready, stack
     cdef Py_ssize_t top
     cdef int64_t reason
 
+@cython.final
 cdef class Found:
     cdef readonly int64_t[::1] upper, port, because
     cdef readonly int64_t failed
 
+@cython.final
 cdef class State:
     cdef readonly Rings rings
     cdef readonly Work work

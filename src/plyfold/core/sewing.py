@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from plyfold.core.buffers import WholeBuffer, whole_room
+from plyfold.core.buffers import WholeBuffer, short_room, whole_room
 
-__all__ = ["BorderSeams", "Crossings", "NamedTree", "sew"]
+__all__ = ["BorderSeams", "Crossings", "NamedTree", "number_sheets", "sew"]
 
 
 class NamedTree:
@@ -25,7 +25,7 @@ class NamedTree:
     ) -> None:
         self.parent, self.link, self.partner = parent, link, partner
         self.winding, self.first_sheet = winding, first_sheet
-        self.name, self.named, self.waiting = whole_room(sheets), whole_room(len(parent)), whole_room(len(parent))
+        self.name, self.named, self.waiting = short_room(sheets), whole_room(len(parent)), whole_room(len(parent))
         self.named[0] = 1
 
 
@@ -47,17 +47,18 @@ class Crossings:
     ) -> None:
         self.around, self.at_start, self.at_end = around, at_start, at_end
         self.unknown, self.sum_unknown = unknown, sum_unknown
-        self.ready, self.scratch = whole_room(2 * len(unknown)), whole_room(sheets + 1)
+        self.ready, self.scratch = whole_room(2 * len(unknown)), short_room(sheets + 1)
 
 
 class BorderSeams:
-    """What happens over each border: the upper sheet that each lower sheet is glued to, and last the one left over.
+    """What happens over each border: the upper sheet that each lower sheet is glued to, and the own one, left over.
 
-    Sheets are counted from the first one of their cell. Border e has ``upper[start[e]:start[e + 1]]``.
+    Sheets are counted from the first one of their cell. Those below border e are glued to
+    ``upper[start[e]:start[e + 1]]``, and ``own[e]`` is left over.
     """
 
-    def __init__(self, start: WholeBuffer, upper: WholeBuffer) -> None:
-        self.start, self.upper = start, upper
+    def __init__(self, start: WholeBuffer, upper: WholeBuffer, own: WholeBuffer) -> None:
+        self.start, self.upper, self.own = start, upper, own
 
 
 def sew(tree: NamedTree, crossings: Crossings, seams: BorderSeams) -> None:
@@ -80,14 +81,14 @@ def _name_sheets(tree: NamedTree, seams: BorderSeams, cell: int) -> None:
     kept = 0
     for sheet in range(count):
         if tree.name[above + sheet] == partner:
-            seams.upper[seam + count - 1] = sheet
+            seams.own[tree.link[cell]] = sheet
         else:
             tree.name[first + kept] = tree.name[above + sheet]
             seams.upper[seam + kept] = sheet
             kept += 1
     if partner < 0:
         tree.name[first + count] = tree.link[cell]
-        seams.upper[seam + count] = count
+        seams.own[tree.link[cell]] = count
     tree.named[cell] = 1
 
 
@@ -142,20 +143,30 @@ def _find_seam(crossings: Crossings, seams: BorderSeams, border: int, crossing: 
 
 def _find_lower(seams: BorderSeams, crossings: Crossings, border: int, bottom: int, top: int, other_top: int) -> None:
     """Find the seam below ``other_top``, given the way round the other side: ``bottom``, then ``top``."""
+    upper, scratch = seams.upper, crossings.scratch
     here, low, high, side = seams.start[border], seams.start[bottom], seams.start[top], seams.start[other_top]
     for lower in range(seams.start[other_top + 1] - side):
-        crossings.scratch[seams.upper[side + lower]] = lower
-    for lower in range(seams.start[border + 1] - here - 1):
-        seams.upper[here + lower] = crossings.scratch[seams.upper[high + seams.upper[low + lower]]]
-    # The last entries are the own sheets: that of ``top`` has one on the other side of the crossing as well.
-    seams.upper[seams.start[border + 1] - 1] = crossings.scratch[seams.upper[seams.start[top + 1] - 1]]
+        scratch[upper[side + lower]] = lower
+    for lower in range(seams.start[border + 1] - here):
+        upper[here + lower] = scratch[upper[high + upper[low + lower]]]
+    # The strand of ``top`` has an own sheet on the other side of the crossing as well.
+    seams.own[border] = scratch[seams.own[top]]
 
 
 def _find_upper(seams: BorderSeams, border: int, bottom: int, other_top: int, other_bottom: int) -> None:
     """Find the seam above ``bottom``, given the way round the other side: ``other_bottom``, then ``other_top``."""
+    upper = seams.upper
     here, low, high, side = seams.start[border], seams.start[bottom], seams.start[other_top], seams.start[other_bottom]
-    seams.upper[here + seams.upper[seams.start[bottom + 1] - 1]] = seams.upper[seams.start[other_top + 1] - 1]
-    for lower in range(seams.start[bottom + 1] - low - 1):
-        seams.upper[here + seams.upper[low + lower]] = seams.upper[high + seams.upper[side + lower]]
-    own = seams.upper[seams.start[other_bottom + 1] - 1]
-    seams.upper[seams.start[border + 1] - 1] = seams.upper[high + own]
+    upper[here + seams.own[bottom]] = seams.own[other_top]
+    for lower in range(seams.start[bottom + 1] - low):
+        upper[here + upper[low + lower]] = upper[high + upper[side + lower]]
+    seams.own[border] = upper[high + seams.own[other_bottom]]
+
+
+def number_sheets(seams: BorderSeams, first_sheet: WholeBuffer) -> None:
+    """Count all sheets from the very first one; ``first_sheet`` has the first one on the left of each border."""
+    for border in range(len(first_sheet)):
+        first = first_sheet[border]
+        seams.own[border] += first
+        for pair in range(seams.start[border], seams.start[border + 1]):
+            seams.upper[pair] += first

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
-from plyfold.predicates import exact_cross
-
 __all__ = ["exact_sign", "quick_sign", "rest_of_difference", "rest_of_product", "sign_of_fractions"]
 
 # What is neither sign, nor zero: it takes fractions to tell.
@@ -50,6 +46,11 @@ def exact_sign(ax: float, ay: float, bx: float, by: float, cx: float, cy: float,
 
 def sign_of_fractions(ax: float, ay: float, bx: float, by: float, cx: float, cy: float, dx: float, dy: float) -> int:
     """Return the sign of the cross product of a → b and c → d, at some microseconds."""
+    # Most drawings never need them, and importing them takes longer than deciding a small drawing.
+    from fractions import Fraction
+
+    from plyfold.predicates import exact_cross
+
     a, b = (Fraction(ax), Fraction(ay)), (Fraction(bx), Fraction(by))
     c, d = (Fraction(cx), Fraction(cy)), (Fraction(dx), Fraction(dy))
     product = exact_cross(a, b, c, d)

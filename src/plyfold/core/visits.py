@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plyfold.core.buffers import RealBuffer, WholeBuffer, whole_room
+from plyfold.core.buffers import RealBuffer, WholeBuffer
 from plyfold.core.numbers import Numbers
 
 __all__ = ["VisitsAlong"]
@@ -18,19 +18,6 @@ class VisitsAlong:
 
     Visits c and k + c are at crossing c, the first on its one edge and the second on its other one.
 
-    Parameters
-    ----------
-    points : buffer of 2n float
-        Coordinates, point after point.
-    following : buffer of n int
-        Edge i runs from point i to point ``following[i]``.
-    edge : buffer of 2k int
-        The edge that each visit is on.
-    order : buffer of 2k int
-        Room for the visits in order. Where doubles do not tell, they are to be sorted on before :meth:`join`.
-    place, error : buffer of 2k float
-        Room for how far along its edge each visit is, from 0 to 1, and how wrong that may be.
-
     Attributes
     ----------
     unsure : Numbers
@@ -41,19 +28,39 @@ class VisitsAlong:
     O(n + k), and O(m log² m) or so for each edge with m visits.
     """
 
-    def __init__(
+    def __init__(self) -> None:
+        self.k, self.unsure = 0, Numbers()
+
+    def sort(
         self,
         points: RealBuffer,
         following: WholeBuffer,
         edge: WholeBuffer,
         order: WholeBuffer,
-        place: RealBuffer,
-        error: RealBuffer,
+        real: RealBuffer,
+        whole: WholeBuffer,
     ) -> None:
-        self.points, self.following, self.edge = points, following, edge
-        self.order, self.place, self.error = order, place, error
-        self.k = len(edge) // 2
-        self.unsure = Numbers(2)
+        """Sort the visits.
+
+        Parameters
+        ----------
+        points : buffer of 2n float
+            Coordinates, point after point.
+        following : buffer of n int
+            Edge i runs from point i to point ``following[i]``.
+        edge : buffer of 2k int
+            The edge that each visit is on.
+        order : buffer of 2k int
+            Room for the visits in order. Where doubles do not tell, they are to be sorted on before :meth:`join`.
+        real : buffer of 4k float
+            Room for how far along its edge each visit is, from 0 to 1, and then for how wrong that may be.
+        whole : buffer of int
+            Room for n + 2 and 2k numbers.
+        """
+        self.points, self.following, self.edge, self.order = points, following, edge, order
+        self.k, n = len(edge) // 2, len(following)
+        self.place, self.error = real[: 2 * self.k], real[2 * self.k : 4 * self.k]
+        self.first, self.rank = whole[: n + 2], whole[n + 2 : n + 2 + 2 * self.k]
         for crossing in range(self.k):
             self._find_place(crossing, self.edge[crossing], self.edge[self.k + crossing])
             self._find_place(self.k + crossing, self.edge[self.k + crossing], self.edge[crossing])
@@ -84,7 +91,8 @@ class VisitsAlong:
     def _sort(self) -> None:
         """Sort the visits by their edges, counting how many there are on each; and then along each edge."""
         n = len(self.following)
-        self.first = whole_room(n + 2)
+        for edge in range(n + 2):
+            self.first[edge] = 0
         for visit in range(2 * self.k):
             self.first[self.edge[visit] + 2] += 1
         for edge in range(n):
@@ -127,23 +135,30 @@ class VisitsAlong:
     def _is_apart(self, visit: int, other: int) -> bool:
         return self.place[other] - self.place[visit] > self.error[other] + self.error[visit]
 
-    def join(self, from_right: WholeBuffer, partner: WholeBuffer, ccw: WholeBuffer, point: RealBuffer) -> None:
-        """Find the other visit to each crossing, how it crosses, and where, all in order along the outline.
+    def join(
+        self,
+        from_right: WholeBuffer,
+        visit_edge: WholeBuffer,
+        partner: WholeBuffer,
+        ccw: WholeBuffer,
+        point: RealBuffer,
+    ) -> None:
+        """Find the edge of each visit, the other one to its crossing, how it crosses, and where, in order.
 
         Parameters
         ----------
         from_right : buffer of k bool
             Whether the other edge of each crossing crosses the first from right to left.
-        partner, ccw, point : buffer of 2k int, 2k bool and 4k float
+        visit_edge, partner, ccw, point : buffer of 2k int, 2k int, 2k bool and 4k float
             Room for the results.
         """
-        self.rank = whole_room(2 * self.k)
         for at in range(2 * self.k):
             self.rank[self.order[at]] = at
         for at in range(2 * self.k):
             visit = self.order[at]
             is_first = visit < self.k
             crossing = visit if is_first else visit - self.k
+            visit_edge[at] = self.edge[visit]
             partner[at] = self.rank[visit + self.k if is_first else crossing]
             ccw[at] = from_right[crossing] if is_first else 1 - from_right[crossing]
             start, end = self.edge[crossing], self.following[self.edge[crossing]]

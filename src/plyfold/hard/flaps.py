@@ -311,20 +311,10 @@ def immersion_of_pieces(arrangement: Arrangement, over: Bools, own_piece: Ints) 
     left[np.arange(arrangement.n_borders), own_piece] = False
     border, right_piece = np.nonzero(right)
     left_piece = _glued_pieces(right, left)[border, right_piece]
-    sheet_cell = np.nonzero(over)[0]
     immersion = Immersion(
         arrangement=arrangement,
-        sheet_cell=sheet_cell,
-        first_sheet=np.searchsorted(sheet_cell, np.arange(arrangement.n_cells)),
         own_sheet=sheet[arrangement.left_cell, own_piece],
-        gluing=np.stack(
-            [
-                border,
-                sheet[arrangement.right_cell[border], right_piece],
-                sheet[arrangement.left_cell[border], left_piece],
-            ],
-            axis=1,
-        ),
+        glued_to=sheet[arrangement.left_cell[border], left_piece].astype(np.int32),
     )
     immersion.check()
     return immersion

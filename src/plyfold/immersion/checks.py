@@ -10,9 +10,9 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
-from plyfold.core.buffers import all_flat, flat, whole_room
-from plyfold.core.gluing import Gluing, agree_around, first_wrong_seam, wind_round
-from plyfold.immersion.corners import corners, corners_at_feet
+from plyfold.core.buffers import all_flat, flat, short_room
+from plyfold.core.gluing import APART, NOT_ONCE, Gluing, agree_around, first_wrong_seam, wind_round
+from plyfold.immersion.corners import corners, corners_at_feet, sides
 from plyfold.ragged import count_each
 
 if TYPE_CHECKING:
@@ -24,14 +24,12 @@ __all__ = ["conditions"]
 def conditions(immersion: Immersion) -> Iterator[tuple[str, bool]]:
     """Yield in words what has to hold, and whether it does; each relies on those before it. Cost: O(Σ w)."""
     arrangement = immersion.arrangement
-    sheet_cell = np.repeat(np.arange(arrangement.n_cells), arrangement.winding)
-    yield "as many sheets as windings", np.array_equal(immersion.sheet_cell, sheet_cell)
-    left, right = _sides(arrangement)
-    gluing = _as_glued(immersion, left, right)
-    wrong = first_wrong_seam(gluing, whole_room(int(arrangement.winding[left].sum())))
-    yield "every sheet on the right is glued once", wrong != 1
-    yield "sheets are glued to sheets on the left", wrong != 2
-    yield "every sheet on the left is glued once or has the border for its own", wrong != 3
+    is_full = len(immersion.own_sheet) == arrangement.n_borders and len(immersion.glued_to) == immersion.first_pair[-1]
+    yield "every sheet on the right is glued once", is_full
+    gluing = _as_glued(immersion)
+    wrong = first_wrong_seam(gluing, short_room(immersion.n_sheets))
+    yield "sheets are glued to sheets on the left", wrong != APART
+    yield "every sheet on the left is glued once or has the border for its own", wrong != NOT_ONCE
     yield "the gluings agree around every crossing", agree_around(gluing, flat(corners(arrangement))) == 1
     if len(arrangement.bridges):
         yield "the gluings agree at the feet of bridges", agree_around(gluing, flat(corners_at_feet(arrangement))) == 1
@@ -47,19 +45,11 @@ def conditions(immersion: Immersion) -> Iterator[tuple[str, bool]]:
     yield "no number of handles is negative or half a number", bool(is_whole.all())
 
 
-def _sides(arrangement: Arrangement) -> tuple[Ints, Ints]:
-    """Return the cells on both sides of all borders, and then of all bridges."""
-    left, right = arrangement.left_cell, arrangement.right_cell
-    if not len(arrangement.bridges):
-        return left, right
-    bridged = arrangement.cell_of_dart[arrangement.bridges[:, 0]]
-    return np.append(left, bridged), np.append(right, bridged)
-
-
-def _as_glued(immersion: Immersion, left: Ints, right: Ints) -> Gluing:
-    winding, first = immersion.arrangement.winding, immersion.first_sheet
-    beside = first[left], winding[left], first[right], winding[right]
-    return Gluing(*all_flat(immersion.own_sheet, immersion.gluing, *beside))
+def _as_glued(immersion: Immersion) -> Gluing:
+    left, right = sides(immersion.arrangement)
+    first, winding = immersion.first_sheet, immersion.arrangement.winding
+    beside = first[left], winding[left], first[right]
+    return Gluing(*all_flat(immersion.own_sheet, immersion.first_pair, immersion.glued_to, *beside))
 
 
 def _wind_round_cusps(arrangement: Arrangement, gluing: Gluing) -> bool:

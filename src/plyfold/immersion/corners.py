@@ -17,10 +17,19 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 
-__all__ = ["NO_SEAM", "corners", "corners_at_feet", "feet"]
+__all__ = ["NO_SEAM", "corners", "corners_at_feet", "feet", "sides"]
 
 # In place of the half of a bridge that is not there.
 NO_SEAM = -1
+
+
+def sides(arrangement: Arrangement) -> tuple[Ints, Ints]:
+    """Return the cells on the left and on the right of all borders, and then of all bridges."""
+    left, right = arrangement.left_cell, arrangement.right_cell
+    if not len(arrangement.bridges):
+        return left, right
+    bridged = arrangement.cell_of_dart[arrangement.bridges[:, 0]]
+    return np.append(left, bridged), np.append(right, bridged)
 
 
 def corners(arrangement: Arrangement) -> Ints:

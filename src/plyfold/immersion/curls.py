@@ -23,6 +23,7 @@ from plyfold.arrays import Ints
 from plyfold.core.buffers import all_flat
 from plyfold.core.curls import Curls, draw_curls
 from plyfold.immersion.immersion import Immersion
+from plyfold.ragged import count_each
 
 __all__ = ["DrawnOut", "draw_out_cusps", "without_curls"]
 
@@ -101,17 +102,8 @@ def without_curls(immersion: Immersion, drawn_out: DrawnOut, arrangement: Arrang
     """
     if drawn_out.arrangement is arrangement:
         return immersion
-    number = np.full(drawn_out.arrangement.n_borders, -1)
-    number[drawn_out.border] = np.arange(arrangement.n_borders)
-    bridge = immersion.gluing[:, 0] - drawn_out.arrangement.n_borders
-    number_of_row = np.where(bridge < 0, number[np.minimum(immersion.gluing[:, 0], len(number) - 1)], 0)
-    gluing = immersion.gluing.copy()
-    gluing[:, 0] = np.where(bridge < 0, number_of_row, arrangement.n_borders + bridge)
-    sheets = int(arrangement.winding.sum())
-    return Immersion(
-        arrangement=arrangement,
-        sheet_cell=immersion.sheet_cell[:sheets],
-        first_sheet=immersion.first_sheet[: arrangement.n_cells],
-        own_sheet=immersion.own_sheet[drawn_out.border],
-        gluing=gluing[number_of_row >= 0],
-    )
+    own_map, first = drawn_out.arrangement, immersion.first_pair
+    kept = np.append(drawn_out.border, np.arange(own_map.n_borders, len(first) - 1))
+    size = np.diff(first)[kept]
+    pairs = np.repeat(first[kept], size) + count_each(size)
+    return Immersion(arrangement, immersion.own_sheet[drawn_out.border], immersion.glued_to[pairs])

@@ -13,12 +13,14 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.as_given import given_windings
-from plyfold.arrays import Ints, freeze
+from plyfold.arrays import Ints, Shorts, freeze, read_only
 from plyfold.errors import InputError, NotImmersibleError, PlyfoldError
 from plyfold.graphs import components, members_of
 from plyfold.immersion.checks import conditions
+from plyfold.immersion.corners import sides
 from plyfold.memory import require_memory
 from plyfold.obstruction import Obstruction
+from plyfold.ragged import starts_of
 from plyfold.wording import counted
 
 __all__ = [
@@ -31,7 +33,7 @@ __all__ = [
 ]
 
 # Bytes for each pair of glued sheets: the result, and what is there while it is made and checked.
-_BYTES_PER_PAIR = 130
+_BYTES_PER_PAIR = 30
 
 
 @dataclass(frozen=True)
@@ -87,16 +89,12 @@ class Immersion:
     ----------
     arrangement : Arrangement
         Crossings, borders and cells of the outline.
-    sheet_cell : (sheets,) int
-        The cell below each sheet. Cell c has ``winding[c]`` sheets, numbered consecutively from ``first_sheet[c]``.
-    first_sheet : (cells,) int
-        Number of each cell's first sheet.
     own_sheet : (borders,) int
-        The sheet on the left of each border that has the border on the boundary of the surface.
-    gluing : (g, 3) int
-        Rows (border, sheet on its right, sheet on its left): the two sheets are glued along the border. Every sheet
-        on the right occurs once per border, and every sheet on the left except the border's own. Bridge j counts as
-        border n_borders + j: it has no own sheet, and right and left are as seen from its first foot.
+        The sheet on the left of each border that has the border on the boundary of the surface. Cell c has
+        ``winding[c]`` sheets, numbered consecutively from ``first_sheet[c]``.
+    glued_to : (pairs,) int
+        For each border the sheets on its left that the sheets on its right are glued to, in order: see :attr:`gluing`,
+        where they are the last column. In 32 bits.
 
     Examples
     --------
@@ -109,10 +107,8 @@ class Immersion:
     """
 
     arrangement: Arrangement
-    sheet_cell: Ints
-    first_sheet: Ints
     own_sheet: Ints
-    gluing: Ints
+    glued_to: Shorts
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -137,7 +133,40 @@ class Immersion:
     @property
     def n_sheets(self) -> int:
         """Number of sheets: the winding numbers of all cells added up."""
-        return len(self.sheet_cell)
+        return int(self.arrangement.winding.sum())
+
+    @cached_property
+    def first_sheet(self) -> Ints:
+        """The number of each cell's first sheet, shape (cells,)."""
+        return read_only(starts_of(self.arrangement.winding))
+
+    @cached_property
+    def sheet_cell(self) -> Ints:
+        """The cell below each sheet, shape (sheets,)."""
+        return read_only(np.repeat(np.arange(self.arrangement.n_cells), self.arrangement.winding))
+
+    @cached_property
+    def first_pair(self) -> Ints:
+        """Where the pairs of each border, and then of each bridge, start in ``glued_to``, and where the last end."""
+        _, right = sides(self.arrangement)
+        return read_only(np.append(0, np.cumsum(self.arrangement.winding[right])))
+
+    @cached_property
+    def gluing(self) -> Ints:
+        """Rows (border, sheet on its right, sheet on its left): two sheets glued along a border; shape (pairs, 3).
+
+        Every sheet on the right occurs once per border, in order, and every sheet on the left except the border's own.
+        Bridge j counts as border n_borders + j: it has no own sheet, and right and left are as seen from its first
+        foot. They are made when they are first asked for.
+        """
+        _, right = sides(self.arrangement)
+        gluing = np.empty((len(self.glued_to), 3), dtype=np.int64)
+        gluing[:, 0] = np.repeat(np.arange(len(right)), np.diff(self.first_pair))
+        gluing[:, 1] = np.arange(len(gluing)) + np.repeat(
+            self.first_sheet[right] - self.first_pair[:-1], np.diff(self.first_pair)
+        )
+        gluing[:, 2] = self.glued_to
+        return read_only(gluing)
 
     @cached_property
     def sheets(self) -> tuple[range, ...]:

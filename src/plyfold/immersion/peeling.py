@@ -243,16 +243,8 @@ def _ring(state: State, at: int, place: int, pair: int) -> Iterator[int]:
 def immersion_of(seams: OutlineSeams, upper: Ints) -> Immersion:
     """Build the immersion in which every port leads to a sheet."""
     arrangement = seams.arrangement
-    first_sheet = starts_of(arrangement.winding)
     seam = np.repeat(np.arange(len(seams.size)), seams.size)
     port = np.arange(len(upper)) - seams.start[seam]
     own = (port == seams.size[seam] - 1) & seams.is_border[seam]
-    left = first_sheet[seams.left[seam]] + upper
-    right = first_sheet[seams.right[seam]] + port
-    return Immersion(
-        arrangement=arrangement,
-        sheet_cell=np.repeat(np.arange(arrangement.n_cells), arrangement.winding),
-        first_sheet=first_sheet,
-        own_sheet=left[own],
-        gluing=np.stack([seam[~own], right[~own], left[~own]], axis=1),
-    )
+    left = starts_of(arrangement.winding)[seams.left[seam]] + upper
+    return Immersion(arrangement, left[own], left[~own].astype(np.int32))

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.base_visit import begun_at, borders_numbered_back, numbered_from
 from plyfold.arrays import Ints
@@ -61,7 +59,7 @@ def _numbered_back(immersion: Immersion, arranged: Arrangement) -> Immersion:
     base, borders = arranged.base_visit, arranged.n_borders
     if base == 0:
         return immersion
-    gluing = begun_at(immersion.gluing, int(np.searchsorted(immersion.gluing[:, 0], borders - base)))
-    gluing[:, 0] = (gluing[:, 0] + base) % borders
-    own_sheet = borders_numbered_back(arranged, immersion.own_sheet)
-    return Immersion(arranged, immersion.sheet_cell, immersion.first_sheet, own_sheet, gluing)
+    start = int(immersion.first_pair[borders - base])
+    return Immersion(
+        arranged, borders_numbered_back(arranged, immersion.own_sheet), begun_at(immersion.glued_to, start)
+    )

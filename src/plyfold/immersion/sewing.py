@@ -12,7 +12,7 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.core.buffers import all_flat, flat
-from plyfold.core.sewing import BorderSeams, Crossings, NamedTree, sew
+from plyfold.core.sewing import BorderSeams, Crossings, NamedTree, number_sheets, sew
 from plyfold.immersion.corners import corners
 from plyfold.immersion.dual_tree import DualTree
 from plyfold.immersion.immersion import Immersion
@@ -38,28 +38,13 @@ def glue_sheets(arrangement: Arrangement, tree: DualTree, partner: Ints) -> Imme
     Immersion
         Cost: O(Σ w), the number of sheets counted once per border.
     """
-    winding, lower = arrangement.winding, arrangement.winding[arrangement.right_cell]
-    first_sheet = starts_of(winding)
-    start = np.zeros(len(lower) + 1, dtype=np.int64)
-    np.cumsum(lower + 1, out=start[1:])
-    upper = np.empty(start[-1], dtype=np.int64)
-    sew(
-        _tree(arrangement, tree, partner, first_sheet),
-        _crossings(arrangement, tree),
-        BorderSeams(flat(start), flat(upper)),
-    )
-    border = np.repeat(np.arange(len(lower)), lower + 1)
-    upper += first_sheet[arrangement.left_cell[border]]
-    right = np.arange(len(upper)) + (first_sheet[arrangement.right_cell] - start[:-1])[border]
-    glued = np.ones(len(upper), dtype=bool)
-    glued[start[1:] - 1] = False
-    return Immersion(
-        arrangement=arrangement,
-        sheet_cell=np.repeat(np.arange(arrangement.n_cells), winding),
-        first_sheet=first_sheet,
-        own_sheet=upper[~glued],
-        gluing=np.array([border[glued], right[glued], upper[glued]]).T,
-    )
+    winding = arrangement.winding
+    first_sheet, first_pair = starts_of(winding), np.append(0, np.cumsum(winding[arrangement.right_cell]))
+    glued_to, own_sheet = np.empty(first_pair[-1], dtype=np.int32), np.empty(arrangement.n_borders, dtype=np.int64)
+    seams = BorderSeams(*all_flat(first_pair, glued_to, own_sheet))
+    sew(_tree(arrangement, tree, partner, first_sheet), _crossings(arrangement, tree), seams)
+    number_sheets(seams, flat(first_sheet[arrangement.left_cell]))
+    return Immersion(arrangement, own_sheet, glued_to)
 
 
 def _tree(arrangement: Arrangement, tree: DualTree, partner: Ints, first_sheet: Ints) -> NamedTree:

@@ -33,7 +33,7 @@ from plyfold.outline.given import OutlineLike
 
 __all__ = [
     "best_immersion",
-    "bounds_disk",
+    "bounds_disk_by_values",
     "bounds_strictly",
     "count_immersions",
     "find_immersion",
@@ -87,7 +87,7 @@ def find_immersion(
     CurveError
         If the input is no closed curve, and no list of such.
     MemoryLimitError
-        If the gluing of its sheets would not fit into memory. :func:`bounds_disk` decides without it.
+        If the gluing of its sheets would not fit into memory. :func:`~plyfold.bounds_disk` decides without it.
 
     Notes
     -----
@@ -222,31 +222,8 @@ def _count(arranged: Arrangement, connected: bool, watch: Watch) -> int:
     return 0 if surfaces is None else count_surfaces(surfaces, connected, watch.begin("counting the immersions"))
 
 
-def bounds_disk(curve: OutlineLike, touching: bool = True) -> bool:
-    """Tell whether an outline is that of a disk of cloth laid flat on a table.
-
-    Parameters
-    ----------
-    curve : Curve, Outline, array_like of shape (n, 2), shapely geometry or Arrangement; or a list of curves
-    touching : bool, optional
-        Whether a disk may touch itself, in a point or along a strand that is walked twice: then the outline is a limit
-        of outlines of disks, though it may not be one itself.
-
-    Returns
-    -------
-    bool
-        Exact. False for several curves, and for one that bounds a disk with handles. See :func:`find_immersion` for the
-        reason and the cost. A "no" about a curve that touches itself comes before its points move, where its turning
-        or winding numbers tell.
-
-    Examples
-    --------
-    >>> bounds_disk([(0, 0), (2, 2), (2, 0), (0, 2)])
-    False
-    >>> two_triangles = [(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)]
-    >>> bounds_disk(two_triangles), bounds_disk(two_triangles, touching=False)
-    (True, False)
-    """
+def bounds_disk_by_values(curve: OutlineLike, touching: bool = True) -> bool:
+    """Tell what :func:`~plyfold.bounds_disk` does, of whatever stands for an outline, through its arrangement."""
     arranged = arrangement_unless(curve, touches_as_no_disk)
     if arranged is None:
         return False

@@ -24,6 +24,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from plyfold.arrays import Ints, freeze
+from plyfold.core.buffers import flat
+from plyfold.core.letters import Letters, room_for_arcs, room_for_letters
 from plyfold.immersion.dual_tree import DualTree
 
 __all__ = ["Word", "write_word"]
@@ -70,15 +72,6 @@ class Word:
         return self.partner[self.first_partner[label] : self.first_partner[label + 1]]
 
 
-@dataclass(frozen=True, eq=False)
-class _Arcs:
-    """The arcs of some cells: their order across a shared link, those that run behind, and where they may end."""
-
-    order: dict[int, int]
-    last_behind: dict[int, int]
-    ends: list[tuple[int, list[int]]]
-
-
 def write_word(tree: DualTree, cells: Iterable[int] | None = None) -> Word:
     """Write the word of a dual tree.
 
@@ -91,63 +84,21 @@ def write_word(tree: DualTree, cells: Iterable[int] | None = None) -> Word:
     Returns
     -------
     Word
-        Cost: the number of cells on the ways from ascending links to the root, and of letters, times its logarithm.
+        Cost: O(k), and the number of borders that each ascending link might be joined to.
     """
-    wanted = set(tree.ascending_cells() if cells is None else cells)
-    arcs = _draw_arcs(tree, wanted, tree.all_ways if cells is None else tree.ways(wanted))
-    n = len(arcs.ends)
-    link = tree.link[np.array([cell for cell, _ in arcs.ends], dtype=np.int64)]
-    order = np.array([arcs.order[cell] for cell, _ in arcs.ends], dtype=np.int64)
-    last = np.array([arcs.last_behind[cell] for cell, _ in arcs.ends], dtype=np.int64)
-    partners = np.array([len(ends) for _, ends in arcs.ends], dtype=np.int64)
-    label = np.repeat(np.arange(n), partners)
-    partner = np.array([border for _, ends in arcs.ends for border in ends], dtype=np.int64)
-    # On a descending border the curve meets the rightmost arc first, so the arcs behind come before the label's own.
-    width = int(last.max(initial=0)) + 1
-    keys = np.concatenate([link * width, partner * width + width - 1 - order[label]])
-    by_place = np.argsort(keys)
-    letter = np.empty_like(by_place)
-    letter[by_place] = np.arange(len(keys))
-    block = np.concatenate([letter[:n], np.searchsorted(keys[by_place], partner * width + width - 1 - last[label])])
-    plus = by_place[by_place >= n]
+    letters, wanted = Letters(), tree.ascends.astype(np.int64)
+    if cells is not None:
+        wanted[:] = 0
+        wanted[list(cells)] = 1
+    room = np.empty(room_for_arcs(len(wanted), len(tree.turning)) + 2 * len(tree.turning), dtype=np.int64)
+    size = letters.walk(tree.cell_tree, flat(wanted), flat(room))
+    letters.sort(flat(np.empty(room_for_letters(size), dtype=np.int64)))
     return Word(
-        cells=np.array([cell for cell, _ in arcs.ends], dtype=np.int64),
-        border=np.concatenate([link, partner])[by_place],
-        label=np.concatenate([np.arange(n), label])[by_place],
-        minus=letter[:n],
-        first_partner=np.append(0, np.cumsum(partners)),
-        partner=letter[plus[np.argsort(label[plus - n], kind="stable")]],
-        block=block[by_place],
+        cells=np.array(letters.cells[: letters.labels]),
+        border=np.asarray(letters.border),
+        label=np.asarray(letters.label),
+        minus=np.asarray(letters.minus),
+        first_partner=np.array(letters.first[: letters.labels + 1]),
+        partner=np.asarray(letters.partner),
+        block=np.asarray(letters.block),
     )
-
-
-def _draw_arcs(tree: DualTree, wanted: set[int], children: dict[int, list[int]]) -> _Arcs:
-    """Walk the tree from the root, in planar order, over the cells that have an arc to draw behind them.
-
-    An arc may end on a descending border y further out where the piece that the chord cuts off turns once: Φ, the
-    direction of the curve less that of the arc, grows by 2 from e to y if y comes later along the curve, and shrinks
-    by 2 if it comes earlier.
-    """
-    link, along, bend, ascends = tree.link.tolist(), tree.along.tolist(), tree.bend.tolist(), tree.ascends.tolist()
-    arcs = _Arcs({}, {}, [])
-    open_borders: dict[int, list[int]] = {}
-    stack = [(child, 0) for child in children.get(0, [])]
-    while stack:
-        cell, direction = stack.pop()
-        if cell < 0:  # the way back
-            arcs.last_behind[~cell] = len(arcs.order) - 1
-            if not ascends[~cell]:
-                open_borders[direction].pop()
-            continue
-        arcs.order[cell] = len(arcs.order)
-        direction += bend[cell]
-        potential = along[cell] - direction
-        border = link[cell]
-        if not ascends[cell]:
-            open_borders.setdefault(potential, []).append(border)
-        elif cell in wanted:
-            later = [outer for outer in open_borders.get(potential + 2, ()) if outer > border]
-            arcs.ends.append((cell, later + [y for y in open_borders.get(potential - 2, ()) if y < border]))
-        stack.append((~cell, potential))
-        stack.extend((child, direction) for child in children.get(cell, ()))
-    return arcs

@@ -15,6 +15,7 @@ from svgelements import SVG, Arc, Close, CubicBezier, Image, Length, Move, Quadr
 from svgelements import Shape as ShapeElement
 
 from plyfold.arrays import Floats
+from plyfold.core.vertices import LARGEST_COORDINATE
 from plyfold.errors import FileFormatError, InputError
 from plyfold.io.beziers import Bezier, DrawnPath, EllipticArc, sample_points
 from plyfold.io.cusp_notation import CuspMark, parse_cusps, written_cusp
@@ -22,7 +23,7 @@ from plyfold.io.own_version import SVG_MARK, refuse_later_version
 from plyfold.io.shapes import Line, Shape, StrokeStyle, outline_of_shapes
 from plyfold.outline.curve import Outline
 from plyfold.outline.direction import even_odd_directions, sense
-from plyfold.outline.points import LARGEST_COORDINATE, Repair, as_points, diagonal
+from plyfold.outline.points import Repair, as_points, diagonal
 from plyfold.outline.ribbons.sides import CapStyle, JoinStyle
 
 __all__ = ["DrawnShape", "flattened_shapes", "outline_of_drawn_shapes", "shapes_in_svg"]

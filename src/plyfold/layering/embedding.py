@@ -29,13 +29,13 @@ from plyfold.errors import TimeLimitError
 from plyfold.immersion.obstructions import may_bound_disk, visible_obstruction
 from plyfold.immersion.outlines import find_surfaces, list_surfaces
 from plyfold.immersion.solve import (
-    bounds_disk,
     count_immersions,
     find_immersion,
     immersions,
     in_best_way,
     watched_immersions,
 )
+from plyfold.immersion.verdict import bounds_disk
 from plyfold.layering.layering import Layering, layering_of_levels
 from plyfold.layering.levels.casing import casing_of_visits
 from plyfold.layering.levels.counting import count_level_solutions

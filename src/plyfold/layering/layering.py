@@ -25,6 +25,9 @@ __all__ = [
     "meeting_sheets",
 ]
 
+# Bytes for each pair of glued sheets of a surface made from its levels, and what is there while it is made.
+_BYTES_PER_PAIR = 80
+
 
 @dataclass(frozen=True, eq=False)
 class Layering:
@@ -184,36 +187,30 @@ def layering_of_levels(arranged: Arrangement, level: Ints) -> Layering:
     Layering
         Over each cell the sheets are numbered from below. Cost: O(Σ w), the sheets counted once per border.
     """
-    require_memory_for_gluing(arranged)
-    winding = arranged.winding
-    first_sheet = starts_of(winding)
+    require_memory_for_gluing(arranged, _BYTES_PER_PAIR)
+    first_sheet = starts_of(arranged.winding)
     immersion = Immersion(
         arrangement=arranged,
-        sheet_cell=np.repeat(np.arange(arranged.n_cells), winding),
-        first_sheet=first_sheet,
         own_sheet=first_sheet[arranged.left_cell] + level - 1,
-        gluing=np.concatenate([glued_along_borders(arranged, level), _glued_along_bridges(arranged)]),
+        glued_to=np.concatenate([glued_along_borders(arranged, level), _sheets_along_bridges(arranged)]).astype(
+            np.int32
+        ),
     )
-    layering = Layering(immersion, count_each(winding) + 1)
+    layering = Layering(immersion, count_each(arranged.winding) + 1)
     immersion.check()
     layering.check()
     return layering
 
 
 def glued_along_borders(arranged: Arrangement, level: Ints) -> Ints:
-    """Return the rows of borders: in order, all sheets on the left but those on the given levels."""
-    first_sheet, lower = starts_of(arranged.winding), arranged.winding[arranged.right_cell]
+    """Return for each border the sheets on its left, in order, but for the one on the given level."""
+    lower = arranged.winding[arranged.right_cell]
     border, right = np.repeat(np.arange(arranged.n_borders), lower), count_each(lower)
-    left = right + (right >= level[border] - 1)
-    return np.stack(
-        [border, first_sheet[arranged.right_cell[border]] + right, first_sheet[arranged.left_cell[border]] + left],
-        axis=1,
-    )
+    return np.asarray(starts_of(arranged.winding)[arranged.left_cell[border]] + right + (right >= level[border] - 1))
 
 
-def _glued_along_bridges(arranged: Arrangement) -> Ints:
-    """Return the rows of bridges: every sheet goes on as itself."""
+def _sheets_along_bridges(arranged: Arrangement) -> Ints:
+    """Return for each bridge the sheets over its cell: every sheet goes on as itself."""
     cell = arranged.cell_of_dart[arranged.bridges[:, 0]]
-    bridge = np.repeat(np.arange(len(cell)), arranged.winding[cell])
-    sheet = starts_of(arranged.winding)[cell[bridge]] + count_each(arranged.winding[cell])
-    return np.stack([arranged.n_borders + bridge, sheet, sheet], axis=1)
+    sheets = arranged.winding[cell]
+    return np.repeat(starts_of(arranged.winding)[cell], sheets) + count_each(sheets)

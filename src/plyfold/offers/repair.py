@@ -16,7 +16,8 @@ from plyfold.arrangement.arrangement import Arrangement, watched_arrangement
 from plyfold.arrays import Floats
 from plyfold.clock import Clock, Watch
 from plyfold.errors import CurveError, GeneralPositionError, InputError, TimeLimitError
-from plyfold.immersion.solve import bounds_disk, find_immersion
+from plyfold.immersion.solve import find_immersion
+from plyfold.immersion.verdict import bounds_disk
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.offers.areas import Measure
 from plyfold.offers.confirmed import confirm

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from plyfold.core.vertices import LARGEST_COORDINATE
 from plyfold.errors import CurveError, PrecisionError
 from plyfold.mistaken import Mistake, mistaken_array, mistaken_value
 
 __all__ = [
-    "LARGEST_COORDINATE",
     "Repair",
     "as_planar_points",
     "as_points",
@@ -21,9 +21,6 @@ __all__ = [
     "refuse_mistake",
     "refuse_tiny",
 ]
-
-LARGEST_COORDINATE = 1e150
-"""Products of two coordinates up to this size stay inside the range of a double."""
 
 # Squares of this size are doubles still.
 _SMALLEST_SIZE = 1e-152

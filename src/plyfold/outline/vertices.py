@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrays import Floats, Ints
-from plyfold.core.signs import exact_sign
+from plyfold.core.buffers import flat
+from plyfold.core.vertices import count_vertices, without_closing_point
 from plyfold.errors import CurveError, InputError
 from plyfold.outline.points import Repair, as_planar_points
 from plyfold.predicates import orient
@@ -49,11 +50,14 @@ class Vertices(NamedTuple):
 def cleaned(points: npt.ArrayLike) -> Vertices:
     """Return the vertices of a closed polyline; raise CurveError if the points make none."""
     planar, flattened = as_planar_points(points)
-    given = _without_closing_point(planar)
-    rows = _fresh_rows(given)
-    # All of them, mostly; a copy would cost more than the rest.
-    kept = given if len(rows) == len(given) else given[rows]
-    _refuse_degenerate(kept)
+    places = flat(planar)
+    given = planar[: without_closing_point(places)]
+    if count_vertices(places):
+        kept, rows = given, np.arange(len(given))
+    else:
+        rows = _fresh_rows(given)
+        kept = given[rows]
+        _refuse_degenerate(kept)
     none = np.zeros(len(kept), dtype=np.int64)
     for array in (kept, rows, none):
         array.setflags(write=False)
@@ -121,19 +125,8 @@ def _vertex_of_row(vertices: Vertices, count: int) -> Ints:
     return vertex
 
 
-def _without_closing_point(points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    return points[:-1] if len(points) > 1 and _ends_where_it_begins(points) else points
-
-
-def _ends_where_it_begins(points: npt.NDArray[np.float64]) -> bool:
-    return bool(points[:1].tolist() == points[-1:].tolist())
-
-
 def _fresh_rows(points: npt.NDArray[np.float64]) -> npt.NDArray[np.int64]:
     """Return the first row of each run of equal points; a run across the end belongs to the first point."""
-    x, y = points.T
-    if not ((x[1:] == x[:-1]) & (y[1:] == y[:-1])).any() and not _ends_where_it_begins(points):
-        return np.arange(len(points))
     fresh = (points != np.roll(points, 1, axis=0)).any(axis=1)
     fresh[:1] = True
     last = np.flatnonzero(fresh)[-1:]
@@ -162,13 +155,9 @@ def _refuse_degenerate(points: npt.NDArray[np.float64]) -> None:
 
 
 def _has_a_corner(points: npt.NDArray[np.float64]) -> bool:
-    """Tell whether one of the first points, or the one that seems farthest, is off the line through the first two."""
+    """Tell whether the point that seems farthest is off the line through the first two."""
     if len(points) < 3:
         return False
-    # One sign of doubles is sooner found without arrays, and mostly the first one tells.
-    first, second, *others = points[:6].tolist()
-    if any(exact_sign(*first, *second, *first, *other) for other in others):
-        return True
     x, y = (points - points[0]).T
     farthest = int(np.abs(x[1] * y - y[1] * x).argmax())
     return bool(orient(points[0], points[1], points[farthest]))

@@ -80,23 +80,17 @@ def glue_layout(arrangement: Arrangement, groups: Sequence[Sequence[int]]) -> Im
     own_sheet = np.empty(arrangement.n_borders, dtype=np.int64)
     for sheet, group in zip(group_sheet, groups, strict=True):
         own_sheet[list(group)] = sheet
-    return _checked(
-        Immersion(
-            arrangement=arrangement,
-            sheet_cell=np.repeat(np.arange(arrangement.n_cells), arrangement.winding),
-            first_sheet=first_sheet,
-            own_sheet=own_sheet,
-            gluing=_glue(arrangement, rooms, own_sheet.tolist()),
-        )
-    )
+    return _checked(arrangement, own_sheet, _glue(arrangement, rooms, own_sheet.tolist()))
 
 
-def _checked(immersion: Immersion) -> Immersion | None:
+def _checked(arrangement: Arrangement, own_sheet: Ints, gluing: Ints) -> Immersion | None:
+    """Return the immersion with some rows as its gluing, None if it is none."""
+    immersion = Immersion(arrangement, own_sheet, gluing[:, 2].astype(np.int32))
     try:
         immersion.check()
     except PlyfoldError:
         return None
-    return immersion
+    return immersion if np.array_equal(immersion.gluing, gluing) else None
 
 
 # ---- gaps and rooms ------------------------------------------------------------------------------------------------

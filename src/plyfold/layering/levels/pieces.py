@@ -15,14 +15,16 @@ from plyfold.arrays import Bools, Ints
 from plyfold.graphs import components
 from plyfold.layering.layering import glued_along_borders
 from plyfold.layering.levels.equations import LevelClauses
-from plyfold.ragged import starts_of
+from plyfold.ragged import count_each, starts_of
 
 __all__ = ["not_cut_off", "piece_of_each_sheet"]
 
 
 def piece_of_each_sheet(arranged: Arrangement, level: Ints) -> Ints:
     """Return a number for each sheet, cell by cell from below: the same for sheets of one piece. Cost: O(Σ w)."""
-    return components(int(arranged.winding.sum()), *glued_along_borders(arranged, level)[:, 1:].T)
+    lower = arranged.winding[arranged.right_cell]
+    right = np.repeat(starts_of(arranged.winding)[arranged.right_cell], lower) + count_each(lower)
+    return components(int(arranged.winding.sum()), right, glued_along_borders(arranged, level))
 
 
 def not_cut_off(arranged: Arrangement, clauses: LevelClauses, level: Ints) -> list[int] | None:

@@ -21,6 +21,7 @@ import numpy as np
 from plyfold.arrays import Bools, Ints, freeze
 from plyfold.clock import NO_LIMIT, Clock
 from plyfold.graphs import components, end_of_path, shortest_path
+from plyfold.immersion.corners import sides
 from plyfold.immersion.immersion import Immersion, require_immersion
 from plyfold.memory import number_of_tuples, require_memory
 from plyfold.ragged import count_each, starts_of
@@ -131,9 +132,8 @@ def _stand_ins(immersion: Immersion, rising: Ints) -> Ints:
     """Return the sheet over a summit to which each sheet leads, on the way up over one border of each cell."""
     below = np.flatnonzero(rising[immersion.sheet_cell] >= 0)
     cell = immersion.sheet_cell[below]
-    rows = starts_of(immersion.arrangement.winding[immersion.arrangement.right_cell])[rising[cell]]
     step = np.arange(immersion.n_sheets)
-    step[below] = immersion.gluing[rows + below - immersion.first_sheet[cell], 2]
+    step[below] = immersion.glued_to[immersion.first_pair[rising[cell]] + below - immersion.first_sheet[cell]]
     return end_of_path(step)
 
 
@@ -168,12 +168,14 @@ def _require_memory(immersion: Immersion, pairs: int) -> None:
 
 def _carried(pairs: PairGraph, seams: Bools) -> Ints:
     """Return the edges (pair on the right of a border, pair on its left), for some borders and bridges."""
-    immersion = pairs.immersion
-    border, right, left = immersion.gluing[seams[immersion.gluing[:, 0]]].T
-    counts = np.bincount(border, minlength=immersion.arrangement.n_borders)
+    immersion, seam = pairs.immersion, np.flatnonzero(seams)
+    counts = np.diff(immersion.first_pair)[seam]
     _require_memory(immersion, number_of_tuples(counts, 2))
-    first = np.repeat(np.arange(len(border)), counts[border])
-    second = starts_of(counts)[border[first]] + count_each(counts[border])
+    each, own = counts.repeat(counts), count_each(counts)
+    right = immersion.first_sheet[sides(immersion.arrangement)[1][seam]].repeat(counts) + own
+    left = immersion.glued_to[immersion.first_pair[seam].repeat(counts) + own]
+    first = np.repeat(np.arange(len(each)), each)
+    second = (np.arange(len(each)) - own)[first] + count_each(each)
     differ = first != second
     first, second = first[differ], second[differ]
     return np.stack([pairs.pair_of(side[first], side[second]) for side in (right, left)], axis=1)

@@ -9,9 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrays import Bools, Floats, Ints, freeze
+from plyfold.core.vertices import LARGEST_COORDINATE
 from plyfold.errors import CurveError, InputError
 from plyfold.outline.curve import Outline
-from plyfold.outline.points import LARGEST_COORDINATE, Repair, as_planar_points
+from plyfold.outline.points import Repair, as_planar_points
 
 if TYPE_CHECKING:
     from shapely import LineString
