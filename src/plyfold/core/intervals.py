@@ -95,7 +95,7 @@ class Intervals:
         return self._reaches(start, 2 * wall - 1) or self._is_entered(start, wall, end)
 
     def _is_entered(self, start: int, wall: int, end: int) -> bool:
-        """Tell whether a chord that begins at one wall may lead from a place to one before another, and an end."""
+        """Tell whether a chord that begins at a wall may lead from a place to somewhere before another and an end."""
         chord = self.entry[wall] - 1
         while chord >= 0:
             bound = self.bound[chord]
