@@ -61,6 +61,7 @@ EXCEPTIONS = {
     ("plyfold.immersion.immersion", "plyfold.flat.settle"): "touches: where the triangles of an immersion are cut",
     ("plyfold.disk.unwrap", "plyfold.draw.notebook"): "_repr_png_ of an unwound disk",
     ("plyfold.surface.thicken", "plyfold.draw.notebook"): "_repr_png_ of a solid",
+    ("plyfold.surface.thicken", "plyfold.draw.viewer"): "export of a solid to .html",
     ("plyfold.surface.lift", "plyfold.draw.film"): "export to .gif and .mp4",
     ("plyfold.surface.lift", "plyfold.draw.viewer"): "export to .html, show, and _repr_html_ of a surface",
 }

@@ -7,7 +7,8 @@
     │   ├── CurveError        bad points: NaN, too few, all on one line
     │   ├── StrokeError       strokes that cannot be joined into one loop
     │   ├── FileFormatError   a file that cannot be read as a curve
-    │   └── GaussCodeError    a code that no closed plane curve has
+    │   ├── GaussCodeError    a code that no closed plane curve has
+    │   └── WallError         a solid cannot have walls as thick as was asked for
     ├── GeneralPositionError  touching or overlapping strands, and perturbing was not allowed or did not help
     ├── NotImmersibleError    a disk was asked for, and the curve bounds none (carries the obstruction)
     ├── NotEmbeddableError    a layered surface was asked for, and there is none (carries the obstruction)
@@ -39,6 +40,7 @@ __all__ = [
     "PrecisionError",
     "StrokeError",
     "TimeLimitError",
+    "WallError",
 ]
 
 
@@ -95,6 +97,10 @@ class FileFormatError(InputError):
 
 class GaussCodeError(InputError):
     """The signed Gauss code belongs to no closed plane curve."""
+
+
+class WallError(InputError):
+    """The walls of a solid cannot be as thick as was asked for: sheets over each other leave no room there."""
 
 
 class GeneralPositionError(PlyfoldError):

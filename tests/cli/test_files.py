@@ -32,8 +32,8 @@ def test_bad_thickness(thickness, tmp_path, capsys):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_no_page_of_a_solid(tmp_path, capsys):
-    assert main(["lift", RAMP, "--thicken", "0.2", "-o", str(tmp_path / "out.html")]) == 2
+def test_no_film_of_a_solid(tmp_path, capsys):
+    assert main(["lift", RAMP, "--thicken", "0.2", "-o", str(tmp_path / "out.gif")]) == 2
     assert ".3mf" in capsys.readouterr().err
 
 

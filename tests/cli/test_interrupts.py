@@ -13,11 +13,11 @@ pytestmark = pytest.mark.skipif(os.name == "nt", reason="signals")
 
 IN_FOREIGN_CODE = """
 import hashlib, sys
-import plyfold.surface.lift as surface
+import plyfold.surface.making as making
 def forever(*_, **__):
     print("working", flush=True)
     hashlib.pbkdf2_hmac("sha1", b"", b"", 2**31 - 1)
-surface.smooth_heights = forever
+making.smooth_heights = forever
 sys.argv = {words}
 from plyfold_command import main
 main()

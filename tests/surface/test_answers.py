@@ -4,11 +4,11 @@ import importlib
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.sparse import csr_array
 
-from cloths import coarse_cloth
+from cloths import cloth_over
 from coarse import CURVES
 from plyfold import find_layering, immersions
 from plyfold.core.buffers import all_flat
@@ -40,6 +40,7 @@ def parents_by_definition(matrix, order):
     return [int(rows[0]) if len(rows) else -1 for rows in below]
 
 
+@settings(deadline=None)
 @given(definite_matrices())
 def test_elimination_tree(case):
     matrix, order = case
@@ -51,6 +52,7 @@ def test_elimination_tree(case):
     assert parent.tolist() == parents_by_definition(matrix, order)
 
 
+@settings(deadline=None)
 @given(definite_matrices(), st.booleans())
 def test_entries_of_inverses(case, in_order):
     matrix, order = case
@@ -83,15 +85,16 @@ def differences(mesh):
 
 @pytest.mark.parametrize("dissected", [False, True])
 @pytest.mark.parametrize("held", [False, True])
-@pytest.mark.parametrize(("stiffness", "precision"), [(0.5, 1e-10), (10.0, 1e-9), (1000.0, 1e-5)])
+@pytest.mark.parametrize(("stiffness", "precision"), [(0.5, 1e-10), (10.0, 3e-9), (1000.0, 1e-5)])
 def test_answers_of_cloth(held, stiffness, precision, dissected, monkeypatch):
     """Against the dense inverse, or the pseudo-inverse, of the cloth's whole matrix."""
     if dissected:
         pytest.importorskip("pymetis")
         monkeypatch.setattr(answers, "_FEW", 0)
     points, mesh = glued("milnor")
-    cloth, rows = coarse_cloth(points, mesh, stiffness), differences(mesh)
-    fixed = np.isin(np.arange(len(mesh.level)), mesh.faces[:5]) & held
+    cloth = cloth_over(points, mesh, stiffness)
+    rows = np.pad(differences(mesh), [(0, 0), (0, len(cloth.area) - len(mesh.level))])
+    fixed = np.isin(np.arange(len(cloth.area)), mesh.faces[:5]) & held
     inverse, free = np.zeros((len(fixed), len(fixed))), np.flatnonzero(~fixed)
     matrix = cloth.stiffness.toarray()[np.ix_(free, free)]
     inverse[np.ix_(free, free)] = np.linalg.pinv(matrix, hermitian=True, rtol=1e-15 * len(fixed))
@@ -107,7 +110,7 @@ def test_answers_of_cloth(held, stiffness, precision, dissected, monkeypatch):
 def test_orders_by_dissection(monkeypatch):
     """A permutation; and none without the library."""
     points, mesh = glued("pretzel", 2000)
-    laplacian = coarse_cloth(points, mesh, 0.5).laplacian
+    laplacian = cloth_over(points, mesh).laplacian
     if importlib.util.find_spec("pymetis"):
         order = dissected_order(laplacian)
         assert sorted(order.tolist()) == list(range(laplacian.shape[0]))

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.sparse.linalg import splu
 
@@ -118,6 +118,7 @@ class TestHalving:
         follower[mesh.boundary] = np.roll(mesh.boundary, -1)
         return graded(places, mesh.faces, corners, follower, finest)
 
+    @settings(max_examples=25, deadline=None)
     @given(st.integers(0, 2**32))
     def test_same_surface(self, seed):
         """Triangles are parts of those they say, none hangs, and added vertices are in the middle of edges."""
@@ -137,6 +138,7 @@ class TestHalving:
         outline = places[mesh.boundary]
         assert length == pytest.approx(np.hypot(*(np.roll(outline, -1, axis=0) - outline).T).sum(), rel=1e-12)
 
+    @settings(max_examples=25, deadline=None)
     @given(st.integers(0, 2**32))
     def test_small_at_corners(self, seed):
         """Where there is room for all, sides at corners are as short as is asked for, and angles not too small."""

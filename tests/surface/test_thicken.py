@@ -28,7 +28,7 @@ def assert_printable(solid, rounding=1e-9):
     assert body.is_watertight
     assert body.is_winding_consistent
     drawn = solid.surface.layering.immersion.arrangement.curve.points
-    assert body.volume == pytest.approx(area(drawn) * solid.thickness, rel=rounding)
+    assert body.volume == pytest.approx(area(drawn) * solid.height, rel=rounding)
 
 
 @pytest.mark.parametrize("named", LIFTABLE.values(), ids=LIFTABLE.keys())
@@ -100,7 +100,7 @@ def test_middle_and_sides():
     assert np.array_equal(upper[:, :2], surface.vertices[:, :2])
     assert np.array_equal(lower[:, :2], surface.vertices[:, :2])
     assert np.allclose((upper + lower) / 2, surface.vertices, rtol=1e-14)
-    assert np.allclose(upper[:, 2] - lower[:, 2], solid.thickness)
+    assert np.allclose(upper[:, 2] - lower[:, 2], solid.height)
 
 
 def test_sheets_of_walls():
@@ -187,12 +187,12 @@ def test_files_are_read_back_watertight(solid, suffix, colours, tmp_path):
     assert body.is_watertight
     assert len(body.faces) == len(solid.faces)
     drawn = solid.surface.layering.immersion.arrangement.curve.points
-    assert body.volume == pytest.approx(area(drawn) * solid.thickness, rel=1e-4)
+    assert body.volume == pytest.approx(area(drawn) * solid.height, rel=1e-4)
 
 
-def test_no_page_of_a_solid(solid, tmp_path):
-    with pytest.raises(InputError, match="html"):
-        solid.export(tmp_path / "out.html")
+def test_no_film_of_a_solid(solid, tmp_path):
+    with pytest.raises(InputError, match="gif"):
+        solid.export(tmp_path / "out.gif")
 
 
 def test_existing_files_stay(solid, tmp_path):

@@ -7,6 +7,7 @@ import pytest
 from scipy.sparse import csr_array
 
 import plyfold as pf
+from cloths import cloth_over
 from coarse import CURVES
 from plyfold.arrangement.crossings import find_contacts
 from plyfold.arrangement.general_position import in_general_position
@@ -19,9 +20,7 @@ from plyfold.mesh.cells import triangulate_cells
 from plyfold.mesh.refine import constrained, noded_curve, refine, usual_area
 from plyfold.surface.answers import Answers
 from plyfold.surface.contact import Distances, Problem, least_forces, sprung_heights
-from plyfold.surface.energy import cloth_of
 from plyfold.surface.glue import stack_sheets
-from plyfold.surface.grading import cloth_mesh
 from plyfold.surface.heights import smooth_heights
 
 STAGES = [
@@ -128,7 +127,7 @@ class TestNothingGoesOn:
         _, cells, mesh = glued()
         with pytest.raises(TimeLimitError, match="smoothing"):
             smooth_heights(cells.points, mesh, 1.0, watch=self.late)
-        cloth = cloth_of(cloth_mesh(cells.points, mesh, 0.5), mesh, 0.5, 1.0)
+        cloth = cloth_over(cells.points, mesh)
         force = np.zeros(len(cloth.area))
         nothing = np.zeros(len(force), dtype=bool)
         one = np.arange(len(force)) == 0

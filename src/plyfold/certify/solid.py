@@ -1,4 +1,4 @@
-"""Check that a triangle mesh bounds a solid of constant vertical thickness that does not meet itself."""
+"""Check that a triangle mesh bounds a solid of given vertical thickness that does not meet itself."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _ROUNDING = 1e-15
 def check_solid(  # noqa: PLR0913 - a mesh, and what it shall be
     vertices: npt.ArrayLike,
     faces: npt.ArrayLike,
-    thickness: float,
+    thickness: npt.ArrayLike,
     *,
     pieces: Iterable[int] = (1,),
     tips: npt.ArrayLike = (),
@@ -37,13 +37,14 @@ def check_solid(  # noqa: PLR0913 - a mesh, and what it shall be
         Positions; vertices with exactly equal x and y lie over one another.
     faces : array_like of int, shape (m, 3)
         Vertices of each triangle, counter-clockwise seen from the outside.
-    thickness : float
-        The vertical thickness.
+    thickness : float, or array_like of shape (v,)
+        The vertical thickness: the same everywhere, or as it is at each vertex of the top, straight between them. What
+        it says of other vertices is not read.
     pieces : iterable of int, optional
         The Euler characteristics of the connected pieces: 1 of a ball, 0 of a ring, and 1 less for each handle. By
         default the solid is one ball.
     tips : array_like of int, optional
-        Vertices at which top and bottom meet.
+        Vertices at which top and bottom meet: single ones, or whole rims, which have no walls.
     touching : bool, optional
         Whether walls of the solid may touch, see :func:`check_layered`.
 
@@ -62,7 +63,8 @@ def check_solid(  # noqa: PLR0913 - a mesh, and what it shall be
     bottom triangle that has the vertices right below. By :func:`check_layered`, the strict order at the corners goes
     for the triangles and edges. So between a bottom triangle and its top there is nothing else, and the prisms between
     them meet in common walls only; the remaining triangles are parts of such walls. The volume follows: the area seen
-    from above, times the thickness. At a tip the solid has no thickness, and grows to it in the triangles around.
+    from above, times the thickness. At a tip the solid has no thickness, and grows to it in the triangles around. No
+    triangle has tips at all of its corners, for then it would be its own top.
 
     With ``touching``, vertices alternate where triangles lie over one another, and walls of the solid may touch.
 
@@ -136,23 +138,31 @@ def _require_alternation(positions: Floats, first: Ints, second: Ints, fits: Boo
         )
 
 
-def _require_thickness(positions: Floats, top: Ints, thickness: float) -> None:
+def _require_thickness(positions: Floats, top: Ints, thickness: npt.ArrayLike) -> None:
     """Check that each vertex and the one above it are the roundings of numbers that are exactly the thickness apart."""
-    if isinstance(thickness, bool) or not isinstance(thickness, int | float | np.number) or not np.isfinite(thickness):
-        raise CertificateError(f"the thickness must be a finite number, not {thickness!r}")
     bottom = np.flatnonzero((top >= 0) & (top != np.arange(len(top))))
+    wanted = _thickness_at(thickness, len(positions))[top[bottom]]
     low, high = positions[bottom, 2], positions[top[bottom], 2]
     with np.errstate(over="ignore", invalid="ignore"):
-        excess = 2 * (high - low - thickness + _lost(high, low))
+        excess = 2 * (high - low - wanted + _lost(high, low))
         allowed = np.where(excess > 0, _doubled_room(high, low), _doubled_room(low, high))
         wrong = np.abs(excess) > allowed
         sure = np.abs(np.abs(excess) - allowed) > _ROUNDING * allowed
     for i in np.flatnonzero(~sure).tolist():
-        wrong[i] = _is_wrong(Fraction(high[i]) - Fraction(low[i]) - Fraction(thickness), high[i], low[i])
+        wrong[i] = _is_wrong(Fraction(high[i]) - Fraction(low[i]) - Fraction(wanted[i]), high[i], low[i])
     if wrong.any():
-        raise CertificateError(
-            f"top and bottom are not {thickness:g} apart", where=positions[bottom[np.flatnonzero(wrong)[:1]], :2]
-        )
+        worst = int(np.argmax(wrong))
+        raise CertificateError(f"top and bottom are not {wanted[worst]:g} apart", where=positions[bottom[[worst]], :2])
+
+
+def _thickness_at(thickness: npt.ArrayLike, count: int) -> Floats:
+    """Return the thickness at each vertex."""
+    if isinstance(thickness, bool) or np.asarray(thickness).dtype.kind not in "iuf":
+        raise CertificateError(f"the thickness must be a number or one for each vertex, not {thickness!r}")
+    given = np.asarray(thickness, dtype=np.float64)
+    if given.shape not in ((), (count,)) or not np.isfinite(given).all():
+        raise CertificateError(f"the thickness must be a finite number or {count} of them, not {thickness!r}")
+    return np.broadcast_to(given, count)
 
 
 def _is_wrong(excess: Fraction, high: float, low: float) -> bool:
@@ -191,7 +201,7 @@ def _require_walls(positions: Floats, walls: Ints, lower: Ints, top: Ints) -> No
     """Check that there are two vertical triangles at each edge on the rim of the bottom, and no others.
 
     Their corners are at the ends of the edge and of the one above it. As the mesh is closed, they fill what is between.
-    At a tip there is one triangle alone.
+    At a tip there is one triangle alone, and none between two tips.
     """
     below = np.arange(len(positions))
     below[top[top >= 0]] = np.flatnonzero(top >= 0)
@@ -200,14 +210,20 @@ def _require_walls(positions: Floats, walls: Ints, lower: Ints, top: Ints) -> No
     if len(bad := np.flatnonzero(~at_two_places)):
         raise CertificateError("a wall is not between one top and its bottom", where=positions[walls[bad[0]], :2])
     side = pair_keys(np.stack([lower, np.roll(lower, -1, axis=1)], axis=2).reshape(-1, 2), len(positions))
-    (edges, used), (ends, times) = (
-        np.unique(keys, return_counts=True) for keys in (side, pair_keys(at[:, [0, 2]], len(positions)))
-    )
-    rim = np.stack(np.divmod(ends, len(positions)))
-    needed = 2 - (top[rim] == rim).sum(axis=0)
-    wrong = np.union1d(np.setxor1d(edges[used == 1], ends), ends[times != needed])
+    edges, used = np.unique(side, return_counts=True)
+    rim = edges[used == 1]
+    ends = np.divmod(rim, len(positions))
+    needed = np.repeat(rim, 2 - (top[ends[0]] == ends[0]) - (top[ends[1]] == ends[1]))
+    wrong = _not_in_both(needed, pair_keys(at[:, [0, 2]], len(positions)))
     if len(wrong):
         raise CertificateError(
             "the walls are not along the rim of the bottom, two triangles at each edge",
             where=positions[np.array(divmod(wrong[0], len(positions))), :2],
         )
+
+
+def _not_in_both(first: Ints, second: Ints) -> Ints:
+    """Return the numbers that are not as often among the first as among the second."""
+    known, which = np.unique(np.concatenate([first, second]), return_inverse=True)
+    times = np.bincount(which, np.repeat([1.0, -1.0], [len(first), len(second)]), minlength=len(known))
+    return np.asarray(known[times != 0])

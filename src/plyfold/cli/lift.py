@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import json
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,17 +12,33 @@ from plyfold.cli.inputs import DISK, add_command, add_outputs, add_repair, add_t
 from plyfold.cli.progress import Stopwatch, timing
 from plyfold.cli.standard_output import say_written
 from plyfold.clock import Clock
+from plyfold.errors import InputError
 from plyfold.wording import counted
 
 if TYPE_CHECKING:
     from plyfold.arrangement.arrangement import Arrangement
     from plyfold.layering.layering import Layering
     from plyfold.surface.heights import PinKey
+    from plyfold.surface.lift import Surface
+    from plyfold.surface.thicken import Solid
 
 __all__ = ["add_lift_command"]
 
 # These take minutes for a large surface, and say how far they are.
 _FILMS = (".gif", ".mp4")
+
+_JSON_GUIDE = """\
+the object that --json prints:
+  triangles, sheets, levels  of the surface, or of the one in the middle of the solid
+  gap                        least distance of sheets over each other
+  intersections              along how many curves it passes through itself
+  solid                      object (with --thicken or --inflate): triangles; height, its largest thickness; volume;
+                             wall, how thin it is across and where, {length, where: [x, y]}, or null if it is all rim;
+                             overhang, which share of its area faces down and leans more than 45 degrees
+  written                    list of files
+  seconds                    object: stage -> seconds
+or, with exit code 2, {error, where, hint}
+"""
 
 
 def add_lift_command(commands: Any) -> None:
@@ -46,6 +64,27 @@ def add_lift_command(commands: Any) -> None:
         help="a solid to be printed, T thick in vertical direction; less than the gap",
     )
     lift.add_argument(
+        "--min-wall",
+        type=float,
+        metavar="W",
+        help="with --thicken: make the solid thicker where it is steep, until it is W thick across everywhere",
+    )
+    lift.add_argument(
+        "--inflate",
+        nargs="?",
+        type=float,
+        const=True,
+        metavar="HEIGHT",
+        help="a round body, thick in the middle and thin at the outline, HEIGHT thick at most (default: by its width)",
+    )
+    lift.add_argument(
+        "--profile",
+        choices=["round", "flat"],
+        help="with --inflate: elliptic, or a plateau with a round rim (default: round)",
+    )
+    lift.add_argument("--json", action="store_true", help="print one JSON object and nothing else (see below)")
+    lift.epilog, lift.formatter_class = _JSON_GUIDE, argparse.RawDescriptionHelpFormatter
+    lift.add_argument(
         "--colours",
         choices=["layers", "sheets"],
         default="layers",
@@ -59,10 +98,10 @@ def add_lift_command(commands: Any) -> None:
 def _lift(options: argparse.Namespace) -> int:
     from plyfold.surface.lift import lift
 
+    _refuse_mixed(options)
     watch, clock = Stopwatch(), Clock(options.time_limit)
-    pages = () if options.thicken is not None else (".html", *_FILMS)
-    endings = (".glb", ".obj", ".ply", ".stl", ".3mf", *pages)
-    arranged = prepare(options, endings, watch, clock)
+    films = () if options.thicken is not None or options.inflate is not None else _FILMS
+    arranged = prepare(options, (".glb", ".obj", ".ply", ".stl", ".3mf", ".html", *films), watch, clock)
     surface = lift(
         _by_heights(arranged, options),
         gap=options.gap,
@@ -72,17 +111,65 @@ def _lift(options: argparse.Namespace) -> int:
         allow_intersections=options.allow_intersections,
         **_height_options(options),
     )
+    solid = _solid(surface, options, watch, clock)
     watch("writing")
-    _export(surface, options, watch)
+    _export(surface, solid, options, watch)
     watch.stop()
-    sheets = counted(surface.n_sheets, "sheet")
-    print(f"Lifted: {len(surface.faces):,} triangles in {sheets}, {surface.n_layers} level(s)")
-    if surface.intersections:
-        print(f"  it passes through itself along {len(surface.intersections)} curve(s)")
-    print(timing(watch))
+    figures = _figures(surface if solid is None else solid.surface, solid)
+    if options.json:
+        print(json.dumps(figures | {"written": options.output, "seconds": watch.seconds}), flush=True)
+        return DISK
+    print("\n".join([*_report(figures), timing(watch)]))
     for path in options.output:
         say_written(path)
     return DISK
+
+
+def _refuse_mixed(options: argparse.Namespace) -> None:
+    """Refuse options that do not go together."""
+    if options.thicken is not None and options.inflate is not None:
+        raise InputError("--thicken and --inflate make different solids", hint="choose one of them")
+    if options.min_wall is not None and options.thicken is None:
+        raise InputError("--min-wall is for slabs, which --thicken makes", hint="add --thicken T")
+    if options.profile is not None and options.inflate is None:
+        raise InputError("--profile is for round bodies, which --inflate makes", hint="add --inflate")
+
+
+def _solid(surface: Surface, options: argparse.Namespace, watch: Stopwatch, clock: Clock) -> Solid | None:
+    """Return the solid that is asked for, if any."""
+    if options.inflate is not None:
+        height = None if options.inflate is True else options.inflate
+        return surface.inflate(height, options.profile or "round", time_limit=clock.left, progress=watch)
+    return None if options.thicken is None else surface.thicken(options.thicken, options.min_wall)
+
+
+def _figures(surface: Surface, solid: Solid | None) -> dict[str, Any]:
+    """Return what is reported; see the guide."""
+    figures = {
+        "triangles": len(surface.faces),
+        "sheets": surface.n_sheets,
+        "levels": surface.n_layers,
+        "gap": surface.gap,
+        "intersections": len(surface.intersections),
+    }
+    if solid is None:
+        return figures
+    wall = None if solid.wall is None else {"length": solid.wall.length, "where": list(solid.wall.where)}
+    size = {"triangles": len(solid.faces), "height": solid.height, "volume": solid.volume}
+    return figures | {"solid": size | {"wall": wall, "overhang": solid.overhang()}}
+
+
+def _report(figures: dict[str, Any]) -> Iterator[str]:
+    """Yield the lines that say the same to people."""
+    sheets = counted(figures["sheets"], "sheet")
+    yield f"Lifted: {figures['triangles']:,} triangles in {sheets}, {figures['levels']} level(s)"
+    if figures["intersections"]:
+        yield f"  it passes through itself along {figures['intersections']} curve(s)"
+    if solid := figures.get("solid"):
+        yield f"  a solid {solid['height']:.4g} thick at most, volume {solid['volume']:.4g}"
+        if wall := solid["wall"]:
+            yield f"  its thinnest wall is {wall['length']:.4g}, at ({wall['where'][0]:.6g}, {wall['where'][1]:.6g})"
+        yield f"  {solid['overhang']:.0%} of it faces down and leans more than 45 degrees"
 
 
 def _by_heights(arranged: Arrangement, options: argparse.Namespace) -> Arrangement | Layering:
@@ -103,19 +190,18 @@ def _by_heights(arranged: Arrangement, options: argparse.Namespace) -> Arrangeme
     return found
 
 
-def _export(surface: Any, options: argparse.Namespace, watch: Stopwatch) -> None:
-    solid = None if options.thicken is None else surface.thicken(options.thicken)
+def _export(surface: Surface, solid: Solid | None, options: argparse.Namespace, watch: Stopwatch) -> None:
+    unwrapped = False if options.no_unwrap else None
     for path in options.output:
-        choices: dict[str, Any] = {"colours": options.colours, "unwrapped": False if options.no_unwrap else None}
         if solid is not None:
-            solid.export(path, options.force, **choices)
+            solid.export(path, options.force, title(options.file), colours=options.colours, unwrapped=unwrapped)
         elif Path(path).suffix.lower() in _FILMS:
             _film(surface, path, options.force, watch)
         else:
-            surface.export(path, options.force, title(options.file), **choices)
+            surface.export(path, options.force, title(options.file), colours=options.colours, unwrapped=unwrapped)
 
 
-def _film(surface: Any, path: str, force: bool, watch: Stopwatch) -> None:
+def _film(surface: Surface, path: str, force: bool, watch: Stopwatch) -> None:
     from plyfold.draw.film import save_film
 
     save_film(surface, path, force, watch)

@@ -17,11 +17,13 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold import colours
-from plyfold.arrays import Floats
+from plyfold.arrays import Floats, Ints
 from plyfold.disk.motion import Motion
 from plyfold.draw.placement import middle_and_size, natural_stretch
 from plyfold.errors import InputError, PrecisionError
+from plyfold.io.mesh.model import split_vertices
 from plyfold.options import refuse_unless_count
+from plyfold.surface.thicken import Solid
 
 if TYPE_CHECKING:
     from plyfold.surface.lift import Surface
@@ -33,12 +35,12 @@ _FRAMES = 10
 _MANY_VERTICES = 20_000
 
 
-def page(surface: Surface, title: str = "plyfold", figures: Mapping[str, object] | None = None) -> str:
-    """Return a self-contained HTML page that shows the surface: orbit, zoom, top view, see-through, layers torn apart.
+def page(surface: Surface | Solid, title: str = "plyfold", figures: Mapping[str, object] | None = None) -> str:
+    """Return a self-contained HTML page of a surface or solid: orbit, zoom, top view, see-through, layers torn apart.
 
     Parameters
     ----------
-    surface : Surface
+    surface : Surface or Solid
         What to show.
     title : str
         Heading of the page.
@@ -90,29 +92,30 @@ def frame(surface: Surface, title: str = "plyfold", height: int = 480) -> str:
     )
 
 
-def mesh_data(surface: Surface) -> dict[str, Any]:
+def mesh_data(shown: Surface | Solid) -> dict[str, Any]:
     """Return what the page's script reads: arrays in base64 (little-endian), scale, centre and colours.
 
     A vertex is ``centre + scale * stored``, with the drawing about 2 across in stored units; ``stretch`` is the
-    vertical scale to begin with.
+    vertical scale to begin with. A solid is shown in its true height, and without the way from the disk.
     """
-    centre, _ = middle_and_size(surface.vertices)
-    scale = middle_and_size(surface.vertices[:, :2])[1] / 2
-    stored = (surface.vertices - centre) / scale
+    surface, vertices, faces = _parts(shown)
+    centre, _ = middle_and_size(vertices)
+    scale = middle_and_size(vertices[:, :2])[1] / 2
+    stored = (vertices - centre) / scale
     level = np.asarray(surface.layering.level)
     levels = surface.n_layers
     return {
         "centre": centre.tolist(),
         "scale": scale,
-        "stretch": natural_stretch(surface.vertices),
+        "stretch": natural_stretch(vertices) if surface is shown else 1.0,
         "vertices": _base64(stored, "<f4"),
-        "faces": _base64(surface.faces, "<u4"),
-        "sheet": _base64(surface.sheet, "<u4"),
+        "faces": _base64(faces, "<u4"),
+        "sheet": _base64(shown.sheet, "<u4"),
         "level": _base64(level, "<u4"),
         "sheetCell": np.asarray(surface.layering.immersion.sheet_cell).tolist(),
         "boundary": _base64(surface.boundary, "<u4"),
         "cusps": _base64(surface.cusps, "<u4"),
-        "frames": [_base64((frame - centre[:2]) / scale, "<f4") for frame in _frames(surface)],
+        "frames": [_base64((frame - centre[:2]) / scale, "<f4") for frame in _frames(shown)],
         "intersections": [_base64((polyline - centre) / scale, "<f4") for polyline in surface.intersections],
         "palette": {
             "cloth": [colours.CLOTH_LOW, colours.CLOTH_HIGH],
@@ -128,12 +131,20 @@ def mesh_data(surface: Surface) -> dict[str, Any]:
     }
 
 
-def _frames(surface: Surface) -> list[Floats]:
+def _parts(shown: Surface | Solid) -> tuple[Surface, Floats, Ints]:
+    """Return the surface that is shown or in the middle of what is, and vertices and triangles, smooth where joined."""
+    if not isinstance(shown, Solid):
+        return shown, shown.vertices, shown.faces
+    source, faces, _ = split_vertices(shown.faces, shown.smooth)
+    return shown.surface, shown.vertices[source], faces
+
+
+def _frames(surface: Surface | Solid) -> list[Floats]:
     """Return where the vertices are on their way from the round disk to the drawing, at equal times from 0 to 1.
 
-    None if it is no disk, or if doubles cannot hold that: then the page shows no way.
+    None of a solid, if it is no disk, or if doubles cannot hold that: then the page shows no way.
     """
-    if not surface.is_disk:
+    if isinstance(surface, Solid) or not surface.is_disk:
         return []
     try:
         motion = Motion(surface.unwrap())
@@ -147,8 +158,8 @@ def _base64(values: npt.ArrayLike, kind: str) -> str:
     return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode("ascii")
 
 
-def _default_figures(surface: Surface) -> dict[str, object]:
-    return {"triangles": f"{len(surface.faces):,}", "layers": surface.n_layers}
+def _default_figures(shown: Surface | Solid) -> dict[str, object]:
+    return {"triangles": f"{len(shown.faces):,}", "layers": _parts(shown)[0].n_layers}
 
 
 def _definition_list(figures: Mapping[str, object]) -> str:

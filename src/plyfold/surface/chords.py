@@ -72,20 +72,24 @@ def _chords(mesh: CellTriangulation, borders: Ints) -> Ints:
     return np.flatnonzero(inside & open_point[start] & open_point[end] & (start < end))
 
 
-def halved(mesh: CellTriangulation, half_edges: Ints) -> CellTriangulation:
-    """Put a point in the middle of edges, each given by one half-edge, and join it to what is on both sides."""
+def halved(mesh: CellTriangulation, half_edges: Ints, share: float = 0.5) -> CellTriangulation:
+    """Put a point in the middle of edges, each given by one half-edge, and join it to what is on both sides.
+
+    Or at another share of the way along each half-edge.
+    """
     if not len(half_edges):
         return mesh
     start, end = ends_of(mesh.triangles)
-    points = np.concatenate([mesh.points, mesh.points[start[half_edges]] / 2 + mesh.points[end[half_edges]] / 2])
+    added = mesh.points[start[half_edges]] * (1 - share) + mesh.points[end[half_edges]] * share
+    points = np.concatenate([mesh.points, added])
     middle = np.full(len(start) + 1, -1)  # one more, for sides without a twin
     middle[mesh.twin[half_edges]] = middle[half_edges] = len(mesh.points) + np.arange(len(half_edges))
     middle = middle[:-1]
     touched = np.unique(np.flatnonzero(middle >= 0) // 3)
     fans = [_fan(mesh.triangles[t].tolist(), middle[3 * t : 3 * t + 3].tolist()) for t in touched.tolist()]
-    added = np.array([triangle for fan in fans for triangle in fan], dtype=np.int64).reshape(-1, 3)
+    parts = np.array([triangle for fan in fans for triangle in fan], dtype=np.int64).reshape(-1, 3)
     kept = np.delete(np.arange(len(mesh.triangles)), touched)
-    triangles = np.concatenate([mesh.triangles[kept], added])
+    triangles = np.concatenate([mesh.triangles[kept], parts])
     cell = np.concatenate([mesh.cell[kept], np.repeat(mesh.cell[touched], list(map(len, fans)))])
     beside = mesh.beside
     cut = np.flatnonzero((beside >= 0) & (middle[beside] >= 0))

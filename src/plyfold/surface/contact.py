@@ -2,7 +2,8 @@
 
 Cloth rests on cloth in few places, mostly at single points where an edge lies on a sheet. So the unknowns are not the
 heights but the forces there. They start at none; in each round the worst places join, the forces that keep all places
-apart follow from a small dense problem, and heights answer to forces at the cost of two sparse systems.
+apart follow from a small dense problem, and heights answer to forces at the cost of two sparse systems. Places that no
+longer need a force leave.
 
 It ends when distances asked for a little too large are kept to within that little: then all distances are kept, and
 no other heights that keep them have less energy but for this little.
@@ -35,6 +36,8 @@ _WORTH_A_FORCE = 0.05
 _FIRST_PLACES = 16
 # Places without a force for so many rounds are left out.
 _IDLE = 2
+# Every round proves a higher least energy, so no places come back all together; but rounding errors might bring them.
+_MOST_ROUNDS = 1000
 _ROUNDS_PER_PLACE = 5
 _PATIENCE = 3
 
@@ -179,7 +182,9 @@ def forced_heights(problem: Problem, watch: Watch) -> Balance | None:
     added = (
         np.arange(wanted.exact) if wanted.exact else _worst(wanted, wanted.missing(base), contacts.places, tolerance)
     )
-    while len(added):
+    for _ in range(_MOST_ROUNDS):
+        if not len(added):
+            return found
         contacts = contacts.joined(added, wanted.rows, answers)
         if len(contacts.places) > _MOST_PLACES:
             return None
@@ -192,7 +197,7 @@ def forced_heights(problem: Problem, watch: Watch) -> Balance | None:
         done = max(done, _share_done(missing, tolerance))
         watch.step(done)
         added = _worst(wanted, missing, contacts.places, tolerance)
-    return found
+    return None
 
 
 def _pushed(contacts: _Contacts, wanted: Distances, z: Floats, watch: Watch) -> _Contacts | None:

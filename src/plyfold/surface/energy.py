@@ -25,7 +25,7 @@ from plyfold.matrices import diagonal_matrix, factorised, summed
 from plyfold.surface.glue import LiftedMesh, numbers_of_copies
 from plyfold.surface.grading import ClothMesh, double_areas
 
-__all__ = ["Cloth", "cloth_of"]
+__all__ = ["Cloth", "cloth_of", "cotangent_laplacian"]
 
 # Thinner triangles (double area by longest side squared) and smaller areas (by the mean) count as if they were not,
 # for their numbers would drown all others.
@@ -93,7 +93,7 @@ def cloth_of(fine: ClothMesh, mesh: LiftedMesh, stiffness: float, flat: float, w
     """
     places, faces, length = fine.places, fine.faces, stiffness * fine.width
     weight = np.where(np.isin(faces, mesh.cusps).any(axis=1), _AT_CUSPS, 1.0)
-    laplacian, area = watch.wait_for(lambda: _cotangent_laplacian(places, faces, weight), len(weight))
+    laplacian, area = watch.wait_for(lambda: cotangent_laplacian(places, faces, weight), len(weight))
     ties = _ties(mesh, fine, _ATTRACTION * (2 / fine.width) ** 2) if len(mesh.first_boundary) > 2 else 0 * laplacian
     plain = Cloth(laplacian + ties, area, length**2)
     if len(mesh.cusps):
@@ -101,11 +101,11 @@ def cloth_of(fine: ClothMesh, mesh: LiftedMesh, stiffness: float, flat: float, w
     if flat == 1:
         return plain
     share = plain.smoothed(_alone(fine, mesh), watch).clip(0, 1)
-    weighted, _ = _cotangent_laplacian(places, faces, weight * flat ** share[faces].mean(axis=1))
+    weighted, _ = cotangent_laplacian(places, faces, weight * flat ** share[faces].mean(axis=1))
     return Cloth(weighted + ties, plain.area * flat**share, plain.bending)
 
 
-def _cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[Any, Floats]:
+def cotangent_laplacian(corners: Floats, faces: Ints, weight: Floats) -> tuple[Any, Floats]:
     """Return the matrix of ½ ∫ w |∇z|² and the area that belongs to each vertex."""
     triangle = corners[faces]
     n = len(corners)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from plyfold.surface.lift import Surface
     from plyfold.surface.thicken import Solid
 
-__all__ = ["Colouring", "model_of_solid", "model_of_surface", "trimesh_of"]
+__all__ = ["Colouring", "model_of_solid", "model_of_surface", "smooth_parts", "trimesh_of"]
 
 Colouring: TypeAlias = Literal["layers", "sheets"]
 
@@ -76,27 +76,31 @@ def model_of_surface(surface: Surface, colours: Colouring = "layers", unwrapped:
 
 def model_of_solid(solid: Solid, colours: Colouring = "layers", unwrapped: bool | None = None) -> Model:
     """Return the model of a solid; see :func:`model_of_surface`. Its walls are not smoothed."""
-    surface = solid.surface
+    surface, tips = solid.surface, solid.tips
     model = model_of_surface(surface, colours, unwrapped)
-    cusps = surface.cusps
-    upward = np.full((len(surface.vertices), 1), solid.thickness / 2)
-    upward[cusps] = 0.0
-    up = np.concatenate([upward, -np.delete(upward, cusps, axis=0)]) * (0.0, 0.0, 1.0)
-    # The ends of walls that are tips take a triangle off.
-    pointed = np.isin(surface.boundary, cusps).astype(np.int64)
-    walls = 2 - pointed - pointed[next_in_rows(surface.first_boundary)]
+    upward = solid.thickness[:, None] / 2
+    up = np.concatenate([upward, -np.delete(upward, tips, axis=0)]) * (0.0, 0.0, 1.0)
     return Model(
         vertices=solid.vertices,
         faces=solid.faces,
         material=solid.sheet,
         materials=model.materials,
-        smooth=np.append(np.zeros(2 * len(surface.faces), dtype=np.int64), np.repeat(1 + np.arange(len(walls)), walls)),
+        smooth=smooth_parts(solid),
         closed=True,
-        detail=min(model.detail, solid.thickness),
-        colours=None if model.colours is None else _twice(model.colours, cusps),
-        uv=None if model.uv is None else _twice(model.uv, cusps),
-        shapes={name: _twice(places, cusps) + up for name, places in model.shapes.items()},
+        detail=min(model.detail, float(solid.thickness[solid.thickness > 0].min())),
+        colours=None if model.colours is None else _twice(model.colours, tips),
+        uv=None if model.uv is None else _twice(model.uv, tips),
+        shapes={name: _twice(places, tips) + up for name, places in model.shapes.items()},
     )
+
+
+def smooth_parts(solid: Solid) -> Ints:
+    """Return the number of the smooth face that each triangle is part of: 0 of both sides, and one for each wall."""
+    surface = solid.surface
+    # The ends of walls that are tips take a triangle off.
+    pointed = np.isin(surface.boundary, solid.tips).astype(np.int64)
+    walls = 2 - pointed - pointed[next_in_rows(surface.first_boundary)]
+    return np.append(np.zeros(2 * len(surface.faces), dtype=np.int64), np.repeat(1 + np.arange(len(walls)), walls))
 
 
 def trimesh_of(model: Model) -> trimesh.Trimesh:
@@ -151,6 +155,6 @@ def _layer_colours(surface: Surface) -> Floats:
     return np.asarray(total / np.bincount(surface.faces.ravel(), minlength=len(total))[:, None])
 
 
-def _twice(values: Floats, cusps: Ints) -> Floats:
-    """Return the values of a surface's vertices for those of a solid; its lower side lacks the cusps."""
-    return np.concatenate([values, np.delete(values, cusps, axis=0)])
+def _twice(values: Floats, tips: Ints) -> Floats:
+    """Return the values of a surface's vertices for those of a solid; its lower side lacks the tips."""
+    return np.concatenate([values, np.delete(values, tips, axis=0)])

@@ -2,8 +2,8 @@
 
 Heights leave every border level, and round a corner of the outline with the interior angle ω they have a part like
 r^(π/ω) cos(πθ/ω) in the distance r from it. Where ω is more than 180° that is steep and all bent near the corner, and
-triangles of one size miss of its energy a share of (size / width of the cloth)^(2π/ω): at 330°, four times smaller ones
-halve it twice. Triangles whose size is in proportion to r cost a few hundred for each corner, and miss next to nothing.
+triangles of one size miss of its energy a share that falls like size^(2π/ω): near 360°, triangles half
+as large miss half as much. If their size is in proportion to r, a few hundred for each corner miss next to nothing.
 
 Only heights of the given vertices are wanted. So it does not matter that the added ones are not stacked over each
 other: distances of sheets are kept at the given ones.
@@ -70,10 +70,15 @@ class ClothMesh:
 
     def continued(self, values: Floats) -> Floats:
         """Return values of the surface's vertices, and of each further one the mean of those it is the middle of."""
-        whole = [*values.tolist()]
-        for start, end in self.ends.tolist():
-            whole.append((whole[start] + whole[end]) / 2)
-        return np.array(whole)
+        whole = np.concatenate([values, np.zeros(self.added)])
+        known = len(values)
+        while known < len(whole):
+            # As many at once as lie between vertices that are known already.
+            ends = self.ends[known - len(values) :]
+            count = int(np.argmax(np.append((ends >= known).any(axis=1), True)))
+            whole[known : known + count] = whole[ends[:count]].mean(axis=1)
+            known += count
+        return whole
 
 
 def cloth_mesh(points: Floats, mesh: LiftedMesh, stiffness: float) -> ClothMesh:
@@ -157,9 +162,9 @@ def graded(
     Examples
     --------
     >>> square, faces = np.array([(0.0, 0.0), (1, 0), (1, 1), (0, 1)]), np.array([(0, 1, 2), (0, 2, 3)])
-    >>> places, finer, _, _ = graded(square, faces, np.array([0]), np.array([1, 2, 3, 0]), 0.1)
-    >>> bool(np.hypot(*places[1:].T).min() <= 0.1), len(finer)
-    (True, 42)
+    >>> places, finer, origin, ends = graded(square, faces, np.array([0]), np.array([1, 2, 3, 0]), 1.0)
+    >>> places[4:].tolist(), finer.tolist(), origin.tolist()
+    ([[0.5, 0.5]], [[4, 1, 2], [0, 4, 3], [4, 0, 1], [4, 2, 3]], [0, 1, 0, 1])
     """
     if not len(corners):
         return places, faces, np.arange(len(faces)), np.empty((0, 2), dtype=np.int64)

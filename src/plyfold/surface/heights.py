@@ -11,7 +11,7 @@ anything that pulls z towards a plane makes spikes where sheets cross.
 The distance is kept by forces at the places of contact, or, where these are thousands, by springs; both are in
 :mod:`plyfold.surface.contact`. Both keep a distance that is a millionth of the gap too large,
 to within that millionth; so no other heights have less energy but for two millionths, and what remains to be done in
-the end is the work of rounding errors.
+the end is the work of rounding errors. The forces prove it each time: they bound the energy from below.
 
 Where two sheets pass through each other, their distance may shrink to nothing: near there it is half the way along the
 sheets to that place, if this is less than the gap.
@@ -38,6 +38,7 @@ __all__ = [
     "PinKey",
     "Pins",
     "Room",
+    "distances_apart",
     "flat_weight",
     "highest_below",
     "pins_of",
@@ -71,6 +72,7 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
     mesh: LiftedMesh,
     gap: float,
     *,
+    thickness: Floats | None = None,
     stiffness: float = DEFAULT_STIFFNESS,
     pins: Mapping[PinKey, float] | None = None,
     flat: float = 1.0,
@@ -86,6 +88,9 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
         The glued disk.
     gap : float
         Least distance of two sheets over the same point, in units of the drawing.
+    thickness : (v,) float, optional
+        How thick a body is to be round each vertex, half of it above and half of it below: bodies over the same point
+        are the gap apart.
     stiffness : float
         The length below which bending rules, as a fraction of the mean width of the cloth.
     pins : mapping, optional
@@ -100,7 +105,8 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
         Heights of the mesh's vertices, the lowest 0 unless there are pins, also of pieces that lie over no other; all 0
         if no two sheets overlap and nothing is pinned. For each row
         (lower, upper) of ``mesh.stacked``, ``z[lower] + gap <= z[upper]`` holds exactly, or
-        with a share of the gap near intersections.
+        with a share of the gap near intersections; with bodies, the gap and half of both thicknesses, see
+        :func:`distances_apart`.
 
     Raises
     ------
@@ -119,26 +125,34 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
     given = pins_of(pins or {}, points, mesh, _HIGHEST_PIN * float(np.ptp(points, axis=0).max()))
     if len(mesh.stacked) == 0 and not pins:
         return np.zeros(len(mesh.planar_vertex))
-    shares = shares_of_gap(points, mesh, gap)
-    room = room_between(given, points, mesh, gap * shares)
+    distance = distances_apart(mesh, gap * shares_of_gap(points, mesh, gap), thickness)
+    room = room_between(given, points, mesh, distance)
     held, fixed = _without_room(given, room, gap)
     fine = cloth_mesh(points, mesh, stiffness)
     cloth = cloth_of(fine, mesh, stiffness, flat, watch)
-    # With the gap as the unit of height, the numbers are of the order of 1.
-    tolerance = max(_TOLERANCE, _RELATIVE * float(np.abs([*fixed, *given.heights]).max()) / gap)
-    wanted = _distances(mesh, shares + tolerance, given, held, gap)
-    problem = _on_finer_mesh(fine, Problem(cloth, wanted, held, fixed / gap, tolerance))
+    # With the largest distance, mostly the gap, as the unit of height, the numbers are of the order of 1.
+    unit = max(gap, float(distance.max(initial=0.0)))
+    tolerance = max(_TOLERANCE, _RELATIVE * float(np.abs([*fixed, *given.heights]).max()) / unit)
+    wanted = _distances(mesh, distance / unit + tolerance, given, held, unit)
+    problem = _on_finer_mesh(fine, Problem(cloth, wanted, held, fixed / unit, tolerance))
     found = forced_heights(problem, watch) or sprung_heights(problem, watch)
     z = found.heights[: len(held)]
     if pins and np.max(missing := wanted.missing(z), initial=0.0) > _LARGEST_REST:
         place = points[mesh.planar_vertex[wanted.rows[[int(np.argmax(missing))]].indices[:1]]]
         raise InputError("the pins leave less room than the gap", where=place, hint="move the pinned heights apart")
-    settled = _settled(gap * z, mesh, given, held, fixed)
-    heights = _kept_apart(settled, mesh, gap * shares, held)
+    settled = _settled(unit * z, mesh, given, held, fixed)
+    heights = _kept_apart(settled, mesh, distance, held)
     _require_order(heights, points, mesh)
-    moved = fine.continued((heights - settled) / gap)
+    moved = fine.continued((heights - settled) / unit)
     _require_least(found.heights + moved, found, problem, points[mesh.planar_vertex])
     return heights
+
+
+def distances_apart(mesh: LiftedMesh, gap: float | Floats, thickness: Floats | None) -> Floats:
+    """Return the least distance of each pair of stacked vertices, shape (c,): the gap, and half of both thicknesses."""
+    lower, upper = mesh.stacked.T
+    halves = 0.0 if thickness is None else (thickness[lower] + thickness[upper]) / 2
+    return np.asarray(gap + halves + np.zeros(len(lower)))
 
 
 def _on_finer_mesh(fine: ClothMesh, problem: Problem) -> Problem:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -23,7 +22,6 @@ from plyfold.errors import (
     NotEmbeddableError,
     NotImmersibleError,
     PlyfoldError,
-    PrecisionError,
     TimeLimitError,
 )
 from plyfold.immersion.immersion import Immersion, require_disk
@@ -34,25 +32,18 @@ from plyfold.layering.embedding import find_embedding
 from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering, least_intersecting_layering
 from plyfold.layering.orders.search import first_layering
-from plyfold.mesh.cells import (
-    DEFAULT_TRIANGLES,
-    CellTriangulation,
-    area_of_edge,
-    refuse_broken,
-    refuse_sizes,
-    triangulate_cells,
-)
-from plyfold.mesh.refine import given_outline, is_moved
+from plyfold.mesh.cells import DEFAULT_TRIANGLES, area_of_edge, refuse_sizes
+from plyfold.mesh.refine import given_outline
 from plyfold.obstruction import IMMERSION_REASONS, Obstruction, Unknown
 from plyfold.options import refuse_unless_flag, refuse_unless_number
 from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.given import OutlineLike
-from plyfold.surface.chords import split_chords
 from plyfold.surface.files import Colouring, model_of_surface, trimesh_of
 from plyfold.surface.glue import cusps_of, intersection_curves, stack_sheets
-from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, flat_weight, refuse_stiffness, smooth_heights
+from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, flat_weight, refuse_stiffness
+from plyfold.surface.inflate import Profile, inflate
 from plyfold.surface.left import kinds_of, loops_of, may_touch
-from plyfold.surface.stairs import Steps, heights_of_stairs, with_cusps_apart, with_steps
+from plyfold.surface.making import Making, raised, steps_of
 from plyfold.surface.thicken import Solid, thicken
 from plyfold.wording import counted
 
@@ -98,6 +89,8 @@ class Surface:
         other along them. None but with ``lift(..., allow_intersections=True)``.
     intersections : tuple of (m, 3) float
         Polylines along which sheets pass through each other, rounded; the first point is repeated where they close.
+    making : Making
+        What :func:`lift` was asked for; :meth:`inflate` lifts the surface anew with it.
 
     Examples
     --------
@@ -117,6 +110,7 @@ class Surface:
     gap: float
     passing: Ints = field(default_factory=lambda: np.empty((0, 4), dtype=np.int64))
     intersections: tuple[Floats, ...] = ()
+    making: Making = field(default_factory=Making)
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -202,13 +196,16 @@ class Surface:
         require_one_piece(self.vertices[:, :2], self.first_boundary)
         return unwound_mesh(immersion, self.vertices, self.faces, self.sheet, self.boundary)
 
-    def thicken(self, thickness: float) -> Solid:
+    def thicken(self, thickness: float, min_wall: float | None = None) -> Solid:
         """Return a solid with this surface in its middle, as thick as given in vertical direction: to be printed.
 
         Parameters
         ----------
         thickness : float
             In units of the drawing; less than :attr:`gap` where sheets overlap.
+        min_wall : float, optional
+            The thickness is vertical, so where the surface is steep its walls are thinner. Make it thicker there, until
+            ``solid.wall`` is at least this.
 
         Returns
         -------
@@ -219,10 +216,70 @@ class Surface:
         ------
         InputError
             If the thickness is not positive or not less than the gap, or the surface passes through itself.
+        WallError
+            If sheets over each other leave no room for such walls; it names the places.
         PrecisionError
             If the thickness, or what is left of the gap, is lost in rounding.
         """
-        return thicken(self, thickness)
+        return thicken(self, thickness, min_wall)
+
+    def inflate(
+        self,
+        height: float | None = None,
+        profile: Profile = "round",
+        *,
+        time_limit: float | None = None,
+        progress: Progress | None = None,
+    ) -> Solid:
+        """Return a round body in place of this surface: thick in the middle, and thin at the outline, where it ends.
+
+        Seen from above, its outline is the drawing, bit for bit. The surface is lifted anew, with its layering, gap and
+        options, and with room: over every point of the drawing bodies are the gap apart, and none is made thinner.
+
+        Parameters
+        ----------
+        height : float, optional
+            Its largest thickness, measured vertically, half of it above and half below; by default half of what would
+            make the widest part a round tube.
+        profile : {"round", "flat"} or callable
+            ``"round"``: the thickness is in proportion to the square root of the cloth's torsion function, so the
+            cross-section of a strip is an ellipse, and wider parts are thicker. ``"flat"``: a plateau of this height
+            with a round rim, half a circle as far as there is room for one. Or a function from numbers that rise from 0
+            at the outline to 1 in the thickest place, as ``"round"`` has them, to shares of the height, more than 0 and
+            at most 1: ``lambda bulge: bulge**2`` makes parabolas.
+        time_limit : float, optional
+            Seconds for all of it; none by default.
+        progress : callable, optional
+            See :func:`lift`; there is a stage "blowing up" moreover.
+
+        Returns
+        -------
+        Solid
+            With the middle surface, ``solid.surface``; its own mesh has some vertices more. Cost: that of lifting, and
+            of one sparse system.
+
+        Raises
+        ------
+        InputError
+            If the height is not positive, the profile unknown or out of range, the surface passes through itself, or
+            pins leave no room.
+        PrecisionError
+            If double precision cannot hold the body; it names the place.
+        TimeLimitError
+            If the time limit was reached.
+
+        Notes
+        -----
+        The thickness is vertical, so where the body is steep it is thinner across.
+
+        Examples
+        --------
+        >>> pillow = lift([(0, 0), (4, 0), (4, 4), (0, 4)], triangles=200).inflate(1.0)
+        >>> pillow.height, bool((pillow.thickness[pillow.surface.boundary] == 0).all())
+        (1.0, True)
+        >>> pillow.check()
+        """
+        return inflate(self, height, profile, Watch(Clock(time_limit), progress))
 
     def export(  # noqa: PLR0913 - options of formats
         self,
@@ -411,20 +468,10 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     max_area = area_of_edge(size, max_area)
     refuse_sizes(given_outline(drawn).points, triangles, max_area)
     refuse_stiffness(stiffness)
-    weight = flat_weight(flat)
-    cells = triangulate_cells(drawn, max_area, triangles, watch)
-    # Chords between sheets that pass through each other would cut the steps.
-    steps = _steps(cells, drawn) if isinstance(layering, Layering) else Steps.none(cells)
-    cells = steps.cells
-    if isinstance(layering, IntersectingLayering):
-        _refuse_touching(drawn)
-        cells = split_chords(cells, layering.intersections[:, 0])
-        refuse_broken(drawn, cells)
-    mesh = stack_sheets(layering, cells, watch)
-    smooth = partial(smooth_heights, stiffness=stiffness, pins=pins, flat=weight, watch=watch)
-    heights = heights_of_stairs(cells.points, mesh, steps.outer, distance, smooth)
-    vertices = np.column_stack([cells.points[mesh.planar_vertex], heights])
-    curves = intersection_curves(vertices, mesh)
+    making = Making(triangles, max_area, stiffness, dict(pins or {}), flat_weight(flat))
+    steps = steps_of(layering, making, watch)
+    mesh = stack_sheets(layering, steps.cells, watch)
+    vertices = raised(mesh, steps, distance, making, watch=watch)
     return Surface(
         layering=layering,
         vertices=vertices,
@@ -435,32 +482,9 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         cusps=mesh.cusps,
         gap=distance,
         passing=mesh.passing,
-        intersections=curves,
+        intersections=intersection_curves(vertices, mesh),
+        making=making,
     )
-
-
-def _refuse_touching(drawn: Arrangement) -> None:
-    """Refuse sheets that pass through each other along borders that may not be there on the given points."""
-    if is_moved(drawn):
-        given = given_outline(drawn).points
-        raise InputError(
-            "a surface that passes through itself can be lifted only if its outline does not touch itself",
-            where=given[(given != drawn.exact_points).any(axis=1)],
-            hint="move the strands apart there",
-        )
-
-
-def _steps(cells: CellTriangulation, drawn: Arrangement) -> Steps:
-    """Return the cells with steps at cusps, or as they are where double precision has no room for steps."""
-    cusps = cells.places_of(cusps_of(drawn))
-    with suppress(PrecisionError):
-        steps = with_steps(cells, cusps)
-        if steps.cells is not cells:
-            refuse_broken(drawn, steps.cells)
-        return steps
-    apart = with_cusps_apart(cells, cusps)
-    refuse_broken(drawn, apart)
-    return Steps.none(apart)
 
 
 def _refuse_wrong_kinds(allow_intersections: object, stiffness: object, pins: object, flat: object) -> None:

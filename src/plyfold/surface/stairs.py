@@ -18,7 +18,7 @@ from plyfold.halfedges import before, ends_of, following
 from plyfold.mesh.cells import CellTriangulation
 from plyfold.surface.chords import halved, triangulation
 from plyfold.surface.glue import LiftedMesh
-from plyfold.surface.heights import highest_below, rows_upward
+from plyfold.surface.heights import distances_apart, highest_below, rows_upward
 
 __all__ = ["Steps", "heights_of_stairs", "with_cusps_apart", "with_steps"]
 
@@ -211,8 +211,14 @@ def _chain_with_rings(
 # ---- heights ---------------------------------------------------------------------------------------------------------
 
 
-def heights_of_stairs(
-    points: Floats, mesh: LiftedMesh, outer: Ints, gap: float, heights: Callable[[Floats, LiftedMesh, float], Floats]
+def heights_of_stairs(  # noqa: PLR0913 - a mesh, and what is asked of its heights
+    points: Floats,
+    mesh: LiftedMesh,
+    outer: Ints,
+    gap: float,
+    heights: Callable[..., Floats],
+    *,
+    thickness: Floats | None = None,
 ) -> Floats:
     """Return the heights of a mesh with steps, given a function for meshes without.
 
@@ -224,7 +230,10 @@ def heights_of_stairs(
         As in :class:`Steps`.
     gap : float
     heights : function
-        From the points, the mesh without those on edges at cusps, and the gap to the heights of the mesh's vertices.
+        From the points, the mesh without those on edges at cusps, the gap and ``thickness=`` to the heights of the
+        mesh's vertices.
+    thickness : (v,) float, optional
+        See :func:`~plyfold.surface.heights.smooth_heights`.
 
     Returns
     -------
@@ -232,16 +241,24 @@ def heights_of_stairs(
         Stacked vertices over these points are as far apart as those at the outer ends of the edges.
     """
     if not len(outer):
-        return heights(points, mesh, gap)
+        return heights(points, mesh, gap, thickness=thickness)
     up, down = _along_spokes(mesh, outer)
     kept = up == np.arange(len(up))
     number = np.cumsum(kept) - 1
-    z = heights(points, _without_steps(mesh, kept, number[up]), gap)[number[up]]
+    thickest = None if thickness is None else _thickest(thickness, up)[kept]
+    z = heights(points, _without_steps(mesh, kept, number[up]), gap, thickness=thickest)[number[up]]
     passing_by = np.flatnonzero(~kept & ~np.isin(down, mesh.cusps))
     ring, tip, foot = (points[mesh.planar_vertex[vertex[passing_by]]] for vertex in (np.arange(len(up)), up, down))
     share = np.hypot(*(ring - foot).T) / np.hypot(*(tip - foot).T)
     straight = z[down[passing_by]] + share * (z[up[passing_by]] - z[down[passing_by]])
-    return _never_nearer(z, passing_by, straight, mesh, gap)
+    return _never_nearer(z, passing_by, straight, mesh, distances_apart(mesh, gap, thickness))
+
+
+def _thickest(thickness: Floats, up: Ints) -> Floats:
+    """Return the largest thickness of all vertices that have their heights from each vertex."""
+    most = np.zeros(len(up))
+    np.maximum.at(most, up, thickness)
+    return most
 
 
 def _along_spokes(mesh: LiftedMesh, outer: Ints) -> tuple[Ints, Ints]:
@@ -281,15 +298,15 @@ def _without_steps(mesh: LiftedMesh, kept: Bools, number: Ints) -> LiftedMesh:
     )
 
 
-def _never_nearer(z: Floats, vertices: Ints, wanted: Floats, mesh: LiftedMesh, gap: float) -> Floats:
-    """Return heights with those of some vertices as wanted, as far as they stay the gap off the ones above and below.
+def _never_nearer(z: Floats, vertices: Ints, wanted: Floats, mesh: LiftedMesh, distance: Floats) -> Floats:
+    """Return heights with those of some vertices as wanted, as far as they keep their distance to others over them.
 
     They are above or below a stair, which stays as it is.
     """
     moved, free = z.copy(), np.zeros(len(z), dtype=bool)
     moved[vertices], free[vertices] = wanted, True
     lower, upper = mesh.stacked.T
-    least = np.where(z[lower] + gap <= z[upper], gap, z[upper] - z[lower])
+    least = np.where(z[lower] + distance <= z[upper], distance, z[upper] - z[lower])
     top = np.full(int(mesh.planar_vertex.max()) + 1, -1)
     np.maximum.at(top, mesh.planar_vertex[~free], mesh.level[~free])
     above = mesh.level > top[mesh.planar_vertex]

@@ -221,7 +221,7 @@ def test_solid(solid, colours, tmp_path):
         across = outside[wall] / np.linalg.norm(outside[wall], axis=1, keepdims=True)
         assert np.allclose(normal[wall], across[:, None], atol=1e-3)
     flat = solid.vertices * (1, 1, 0)
-    flat[:, 2] = np.repeat([0.5, -0.5], len(flat) // 2) * solid.thickness
+    flat[:, 2] = np.repeat([0.5, -0.5], len(flat) // 2) * solid.height
     assert np.allclose(glb.corners("flat"), flat[solid.faces[order]], atol=1e-5)
     body = trimesh.load(tmp_path / "out.glb", force="mesh")
     body.merge_vertices(merge_tex=True, merge_norm=True)
