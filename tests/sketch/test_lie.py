@@ -17,6 +17,7 @@ from plyfold.report import words
 from plyfold.sketch import drawings
 from plyfold.sketch.lie import lie, lifted
 from plyfold.sketch.schema import Lie, Lift, Stroke
+from plyfold.surface.gap import fitting_gap
 from reference import crossings, gluings
 from reference.random_curves import MILNOR_LIKE, SEVERAL_IMMERSIONS
 
@@ -173,7 +174,7 @@ def test_the_surface_is_that_of_the_layering():
     first, second = (lifted(Lift(closed(points), 0, number, None, 300)) for number in (0, 1))
     assert first["layering"] != second["layering"]
     assert first["mesh"]["level"] != second["mesh"]["level"]
-    assert first["gap"] == pytest.approx(0.05 * np.ptp(points, axis=0).max())
+    assert first["gap"] == fitting_gap(CURVES["exit-ramp"].curve)
     assert lifted(Lift(closed(points), 0, 0, 2.5, 300))["gap"] == 2.5
 
 

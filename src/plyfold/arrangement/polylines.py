@@ -10,7 +10,14 @@ from plyfold.arrays import Floats, Ints, Reals
 from plyfold.predicates import orient
 from plyfold.ragged import next_in_rows, previous_in_rows
 
-__all__ = ["inner_points", "polygon_turning_number", "polygon_turning_numbers", "total_winding", "winding_number"]
+__all__ = [
+    "inner_points",
+    "polygon_turning_number",
+    "polygon_turning_numbers",
+    "signed_areas",
+    "total_winding",
+    "winding_number",
+]
 
 
 def polygon_turning_number(points: Reals) -> int:
@@ -39,6 +46,13 @@ def polygon_turning_numbers(points: Reals, first: Ints) -> tuple[int, ...]:
     passed = np.where(upper[place], turn > 0, -(turn < 0).astype(np.int64))
     since_start = np.append(0, passed.cumsum())[np.searchsorted(place, first)]
     return tuple((since_start[1:] - since_start[:-1]).tolist())
+
+
+def signed_areas(coordinates: Floats, start: Ints) -> Floats:
+    """Return the signed area of each loop, measured from its first point."""
+    x, y = (coordinates - np.repeat(coordinates[start[:-1]], np.diff(start), axis=0)).T
+    following = next_in_rows(start)
+    return np.asarray(np.add.reduceat(x * y[following] - y * x[following], start[:-1]) / 2)
 
 
 def winding_number(points: Floats, place: tuple[float, float]) -> int | None:

@@ -48,7 +48,10 @@ def add_lift_command(commands: Any) -> None:
     add_outputs(lift, ".glb .obj .ply .stl .3mf .html .gif .mp4")
     add_repair(lift)
     lift.add_argument(
-        "--gap", type=float, help="least distance of sheets, in units of the drawing (default: 1/20 of its larger side)"
+        "--gap",
+        type=float,
+        help="least distance of sheets, in units of the drawing (default: 1/20 of its larger side, or 1/5 of the "
+        "cloth's mean width if that is less)",
     )
     lift.add_argument(
         "--allow-intersections",

@@ -13,9 +13,10 @@ import shapely
 from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrangement.noding import node_outline
 from plyfold.arrangement.outward import winds_backward
+from plyfold.arrangement.polylines import signed_areas
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import GeneralPositionError, PrecisionError
-from plyfold.flat.regions import refuse_invalid, regions, signed_areas
+from plyfold.flat.regions import refuse_invalid, regions
 from plyfold.mesh.refine import chain_of, drawn_outline, given_outline
 from plyfold.outline.curve import Outline
 from plyfold.outline.given import OutlineLike, as_outline

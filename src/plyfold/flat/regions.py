@@ -12,16 +12,17 @@ import numpy.typing as npt
 import shapely
 
 from plyfold.arrangement.noding import Noding, node_rounded
+from plyfold.arrangement.polylines import signed_areas
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import PrecisionError
 from plyfold.graphs import components
 from plyfold.outline.direction import sense
-from plyfold.ragged import next_in_rows, previous_in_rows
+from plyfold.ragged import previous_in_rows
 
 if TYPE_CHECKING:
     from shapely import Polygon
 
-__all__ = ["Region", "refuse_invalid", "regions", "signed_areas"]
+__all__ = ["Region", "refuse_invalid", "regions"]
 
 # A loop with less area than this share of its squared length may have lost all of it when its nodes were rounded.
 _THIN = 1e-9
@@ -182,13 +183,6 @@ def _polygons(rings: npt.NDArray[np.object_], region: Ints, is_hole: Bools) -> n
         if len(group) and (shell := polygons[region[group[0]]]) is not None:
             polygons[region[group[0]]] = shapely.Polygon(shell.exterior, rings[group])
     return polygons
-
-
-def signed_areas(coordinates: Floats, start: Ints) -> Floats:
-    """Return the signed area of each loop, measured from its first point."""
-    x, y = (coordinates - np.repeat(coordinates[start[:-1]], np.diff(start), axis=0)).T
-    following = next_in_rows(start)
-    return np.asarray(np.add.reduceat(x * y[following] - y * x[following], start[:-1]) / 2)
 
 
 def refuse_invalid(polygons: npt.NDArray[np.object_], corner: Floats | None = None) -> None:

@@ -21,7 +21,6 @@ from plyfold.errors import (
     InputError,
     NotEmbeddableError,
     NotImmersibleError,
-    PlyfoldError,
     TimeLimitError,
 )
 from plyfold.immersion.immersion import Immersion, require_disk
@@ -39,6 +38,7 @@ from plyfold.options import refuse_unless_flag, refuse_unless_number
 from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.given import OutlineLike
 from plyfold.surface.files import Colouring, model_of_surface, trimesh_of
+from plyfold.surface.gap import gap_over
 from plyfold.surface.glue import cusps_of, intersection_curves, stack_sheets
 from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, flat_weight, refuse_stiffness
 from plyfold.surface.inflate import Profile, inflate
@@ -54,10 +54,6 @@ __all__ = ["Surface", "layering_of", "lift"]
 
 # They need a file with a path.
 _FILMS = (".gif", ".mp4")
-
-# Distance of neighbouring sheets, as a fraction of the drawing's larger side.
-_DEFAULT_GAP = 0.05
-_LARGEST_GAP = 1000.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -403,7 +399,8 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         If no immersion can be layered, lift the one that does with the shortest self-intersections, as far as is known
         (``surface.layering.optimal``), and report them.
     gap : float, optional
-        Least distance of sheets over the same point, in units of the drawing; 1/20 of its larger side by default.
+        Least distance of sheets over the same point, in units of the drawing; by default, 1/20 of its larger side or
+        1/5 of the cloth's mean width, whichever is less. The mean width is twice the area by the length of the outline.
     triangles : int, optional
         Roughly how many triangles to make; curves with many points or crossings have more.
     max_area : float, optional
@@ -464,7 +461,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     watch = Watch(Clock(time_limit), progress)
     layering = layering_of(curve, allow_intersections, watch)
     drawn = layering.immersion.arrangement
-    distance = _distance(drawn, gap)
+    distance = gap_over(drawn, gap)
     max_area = area_of_edge(size, max_area)
     refuse_sizes(given_outline(drawn).points, triangles, max_area)
     refuse_stiffness(stiffness)
@@ -495,20 +492,6 @@ def _refuse_wrong_kinds(allow_intersections: object, stiffness: object, pins: ob
         refuse_unless_number("flat", flat)
     if pins is not None and not isinstance(pins, Mapping):
         raise InputError(f"pins must be a mapping from sheets or points to heights, not {pins!r}")
-
-
-def _distance(drawn: Arrangement, gap: float | None) -> float:
-    if drawn.outline is None:
-        raise PlyfoldError(
-            "a surface needs a drawing, and this is a Gauss code alone", hint="build it from points to lift it"
-        )
-    size = float(np.ptp(given_outline(drawn).points, axis=0).max())
-    if gap is None:
-        return _DEFAULT_GAP * size
-    refuse_unless_number("gap", gap)
-    if not 0 < gap <= _LARGEST_GAP * size:
-        raise InputError(f"the gap must be positive and at most {_LARGEST_GAP * size:g}, not {gap!r}")
-    return float(gap)
 
 
 def layering_of(

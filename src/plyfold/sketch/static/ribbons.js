@@ -6,7 +6,7 @@ import { chosenWidth, followWidth } from "./gap.js";
 import { lineOf, ribbonShown } from "./store.js";
 import { withRibbons } from "./trials.js";
 
-const widthOf = (state, line) => state.width ?? chosenWidth(line);
+const widthOf = (state, line) => state.width ?? chosenWidth(line?.strokes);
 
 /** Ask for the ribbons of a line, unless they are known. @returns what is known of them; null if that was cancelled. */
 async function known({ store }, line, signal) {
