@@ -43,6 +43,59 @@ def test_a_curve_that_does_not_turn_once_has_a_place():
     assert seen > 60
 
 
+def off(points, cusps):
+    """By how much a polygon with so many turns at cusps does not turn as often as the outline of a disk."""
+    return abs(abs(crossings.turning_number(points)) - 1 - cusps)
+
+
+def random_cusps(rng, points):
+    """One to three cusps of index 1 or 2."""
+    return {int(i): int(rng.integers(1, 3)) for i in rng.integers(0, len(points), int(rng.integers(1, 4)))}
+
+
+def places_of(points, cusps):
+    """Where a curve with cusps turns too often, or not often enough; nothing if that is not what is wrong with it."""
+    why = pf.find_immersion(pf.Curve(points, cusps=cusps))
+    return why.where if not why and why.reason == "turning number" else ()
+
+
+def nearer_without(points, cusps, place):
+    """By how much a lobe at a crossing is nearer to the outline of a disk, or the curve with a cusp less."""
+    total = sum(cusps.values())
+    if place in points:
+        return off(points, total) - off(points, total - cusps[points.index(place)])
+    lobes = lobes_at(points, place)
+    inside = [sum(cusps.get(points.index(point), 0) for point in lobe[1:]) for lobe in lobes]
+    return off(points, total) - min(map(off, lobes, inside))
+
+
+def test_with_cusps_the_place_is_one_of_them_or_a_lobe():
+    seen = {True: 0, False: 0}
+    for seed in range(400):
+        rng = np.random.default_rng(seed)
+        points = random_polygon(rng, 9)
+        cusps = random_cusps(rng, points)
+        places = places_of(points, cusps)
+        if len(places) == 1:
+            assert nearer_without(points, cusps, places[0]) > 0
+            seen[places[0] in points] += 1
+    assert all(seen.values())
+
+
+def test_a_cusp_on_a_disk_without_any_is_the_place():
+    ramp = [(0, 0), (3.5, 0), (9, 0), (9, 6), (3, 6), (3, -3), (4, -3), (4, 5), (8, 5), (8, 1), (0, 1)]
+    assert pf.find_immersion(ramp)
+    assert places_of(ramp, {1: 1}) == ((3.5, 0.0),)
+
+
+def test_a_curve_with_a_cusp_that_turns_once_has_a_place():
+    """It would be right without its cusp, by how often it turns alone."""
+    points = [(2, 6), (-5, 4), (-6, 5), (-1, 2), (-4, 4), (3, -1), (5, 3), (1, -2)]
+    places = places_of(points, {4: 1})
+    assert len(places) == 2
+    assert all(lobes_at(points, place) for place in places)
+
+
 def test_a_curl_is_the_place():
     curl = [(0, 0), (6, 0), (6, 3), (5, 3), (5, -1), (7, -1), (7, 6), (0, 6)]
     assert pf.find_immersion(curl).where == ((5.0, 0.0),)
