@@ -12,7 +12,6 @@ from plyfold import lift
 from plyfold.draw import film
 from plyfold.errors import InputError, PlyfoldError
 
-
 SMALL = {"size": 80, "frames": 5}
 
 
@@ -114,7 +113,9 @@ def test_progress(surface, tmp_path):
 
 def test_export_films_as_it_is_by_default(surface, tmp_path, monkeypatch):
     given = []
-    monkeypatch.setattr(film, "_frames", lambda *what: given.append(what) or iter([np.zeros((20, 20, 3), np.uint8)] * 3))
+    monkeypatch.setattr(
+        film, "_frames", lambda *what: given.append(what) or iter([np.zeros((20, 20, 3), np.uint8)] * 3)
+    )
     surface.export(tmp_path / "ramp.gif")
     assert given == [(surface, 480, 33)]
 
@@ -136,7 +137,8 @@ def test_size(surface, tmp_path, size):
 
 
 @pytest.mark.parametrize(
-    "wrong", [{"size": 15}, {"size": 1601}, {"size": 80.0}, {"size": True}, {"frames": 2}, {"frames": 102}, {"frames": "9"}]
+    "wrong",
+    [{"size": 15}, {"size": 1601}, {"size": 80.0}, {"size": True}, {"frames": 2}, {"frames": 102}, {"frames": "9"}],
 )
 def test_wrong_sizes_and_numbers_are_refused(surface, tmp_path, wrong):
     with pytest.raises(InputError, match=next(iter(wrong))):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from plyfold.core.buffers import RealBuffer, WholeBuffer
 
-__all__ = ["DepthBuffer", "Edge", "Triangle", "count_hidden", "fill"]
+__all__ = ["Corners", "DepthBuffer", "Side", "count_hidden", "fill_depths"]
 
 
 class DepthBuffer:
@@ -18,7 +18,7 @@ class DepthBuffer:
         self.left = self.right = 0.0
 
 
-class Edge:
+class Side:
     """An edge of the triangle at hand: its lower end, how fast x grows upwards, and how far it rises.
 
     It rises by more than 0 if the triangle lies on its left.
@@ -28,7 +28,7 @@ class Edge:
         self.x = self.y = self.slope = self.rise = 0.0
 
 
-class Triangle:
+class Corners:
     """The triangle at hand: its corners a, b and c, in units of pixels, with centres at whole numbers, and depths.
 
     ``turn`` is its doubled area, positive if it is counter-clockwise; ``right`` and ``up`` say how fast depth grows.
@@ -37,10 +37,10 @@ class Triangle:
     def __init__(self) -> None:
         self.ax = self.ay = self.az = self.bx = self.by = self.bz = self.cx = self.cy = self.cz = 0.0
         self.turn = self.right = self.up = self.lowest = self.highest = 0.0
-        self.ab, self.bc, self.ca = Edge(), Edge(), Edge()
+        self.ab, self.bc, self.ca = Side(), Side(), Side()
 
 
-def fill(buffer: DepthBuffer, corners: RealBuffer) -> None:
+def fill_depths(buffer: DepthBuffer, corners: RealBuffer) -> None:
     """Let the pixels see triangles, nine coordinates for each; where two are as near, the first stays.
 
     Parameters
@@ -53,11 +53,11 @@ def fill(buffer: DepthBuffer, corners: RealBuffer) -> None:
     --------
     >>> from array import array
     >>> depth, triangle = array("d", [float("-inf")] * 6), array("q", [-1] * 6)
-    >>> fill(DepthBuffer(3, 2, depth, triangle), array("d", [-0.5, -0.5, 1, 1.8, -0.5, 1, -0.5, 1.8, 1]))
+    >>> fill_depths(DepthBuffer(3, 2, depth, triangle), array("d", [-0.5, -0.5, 1, 1.8, -0.5, 1, -0.5, 1.8, 1]))
     >>> triangle.tolist()
     [0, 0, -1, 0, -1, -1]
     """
-    triangle = Triangle()
+    triangle = Corners()
     for number in range(len(corners) // 9):
         _read(triangle, corners, 9 * number)
         if triangle.turn != 0:
@@ -90,7 +90,7 @@ def count_hidden(buffer: DepthBuffer, projection: RealBuffer, points: RealBuffer
                 hidden[number] += 1
 
 
-def _read(triangle: Triangle, corners: RealBuffer, start: int) -> None:
+def _read(triangle: Corners, corners: RealBuffer, start: int) -> None:
     triangle.ax, triangle.ay, triangle.az = corners[start], corners[start + 1], corners[start + 2]
     triangle.bx, triangle.by, triangle.bz = corners[start + 3], corners[start + 4], corners[start + 5]
     triangle.cx, triangle.cy, triangle.cz = corners[start + 6], corners[start + 7], corners[start + 8]
@@ -104,7 +104,7 @@ def _read(triangle: Triangle, corners: RealBuffer, start: int) -> None:
     triangle.highest = max(triangle.az, triangle.bz, triangle.cz)
 
 
-def _fill_rows(buffer: DepthBuffer, triangle: Triangle, number: int) -> None:
+def _fill_rows(buffer: DepthBuffer, triangle: Corners, number: int) -> None:
     first = _first_above(min(triangle.ay, triangle.by, triangle.cy), buffer.rows)
     for row in range(first, _count_up_to(max(triangle.ay, triangle.by, triangle.cy), buffer.rows)):
         buffer.left, buffer.right = -1.0, buffer.columns
@@ -114,7 +114,7 @@ def _fill_rows(buffer: DepthBuffer, triangle: Triangle, number: int) -> None:
         _fill_row(buffer, triangle, number, row)
 
 
-def _fill_row(buffer: DepthBuffer, triangle: Triangle, number: int, row: int) -> None:
+def _fill_row(buffer: DepthBuffer, triangle: Corners, number: int, row: int) -> None:
     """Fill the pixels between left and right; rounding makes no depth that the triangle does not have."""
     first = _first_above(buffer.left, buffer.columns)
     for column in range(first, _count_up_to(buffer.right, buffer.columns)):
@@ -125,7 +125,7 @@ def _fill_row(buffer: DepthBuffer, triangle: Triangle, number: int, row: int) ->
             buffer.triangle[row * buffer.columns + column] = number
 
 
-def _set_edge(edge: Edge, turn: float, ax: float, ay: float, bx: float, by: float) -> None:
+def _set_edge(edge: Side, turn: float, ax: float, ay: float, bx: float, by: float) -> None:
     """Set an edge; it is the same from both ends, so that neighbours leave no gap."""
     edge.rise = turn * (by - ay)
     if by < ay:
@@ -135,7 +135,7 @@ def _set_edge(edge: Edge, turn: float, ax: float, ay: float, bx: float, by: floa
         edge.slope = (bx - ax) / (by - ay)
 
 
-def _narrow(buffer: DepthBuffer, edge: Edge, row: float) -> None:
+def _narrow(buffer: DepthBuffer, edge: Side, row: float) -> None:
     """Cut off what lies in a row on the outer side of an edge."""
     if edge.rise < 0:
         buffer.left = max(buffer.left, edge.x + edge.slope * (row - edge.y))

@@ -12,7 +12,7 @@ import numpy as np
 
 from plyfold.arrays import Floats, Ints
 from plyfold.core.buffers import all_flat, flat
-from plyfold.core.depths import DepthBuffer, count_hidden, fill
+from plyfold.core.depths import DepthBuffer, count_hidden, fill_depths
 
 __all__ = ["Pixels", "Seen", "View", "look"]
 
@@ -136,5 +136,5 @@ def look(projected: Floats, faces: Ints, pixels: Pixels) -> Seen:
     shape = (pixels.rows, pixels.columns)
     depth, triangle = np.full(shape, -np.inf), np.full(shape, -1, dtype=np.int64)
     corners = np.concatenate([pixels.coordinates(projected), projected[:, 2:]], axis=1)[faces]
-    fill(DepthBuffer(pixels.columns, pixels.rows, *all_flat(depth, triangle)), flat(corners))
+    fill_depths(DepthBuffer(pixels.columns, pixels.rows, *all_flat(depth, triangle)), flat(corners))
     return Seen(triangle, depth, pixels)

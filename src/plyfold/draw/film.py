@@ -234,9 +234,7 @@ def _gif(frames: list[_Frame]) -> bytes:
     durations = [round(max(1000 * _REST, step) if showing.rests else step) for showing in shown]
     first, *others = (pictures[showing.number] for showing in shown)
     out = BytesIO()
-    first.save(
-        out, "GIF", save_all=True, append_images=others, duration=durations, loop=0, disposal=1, optimize=False
-    )
+    first.save(out, "GIF", save_all=True, append_images=others, duration=durations, loop=0, disposal=1, optimize=False)
     return out.getvalue()
 
 

@@ -155,7 +155,7 @@ def border_middle(points: Floats) -> tuple[Floats, Floats]:
 
 
 def arrows(arrangement: Arrangement, most: int = 6) -> list[tuple[Floats, Floats]]:
-    """Return places and unit directions for arrows: the middles of each loop's longest border, and of the longest of all.
+    """Return places and unit directions for arrows: the middles of each loop's longest border and of the longest ones.
 
     Arrows beside each other would touch: there, one is enough for a loop.
     """
