@@ -7,13 +7,13 @@ cdef class DepthBuffer:
     cdef Py_ssize_t columns, rows
     cdef double left, right
 
-cdef class Side:
+cdef class Slope:
     cdef double x, y, slope, rise
 
 cdef class Corners:
     cdef double ax, ay, az, bx, by, bz, cx, cy, cz
     cdef double turn, right, up, lowest, highest
-    cdef Side ab, bc, ca
+    cdef Slope ab, bc, ca
 
 cpdef int fill_depths(DepthBuffer buffer, const double[::1] corners) except -1
 cpdef int count_hidden(
@@ -22,8 +22,8 @@ cpdef int count_hidden(
 cdef int _read(Corners triangle, const double[::1] corners, Py_ssize_t start) except -1
 cdef int _fill_rows(DepthBuffer buffer, Corners triangle, Py_ssize_t number) except -1
 cdef int _fill_row(DepthBuffer buffer, Corners triangle, Py_ssize_t number, Py_ssize_t row) except -1
-cdef int _set_edge(Side edge, double turn, double ax, double ay, double bx, double by) except -1
-cdef int _narrow(DepthBuffer buffer, Side edge, double row) except -1
+cdef int _set_edge(Slope edge, double turn, double ax, double ay, double bx, double by) except -1
+cdef int _narrow(DepthBuffer buffer, Slope edge, double row) except -1
 cdef Py_ssize_t _first_above(double number, Py_ssize_t most) except -1
 cdef Py_ssize_t _count_up_to(double number, Py_ssize_t most) except -1
 cdef Py_ssize_t _whole(double number) except? -1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from plyfold.core.buffers import RealBuffer, WholeBuffer
 
-__all__ = ["Corners", "DepthBuffer", "Side", "count_hidden", "fill_depths"]
+__all__ = ["Corners", "DepthBuffer", "Slope", "count_hidden", "fill_depths"]
 
 
 class DepthBuffer:
@@ -18,7 +18,7 @@ class DepthBuffer:
         self.left = self.right = 0.0
 
 
-class Side:
+class Slope:
     """An edge of the triangle at hand: its lower end, how fast x grows upwards, and how far it rises.
 
     It rises by more than 0 if the triangle lies on its left.
@@ -37,7 +37,7 @@ class Corners:
     def __init__(self) -> None:
         self.ax = self.ay = self.az = self.bx = self.by = self.bz = self.cx = self.cy = self.cz = 0.0
         self.turn = self.right = self.up = self.lowest = self.highest = 0.0
-        self.ab, self.bc, self.ca = Side(), Side(), Side()
+        self.ab, self.bc, self.ca = Slope(), Slope(), Slope()
 
 
 def fill_depths(buffer: DepthBuffer, corners: RealBuffer) -> None:
@@ -125,7 +125,7 @@ def _fill_row(buffer: DepthBuffer, triangle: Corners, number: int, row: int) -> 
             buffer.triangle[row * buffer.columns + column] = number
 
 
-def _set_edge(edge: Side, turn: float, ax: float, ay: float, bx: float, by: float) -> None:
+def _set_edge(edge: Slope, turn: float, ax: float, ay: float, bx: float, by: float) -> None:
     """Set an edge; it is the same from both ends, so that neighbours leave no gap."""
     edge.rise = turn * (by - ay)
     if by < ay:
@@ -135,7 +135,7 @@ def _set_edge(edge: Side, turn: float, ax: float, ay: float, bx: float, by: floa
         edge.slope = (bx - ax) / (by - ay)
 
 
-def _narrow(buffer: DepthBuffer, edge: Side, row: float) -> None:
+def _narrow(buffer: DepthBuffer, edge: Slope, row: float) -> None:
     """Cut off what lies in a row on the outer side of an edge."""
     if edge.rise < 0:
         buffer.left = max(buffer.left, edge.x + edge.slope * (row - edge.y))
