@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 import plyfold as pf
-from plyfold.colours import ACCENT, INK, mix, sheet_colour
+from plyfold.colours import ACCENT, INK, PAPER, mix, sheet_colour, winding_colour
 from plyfold.draw import plot_arrangement
 from plyfold.draw.figures import save
 from plyfold.draw.placement import BorderCircle, border_middle
@@ -92,12 +92,18 @@ def _window(arranged: pf.Arrangement) -> tuple[float, float, float]:
 
 
 def _number_borders(axes: Any, arranged: pf.Arrangement, distance: float) -> None:
-    """Write the numbers of the borders on their right, in units of the drawing's size."""
+    """Write the numbers of the borders beside them, in units of the drawing's size: on the right, if there is room."""
+    taken = [text.get_position() for text in axes.texts]
     low, high = arranged.curve.points.min(axis=0), arranged.curve.points.max(axis=0)
     for border in range(arranged.n_borders):
         place, (dx, dy) = border_middle(arranged.border_points(border))
-        x, y = (np.asarray(place) - (low + high) / 2) / (high - low).max()
-        axes.text(x + distance * dy, y - distance * dx, str(border), fontsize=7, ha="center", va="center")
+        middle = (np.asarray(place) - (low + high) / 2) / (high - low).max()
+        sides = [middle + far * distance * np.array([dy, -dx]) for far in (1, -0.6, 0.6, -1)]
+        room = [min(np.hypot(*(side - other)) for other in taken) for side in sides]
+        chosen = next((side for side, free in zip(sides, room, strict=True) if free > 0.9 * distance), None)
+        x, y = sides[int(np.argmax(room))] if chosen is None else chosen
+        taken.append((x, y))
+        axes.text(x, y, str(border), fontsize=7, ha="center", va="center")
 
 
 def _enlarge(detail: Any, drawing: Any, x: float, y: float, half: float) -> None:
@@ -105,7 +111,8 @@ def _enlarge(detail: Any, drawing: Any, x: float, y: float, half: float) -> None
     detail.set_aspect("equal", adjustable="box")
     detail.set(xlim=(x - half, x + half), ylim=(y - half, y + half))
     for text in detail.texts:
-        text.set_clip_on(True)
+        across, up = text.get_position()
+        text.set_visible(max(abs(across - x), abs(up - y)) < 0.93 * half)
     drawing.add_patch(Rectangle((x - half, y - half), 2 * half, 2 * half, fill=False, edgecolor=ACCENT, linewidth=0.8))
     for text in drawing.texts:
         across, up = text.get_position()
@@ -118,6 +125,7 @@ def _draw_groups(axes: Any, groups: Sequence[Sequence[int]]) -> None:
     axes.set_aspect("equal")
     axes.set_axis_off()
     circle = BorderCircle(sum(map(len, groups)))
+    axes.fill(*BorderCircle(1).arc(0).T, color=mix(winding_colour(1), PAPER, 0.45))
     for number, group in enumerate(groups):
         colour = sheet_colour(number)
         region = circle.region(group)

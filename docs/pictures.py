@@ -12,6 +12,7 @@ from panels import save_small
 import plyfold as pf
 from plyfold.colours import OBSTRUCTION
 from plyfold.draw import plot_arrangement, plot_surface
+from plyfold.draw.canvas import write
 from plyfold.draw.figures import summary
 from plyfold.gallery import CURVES, OUTLINES, NamedOutline
 
@@ -41,7 +42,7 @@ def gallery() -> None:
             plot_surface(pf.lift(layered(named)), ax=lifted, pixels=450)
         else:
             reason = fill(f"No disk. {pf.find_embedding(named.outline)}".replace("No disk. No ", "No "), 26)
-            lifted.text(0.5, 0.5, reason, ha="center", va="center", color=OBSTRUCTION, transform=lifted.transAxes)
+            write(lifted, (0.5, 0.5), reason, 10.0, va="center", color=OBSTRUCTION, transform=lifted.transAxes)
     save_small(figure, "gallery", 160)
 
 

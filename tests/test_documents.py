@@ -39,7 +39,7 @@ EXCEPTIONS = {
     "python benchmarks/": "measures for minutes, and the tests of the benchmarks run it: its file must exist",
     "plyfold sketch": "serves until it is interrupted: it is interrupted when it has said where",
 }
-FILMED = 'surface.export("ramp.gif")'  # takes half a minute, and tests/draw/test_film.py does it
+FILMED = 'surface.export("ramp.gif")'  # takes seconds, and tests/draw/test_film.py does it
 
 _PIECE = re.compile(
     r"^```(?P<language>\w+)\n(?P<block>.*?)^```$|(?<!`)`(?P<span>[^`]+)`(?!`)", re.DOTALL | re.MULTILINE

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import shapely
 import trimesh
+from PIL import Image
 
 import plyfold as pf
 from plyfold.cli.commands import main
@@ -262,10 +263,28 @@ def test_progress_tells_the_stage_and_the_time_left(monkeypatch):
 
 def test_a_film_tells_how_far_it_is(loop, tmp_path, monkeypatch):
     monkeypatch.setattr(sys, "stderr", Terminal())
-    monkeypatch.setattr("plyfold.draw.film._STEPS", 1)
-    assert main(["lift", str(loop), "--triangles", "50", "-o", str(tmp_path / "film.gif")]) == 0
+    film = ["--size", "40", "--frames", "3", "-o", str(tmp_path / "film.gif")]
+    assert main(["lift", str(loop), "--triangles", "50", *film]) == 0
     assert "drawing the film 67%" in sys.stderr.getvalue()
-    assert (tmp_path / "film.gif").exists()
+    with Image.open(tmp_path / "film.gif") as picture:
+        assert (picture.size, picture.n_frames) == ((40, 40), 4)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--size", "8", "-o", "film.gif"], "from 16 to 1,600 pixels, not 8"),
+        (["--frames", "2", "-o", "film.gif"], "from 3 to 101 frames, not 2"),
+        (["--size", "41", "-o", "film.mp4"], "must be even, not 41"),
+        (["--frames", "9", "-o", "ramp.glb"], "--frames is for films"),
+        (["--size", "90", "-o", "ramp.stl"], "--size is for films"),
+    ],
+)
+def test_films_that_cannot_be_are_refused(loop, tmp_path, capsys, words, said):
+    *options, name = words
+    assert main(["lift", str(loop), *options, str(tmp_path / name)]) == 2
+    assert said in capsys.readouterr().err
+    assert not (tmp_path / name).exists()
 
 
 def test_an_interruption_replaces_the_line_of_progress(loop, monkeypatch):

@@ -85,6 +85,12 @@ def add_lift_command(commands: Any) -> None:
         choices=["round", "flat"],
         help="with --inflate: elliptic, or a plateau with a round rim (default: round)",
     )
+    lift.add_argument(
+        "--size", type=int, metavar="PIXELS", help="of a film: width and height, from 16 to 1600 (default: 480)"
+    )
+    lift.add_argument(
+        "--frames", type=int, metavar="N", help="of a film: pictures from disk to surface, from 3 to 101 (default: 33)"
+    )
     lift.add_argument("--json", action="store_true", help="print one JSON object and nothing else (see below)")
     lift.epilog, lift.formatter_class = _JSON_GUIDE, argparse.RawDescriptionHelpFormatter
     lift.add_argument(
@@ -136,6 +142,7 @@ def _refuse_mixed(options: argparse.Namespace) -> None:
         raise InputError("--min-wall is for slabs, which --thicken makes", hint="add --thicken T")
     if options.profile is not None and options.inflate is None:
         raise InputError("--profile is for round bodies, which --inflate makes", hint="add --inflate")
+    _refuse_film_options(options)
 
 
 def _solid(surface: Surface, options: argparse.Namespace, watch: Stopwatch, clock: Clock) -> Solid | None:
@@ -199,16 +206,35 @@ def _export(surface: Surface, solid: Solid | None, options: argparse.Namespace, 
         if solid is not None:
             solid.export(path, options.force, title(options.file), colours=options.colours, unwrapped=unwrapped)
         elif Path(path).suffix.lower() in _FILMS:
-            _film(surface, path, options.force, watch)
+            _film(surface, path, options, watch)
         else:
             surface.export(path, options.force, title(options.file), colours=options.colours, unwrapped=unwrapped)
 
 
-def _film(surface: Surface, path: str, force: bool, watch: Stopwatch) -> None:
+def _film(surface: Surface, path: str, options: argparse.Namespace, watch: Stopwatch) -> None:
     from plyfold.draw.film import save_film
 
-    save_film(surface, path, force, watch)
+    save_film(surface, path, options.force, watch, **_film_options(options))
     watch("writing")
+
+
+def _film_options(options: argparse.Namespace) -> dict[str, int]:
+    """Return the arguments of :func:`plyfold.draw.save_film` that were given."""
+    given = {"size": options.size, "frames": options.frames}
+    return {name: value for name, value in given.items() if value is not None}
+
+
+def _refuse_film_options(options: argparse.Namespace) -> None:
+    """Refuse options of films before any work: where there is no film, and where no film can be so."""
+    films = [path for path in options.output if Path(path).suffix.lower() in _FILMS]
+    given = _film_options(options)
+    if given and not films:
+        raise InputError(f"--{next(iter(given))} is for films", hint="write one: -o film.gif")
+    if given:
+        from plyfold.draw.film import refuse_film
+
+        for path in films:
+            refuse_film(path, **given)
 
 
 # ---- the options of ``plyfold lift`` ---------------------------------------------------------------------------------

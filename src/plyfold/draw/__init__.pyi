@@ -4,6 +4,7 @@ from .collapsed_plot import plot_collapsed_graphs as plot_collapsed_graphs
 from .collapsed_plot import plot_marked_cell as plot_marked_cell
 from .figures import overview as overview
 from .figures import save as save
+from .film import save_film as save_film
 from .immersion_plot import plot_immersion as plot_immersion
 from .immersion_plot import plot_immersions as plot_immersions
 from .layers_plot import plot_casing as plot_casing

@@ -79,7 +79,7 @@ def plot_arrangement(
     weight = line_weight(arrangement.n_crossings)
     for loop in drawn_loops(arrangement):
         line(axes, closed(frame(loop)), INK, 1.6 * weight)
-    _arrowheads(axes, arrangement, frame)
+    _arrowheads(axes, arrangement, frame, weight)
     rim = {"edgecolors": PAPER, "linewidths": 0.6 * weight, "zorder": 4}
     dots(axes, frame(arrangement.crossings), ACCENT, 16 * weight**2, **rim)
     mark_cusps(axes, arrangement, frame)
@@ -104,10 +104,12 @@ def mark_cusps(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
     cusp_signs(axes, frame(places), indices, mark_weight(arrangement.n_crossings))
 
 
-def _arrowheads(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:
+def _arrowheads(axes: Axes, arrangement: Arrangement, frame: Frame, weight: float) -> None:
+    """Draw arrowheads, as large as lines are heavy."""
     for place, (dx, dy) in arrows(arrangement):
         (tip,) = frame(place)
-        head = np.array([(0.018, 0), (-0.012, 0.0135), (-0.012, -0.0135)]) @ np.array([(dx, dy), (-dy, dx)])
+        corners = weight * np.array([(0.018, 0), (-0.012, 0.0135), (-0.012, -0.0135)])
+        head = corners @ np.array([(dx, dy), (-dy, dx)])
         polygon(axes, tip + head, INK, zorder=3)
 
 
@@ -119,7 +121,7 @@ def _winding_numbers(axes: Axes, arrangement: Arrangement, frame: Frame, marked:
         if size >= 4 and not any(np.hypot(x - a, y - b) < radius for a, b in marked):
             winding = int(arrangement.winding[cell])
             colour = text_colour(winding_colour(winding))
-            write(axes, frame((x, y))[0], f"{winding}".replace("-", "−"), size, color=colour)
+            write(axes, frame((x, y))[0], str(winding), size, color=colour)
 
 
 def _border_numbers(axes: Axes, arrangement: Arrangement, frame: Frame) -> None:

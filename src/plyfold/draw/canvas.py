@@ -7,6 +7,7 @@ backend is on. That one shows the figures that pyplot knows; it does not know th
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from io import BytesIO
 from textwrap import fill
@@ -41,6 +42,8 @@ __all__ = [
 _LETTER = 0.53
 _SHORTEST_LINE = 24
 _DOTS_PER_INCH = 80
+# A hyphen that stands before a number.
+_HYPHEN = re.compile(r"(?<!\w)-(?=[\d.])")
 
 
 class ShownFigure(Figure):
@@ -112,8 +115,9 @@ def cusp_signs(axes: Axes, places: Floats, indices: Sequence[int], weight: float
 
 
 def write(axes: Axes, place: Iterable[float], text: str, size: float, **style: Any) -> None:
-    """Write words of some size in points."""
+    """Write words of some size in points; numbers below zero get a true minus sign, which a hyphen is not."""
     x, y = place
+    text = _HYPHEN.sub("−", text)
     middle = {"color": INK, "ha": "center", "va": "center_baseline", "zorder": 5}
     axes.text(x, y, text, fontsize=size, **{**middle, **style})
 

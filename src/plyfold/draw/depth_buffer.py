@@ -1,4 +1,4 @@
-"""A depth buffer in plain numpy: the triangle that each pixel sees.
+"""A depth buffer: the triangle that each pixel sees.
 
 matplotlib sorts whole triangles, which goes wrong where sheets lie close above each other. Here every pixel finds its
 nearest triangle. The eye is infinitely far away (parallel projection), as in an axonometric drawing.
@@ -7,16 +7,14 @@ nearest triangle. The eye is infinitely far away (parallel projection), as in an
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
 from plyfold.arrays import Floats, Ints
+from plyfold.core.buffers import all_flat, flat
+from plyfold.core.depths import DepthBuffer, count_hidden, fill_depths
 
 __all__ = ["Pixels", "Seen", "View", "look"]
-
-
-_BATCH = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -60,9 +58,17 @@ class Pixels:
         columns, rows = np.ceil((high - low) / size).astype(int).clip(1).tolist()
         return cls(low, size, columns, rows)
 
-    def halved(self) -> Pixels:
-        """Return the grid of pixels twice as large."""
-        return Pixels(self.origin, 2 * self.size, (self.columns + 1) // 2, (self.rows + 1) // 2)
+    def doubled(self) -> Pixels:
+        """Return the grid of pixels half as large: four in each."""
+        return Pixels(self.origin, self.size / 2, 2 * self.columns, 2 * self.rows)
+
+    def part(self, low: Floats, high: Floats) -> Pixels:
+        """Return the pixels of this grid that meet a box; at least one."""
+        most = np.array([self.columns, self.rows])
+        first = np.floor((low - self.origin) / self.size).clip(0, most - 1)
+        last = np.ceil((high - self.origin) / self.size).clip(first + 1, most)
+        columns, rows = (last - first).astype(int).tolist()
+        return Pixels(self.origin + self.size * first, self.size, columns, rows)
 
     def coordinates(self, points: Floats) -> Floats:
         """Return points of the plane in units of pixels, pixel centres at whole numbers."""
@@ -103,6 +109,14 @@ class Seen:
         depth[inside] = self.depth[row[inside], column[inside]]
         return depth
 
+    def add_hidden(self, view: View, points: Floats, slack: float, hidden: Ints) -> None:
+        """Add one for each point, shape (n, 3), that lies behind what is seen from this view by more than the slack."""
+        axes, size = view.axes, self.pixels.size
+        plane = np.column_stack([axes[:2] / size, -self.pixels.origin / size - 0.5])
+        projection = np.vstack([plane, [*axes[2], slack]])
+        buffer = DepthBuffer(self.pixels.columns, self.pixels.rows, *all_flat(self.depth, self.triangle))
+        count_hidden(buffer, flat(projection), flat(points), flat(hidden))
+
 
 def look(projected: Floats, faces: Ints, pixels: Pixels) -> Seen:
     """Fill a depth buffer.
@@ -119,101 +133,8 @@ def look(projected: Floats, faces: Ints, pixels: Pixels) -> Seen:
     Seen
         Cost: the number of pixels that all triangles cover together.
     """
-    depth = np.full(pixels.rows * pixels.columns, -np.inf)
-    triangle = np.full(pixels.rows * pixels.columns, -1, dtype=np.int64)
-    corners = np.concatenate([pixels.coordinates(projected), projected[:, 2:]], axis=1)[faces]
-    spans = _spans(corners, pixels)
-    for batch in _batches(spans.count):
-        where, which, height = _samples(corners, spans, batch, pixels.columns)
-        order = np.argsort(height, kind="stable")
-        where, which, height = where[order], which[order], height[order]
-        nearer = height > depth[where]
-        depth[where[nearer]], triangle[where[nearer]] = height[nearer], which[nearer]
     shape = (pixels.rows, pixels.columns)
-    return Seen(triangle.reshape(shape), depth.reshape(shape), pixels)
-
-
-@dataclass(frozen=True)
-class _Spans:
-    """Runs of pixels: the part of one row that lies in one triangle."""
-
-    triangle: Ints
-    row: Ints
-    column: Ints
-    count: Ints
-
-
-def _spans(corners: Floats, pixels: Pixels) -> _Spans:
-    y = corners[..., 1]
-    first = np.ceil(y.min(axis=1)).astype(np.int64).clip(0)
-    last = np.floor(y.max(axis=1)).astype(np.int64).clip(max=pixels.rows - 1)
-    triangle, row = _ranges(first, (last - first + 1).clip(0))
-    left, right = _row_ends(corners[triangle], row)
-    column = np.ceil(left.clip(0)).astype(np.int64)
-    count = (np.floor(right.clip(max=pixels.columns - 1)).astype(np.int64) - column + 1).clip(0)
-    return _Spans(triangle, row, column, count)
-
-
-def _ranges(start: Ints, count: Ints) -> tuple[Ints, Ints]:
-    """Return the ranges start, start + 1, ... (count of them) end to end: whose range it is, and the number."""
-    which = np.repeat(np.arange(len(start)), count)
-    return which, np.arange(len(which)) - np.repeat(np.cumsum(count) - count - start, count)
-
-
-def _row_ends(corners: Floats, row: Ints) -> tuple[Floats, Floats]:
-    """Return where a horizontal line enters and leaves each triangle: the half-planes of the edges, one by one."""
-    left, right = np.full(len(row), -1.0), np.full(len(row), np.inf)
-    turn = _doubled_area(corners)
-    for i in range(3):
-        start, end = corners[:, i], corners[:, (i + 1) % 3]
-        rise = turn * (end[:, 1] - start[:, 1])
-        at = _edge_at(start, end, row)
-        left = np.where(rise < 0, np.maximum(left, at), left)
-        right = np.where(rise > 0, np.minimum(right, at), right)
-    return left, np.where(np.isfinite(right), right, -1.0)
-
-
-def _edge_at(start: Floats, end: Floats, row: Ints) -> Floats:
-    """Return x where an edge crosses a row; the same from both ends, so that neighbours leave no gap."""
-    upward = (start[:, 1] < end[:, 1])[:, None]
-    low, high = np.where(upward, start, end), np.where(upward, end, start)
-    rise = high[:, 1] - low[:, 1]
-    share = (row - low[:, 1]) / np.where(rise > 0, rise, 1.0)
-    return np.asarray(low[:, 0] + (high[:, 0] - low[:, 0]) * share)
-
-
-def _doubled_area(corners: Floats) -> Floats:
-    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    return first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
-
-
-def _batches(count: Ints) -> list[slice]:
-    """Cut the spans into runs of about the same number of pixels, so that memory stays bounded."""
-    ends = np.cumsum(count)
-    marks = np.searchsorted(ends, np.arange(0, ends[-1] if len(ends) else 0, _BATCH))
-    edges = np.unique(np.concatenate([marks, [0, len(ends)]])).tolist()
-    return [slice(a, b) for a, b in pairwise(edges)]
-
-
-def _samples(corners: Floats, spans: _Spans, batch: slice, columns: int) -> tuple[Ints, Ints, Floats]:
-    """Return, for every pixel centre inside a triangle: the pixel, the triangle and the depth."""
-    span, column = _ranges(spans.column[batch], spans.count[batch])
-    triangle, row = spans.triangle[batch][span], spans.row[batch][span]
-    slope_x, slope_y = _slopes(corners)
-    origin = corners[:, 0]
-    height = (
-        origin[triangle, 2]
-        + slope_x[triangle] * (column - origin[triangle, 0])
-        + slope_y[triangle] * (row - origin[triangle, 1])
-    )
-    return row * columns + column, triangle, height
-
-
-def _slopes(corners: Floats) -> tuple[Floats, Floats]:
-    """Return how fast depth grows to the right and upwards on each triangle."""
-    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        area = _doubled_area(corners)
-        right = (first[:, 2] * second[:, 1] - second[:, 2] * first[:, 1]) / area
-        up = (second[:, 2] * first[:, 0] - first[:, 2] * second[:, 0]) / area
-    return np.nan_to_num(right), np.nan_to_num(up)
+    depth, triangle = np.full(shape, -np.inf), np.full(shape, -1, dtype=np.int64)
+    corners = np.concatenate([pixels.coordinates(projected), projected[:, 2:]], axis=1)[faces]
+    fill_depths(DepthBuffer(pixels.columns, pixels.rows, *all_flat(depth, triangle)), flat(corners))
+    return Seen(triangle, depth, pixels)

@@ -44,6 +44,9 @@ MOST_NUMBERS = 60
 # A loop gets an arrow if its longest border is longer than this part of the longest of all.
 _SHORTEST_WITH_ARROW = 0.08
 
+# How far a loop's further arrows are from others at least, as a part of the drawing's size: more than their length.
+_ARROWS_APART = 0.04
+
 
 def closed(points: npt.NDArray[T]) -> npt.NDArray[T]:
     """Return points with the first one repeated at the end."""
@@ -152,15 +155,24 @@ def border_middle(points: Floats) -> tuple[Floats, Floats]:
 
 
 def arrows(arrangement: Arrangement, most: int = 6) -> list[tuple[Floats, Floats]]:
-    """Return places and unit directions for arrows: the middles of the longest borders, and of each loop's longest."""
+    """Return places and unit directions for arrows: the middles of each loop's longest border and of the longest ones.
+
+    Arrows beside each other would touch: there, one is enough for a loop.
+    """
     lines = [border_line(arrangement, border) for border in range(arrangement.n_borders)]
     lengths = [float(np.hypot(*np.diff(line, axis=0).T).sum()) for line in lines]
     longest = sorted(range(len(lines)), key=lambda i: -lengths[i])
     of_loop = dict(zip(arrangement.loop_of_border[longest[::-1]].tolist(), longest[::-1], strict=True))
     least = 0.25 * lengths[longest[0]]
     shown = [border for border in longest[:most] if lengths[border] > least]
-    shown += [border for border in of_loop.values() if lengths[border] > _SHORTEST_WITH_ARROW * lengths[longest[0]]]
-    return [border_middle(lines[border]) for border in dict.fromkeys(shown)]
+    first = [border for border in of_loop.values() if lengths[border] > _SHORTEST_WITH_ARROW * lengths[longest[0]]]
+    found = [border_middle(lines[border]) for border in first]
+    apart = _ARROWS_APART * middle_and_size(drawn_points(arrangement))[1]
+    for border in (border for border in shown if border not in first):
+        place, direction = border_middle(lines[border])
+        if all(np.hypot(*(place - other)) > apart for other, _ in found):
+            found.append((place, direction))
+    return found
 
 
 # ---- arcs in a round disk that never cross unless their ends interleave ----------------------------------------------

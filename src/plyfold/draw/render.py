@@ -10,6 +10,7 @@ import numpy as np
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.colours import BACK, CLOTH_HIGH, CLOTH_LOW, rgb
 from plyfold.draw.depth_buffer import Pixels, Seen, View, look
+from plyfold.matrices import one_thread
 
 __all__ = ["Image", "Mesh", "shade"]
 
@@ -17,7 +18,6 @@ __all__ = ["Image", "Mesh", "shade"]
 _LIGHTS = 16
 _LAMP_WIDTH = 0.12
 _SHADOW_PIXELS = 400
-_SKY_LIGHTS = 16
 _SKY_PIXELS = 200
 _SKY_RADIUS = 0.85
 _GOLDEN_ANGLE = 2.399963
@@ -79,7 +79,7 @@ class Mesh:
     @cached_property
     def sky(self) -> Lights:
         """The sky above it: lights in all directions, the higher the brighter."""
-        rings = [_spread(i, _SKY_LIGHTS, _SKY_RADIUS) for i in range(_SKY_LIGHTS)]
+        rings = [_spread(i, _LIGHTS, _SKY_RADIUS) for i in range(_LIGHTS)]
         return self._lights(
             [_towards(ring + np.array([0, 0, np.sqrt(1 - ring @ ring)])) for ring in rings], _SKY_PIXELS
         )
@@ -103,11 +103,10 @@ class Lights:
         """Return the share of the lights that each point does not see; it may face a direction."""
         slack = 2.5 * max(seen.pixels.size for seen in self.looks)
         above = where if facing is None else where + slack * facing
-        share = np.zeros(len(where))
+        hidden = np.zeros(len(where), dtype=np.int64)
         for view, seen in zip(self.views, self.looks, strict=True):
-            projected = view.project(above)
-            share += seen.depth_at(projected) > projected[:, 2] + slack
-        return share / len(self.looks)
+            seen.add_hidden(view, above, slack, hidden)
+        return hidden / len(self.looks)
 
 
 def _spread(index: int, number: int, radius: float) -> Floats:
@@ -148,7 +147,7 @@ class Image:
     @property
     def extent(self) -> tuple[float, float, float, float]:
         """Left, right, bottom and top in the plane of projection."""
-        return self.seen.pixels.halved().extent
+        return self.seen.pixels.extent
 
     def hidden(self, points: Floats) -> Bools:
         """Return which of some points in space lie behind the surface; those on its edge do not."""
@@ -158,7 +157,7 @@ class Image:
         return np.asarray(nearest > projected[:, 2] + 4 * size)
 
 
-def shade(mesh: Mesh, view: View, pixels: int = 900, paint: Floats | None = None) -> Image:
+def shade(mesh: Mesh, view: View, pixels: int | Pixels = 900, paint: Floats | None = None) -> Image:
     """Return a shaded image, with soft shadows on itself and a floor, and a pale rim where it passes behind itself.
 
     Parameters
@@ -166,8 +165,9 @@ def shade(mesh: Mesh, view: View, pixels: int = 900, paint: Floats | None = None
     mesh : Mesh
     view : View
         Where from.
-    pixels : int
-        Pixels along the longer side; each is the mean of four samples.
+    pixels : int or Pixels
+        How many along the longer side, or a grid: of this, the part that the surface and its shadow meet. Each pixel is
+        the mean of four samples.
     paint : (m, 3) float, optional
         Colour of the upper side of each triangle; the lower one is paler. By default blue above, lighter where it is
         higher, and warm below.
@@ -184,12 +184,14 @@ def shade(mesh: Mesh, view: View, pixels: int = 900, paint: Floats | None = None
     >>> image.colours.shape, bool(image.hidden(np.array([(0.2, 0.2, -1.0)]))[0])
     ((40, 40, 4), True)
     """
-    seen = look(view.project(mesh.vertices), mesh.faces, _canvas(mesh, view, 2 * pixels))
-    body = _rimmed(_average(_body(mesh, view, seen, paint)), seen, _is_steep(mesh, view))
-    return Image(_over(body, _floor(mesh, view, seen.pixels.halved())), view, seen)
+    canvas = _canvas(mesh, view, pixels)
+    with one_thread():
+        seen = look(view.project(mesh.vertices), mesh.faces, canvas.doubled())
+        body = _rimmed(_body(mesh, view, seen, paint), seen, _is_steep(mesh, view))
+        return Image(_over(body, _floor(mesh, view, canvas)), view, seen)
 
 
-def _canvas(mesh: Mesh, view: View, pixels: int) -> Pixels:
+def _canvas(mesh: Mesh, view: View, pixels: int | Pixels) -> Pixels:
     """Return pixels with room for the mesh, and for its shadow unless the floor is seen from below."""
     low, high = mesh.box(view)
     if view.axes[2, 2] > _FLATTEST:
@@ -197,15 +199,18 @@ def _canvas(mesh: Mesh, view: View, pixels: int) -> Pixels:
         below = view.project(mesh.vertices - fall)[:, :2]
         low, high = np.minimum(low, below.min(axis=0)), np.maximum(high, below.max(axis=0))
     margin = 0.05 * float((high - low).max())
+    if isinstance(pixels, Pixels):
+        return pixels.part(low - margin, high + margin)
     return Pixels.over(low - margin, high + margin, pixels)
 
 
 def _body(mesh: Mesh, view: View, seen: Seen, paint: Floats | None) -> Floats:
-    """Return the lit surface, premultiplied by its opacity (0 or 1)."""
-    hit = np.flatnonzero(seen.triangle >= 0)
-    sample, which = _one_of_each_four(seen, hit)
+    """Return the lit surface in each pixel, premultiplied by its opacity."""
+    sample, pixel, weight = _samples_to_light(seen, _parts(mesh, paint))
     triangle = seen.triangle.ravel()[sample]
-    projected = np.column_stack([seen.pixels.centres().reshape(-1, 2)[sample], seen.depth.ravel()[sample]])
+    row, column = np.divmod(sample, seen.pixels.columns)
+    plane = seen.pixels.origin + seen.pixels.size * (np.column_stack([column, row]) + 0.5)
+    projected = np.column_stack([plane, seen.depth.ravel()[sample]])
     where = projected @ view.axes
     normal = _smooth_normals(mesh, view, triangle, projected)
     front = normal @ view.axes[2] > 0
@@ -213,21 +218,36 @@ def _body(mesh: Mesh, view: View, seen: Seen, paint: Floats | None) -> Floats:
     colour = _cloth(mesh, where[:, 2], front) if paint is None else _painted(paint[triangle], front)
     brightness = _brightness(mesh, where, facing)
     lit = colour * (brightness if paint is None else 1 - _ON_COLOURS * (1 - brightness))[:, None]
-    out = np.zeros((seen.triangle.size, 4))
-    out[hit] = np.column_stack([lit.clip(0, 1), np.ones(len(lit))])[which]
-    return out.reshape(*seen.triangle.shape, 4)
+    rows, columns = seen.pixels.rows // 2, seen.pixels.columns // 2
+    sums = [np.bincount(pixel, weight * share, rows * columns) for share in (*lit.clip(0, 1).T, 1.0)]
+    return np.stack(sums, axis=-1).reshape(rows, columns, 4)
 
 
-def _one_of_each_four(seen: Seen, hit: Ints) -> tuple[Ints, Ints]:
-    """Return one sample for each pixel and triangle seen in it, and which of them stands for each sample.
+def _parts(mesh: Mesh, paint: Floats | None) -> Ints:
+    """Return a number for each triangle: triangles of the same colour have the same."""
+    if paint is None:
+        return np.arange(len(mesh.faces))
+    return np.asarray(np.unique(paint, axis=0, return_inverse=True)[1].ravel())
 
-    Light changes slowly along a triangle: samples of one pixel need not be lit one by one.
+
+def _samples_to_light(seen: Seen, part: Ints) -> tuple[Ints, Ints, Floats]:
+    """Return one sample for each pixel and part seen in it, the pixel, and what share of it sees that part.
+
+    Light changes slowly along a part: the four samples of one pixel need not be lit one by one.
     """
-    row, column = np.divmod(hit, seen.pixels.columns)
-    block = (row // 2) * ((seen.pixels.columns + 1) // 2) + column // 2
-    keys = block * (int(seen.triangle.max(initial=0)) + 1) + seen.triangle.ravel()[hit]
-    _, first, which = np.unique(keys, return_index=True, return_inverse=True)
-    return hit[first], which
+    rows, columns = seen.pixels.rows // 2, seen.pixels.columns // 2
+    number = np.append(part, -1)[seen.triangle]
+    fours = number.reshape(rows, 2, columns, 2).transpose(1, 3, 0, 2).reshape(4, -1)
+    alike = ((fours[1] == fours[0]) & (fours[2] == fours[0]) & (fours[3] == fours[0])).ravel()
+    whole, mixed = np.flatnonzero(alike & (fours[0] >= 0)), np.flatnonzero(~alike)
+    same = fours[:, None, mixed] == fours[:, mixed]
+    is_first = ~np.tril(same.transpose(2, 0, 1), -1).any(axis=2).T & (fours[:, mixed] >= 0)
+    quarter, place = np.nonzero(is_first)
+    pixel = np.concatenate([whole, mixed[place]])
+    row, column = np.divmod(pixel, columns)
+    quarter = np.concatenate([np.zeros_like(whole), quarter])
+    sample = (2 * row + quarter // 2) * seen.pixels.columns + 2 * column + quarter % 2
+    return sample, pixel, np.concatenate([np.ones(len(whole)), same.sum(axis=1)[is_first] / 4])
 
 
 def _is_steep(mesh: Mesh, view: View) -> Bools:
@@ -241,15 +261,17 @@ def _rimmed(body: Floats, seen: Seen, is_steep: Bools) -> Floats:
     """Pale the surface just behind the edges of what lies well before it, so that the two stand apart."""
     from scipy.ndimage import gaussian_filter, maximum_filter, minimum_filter
 
-    depth, size = seen.depth[::2, ::2], 2 * seen.pixels.size
+    depth, size = seen.depth[::2, ::2].astype(np.float32), 2 * seen.pixels.size
     solid = np.isfinite(depth)
     flat = solid & ~is_steep[seen.triangle[::2, ::2]]
-    behind = minimum_filter(np.where(flat, depth, np.inf), 3)
-    edge = np.where(solid & (depth > behind + _STEEPEST * size), depth, -np.inf)
+    back = np.where(flat, depth, np.float32(np.inf))
+    edge = np.where(depth > minimum_filter(back, 3) + _STEEPEST * size, depth, np.float32(-np.inf))
+    if not np.isfinite(edge).any():
+        return body
     reach = max(round(_RIM * max(depth.shape)), 1)
     y, x = np.mgrid[-reach : reach + 1, -reach : reach + 1]
     nearest = maximum_filter(edge, footprint=x**2 + y**2 <= (reach + 0.5) ** 2)
-    far = flat & (nearest > np.where(flat, depth, np.inf) + _STEEPEST * reach * size / 2)
+    far = flat & (nearest > back + _STEEPEST * reach * size / 2)
     rim = _RIM_STRENGTH * gaussian_filter(far.astype(float), 0.6)[..., None]
     return np.asarray(body * (1 - rim) + body[..., 3:] * rim)
 
@@ -284,13 +306,6 @@ def _cloth(mesh: Mesh, height: Floats, front: Bools) -> Floats:
 
 def _painted(colour: Floats, front: Bools) -> Floats:
     return np.where(front[:, None], colour, 0.5 * colour + 0.5)
-
-
-def _average(image: Floats) -> Floats:
-    """Average blocks of two by two."""
-    rows, columns = image.shape[:2]
-    even = np.pad(image, ((0, rows % 2), (0, columns % 2), (0, 0)), mode="edge")
-    return np.asarray(even.reshape(even.shape[0] // 2, 2, even.shape[1] // 2, 2, 4).mean(axis=(1, 3)))
 
 
 def _floor(mesh: Mesh, view: View, pixels: Pixels) -> Floats:
