@@ -180,7 +180,7 @@ def _window(meshes: list[Mesh], size: int) -> Pixels:
 
 def _paper() -> npt.NDArray[np.uint8]:
     """Return red, green and blue of the paper."""
-    return np.rint(255 * np.array(rgb(PAPER))).astype(np.uint8)
+    return np.asarray(np.rint(255 * np.array(rgb(PAPER))), dtype=np.uint8)
 
 
 class _Paper:
@@ -194,7 +194,7 @@ class _Paper:
 
     def draw(self, image: Image, outline: Floats) -> _Frame:
         """Return one frame: the shaded image, and the curve where it is not hidden."""
-        renderer = self.canvas.get_renderer()
+        renderer = self.canvas.get_renderer()  # type: ignore[no-untyped-call]
         drawn = np.asarray(renderer.buffer_rgba())
         drawn[..., :3], drawn[..., 3] = _paper(), 255
         self._lay(image, drawn[::-1, :, :3])
