@@ -53,7 +53,8 @@ def fill_depths(buffer: DepthBuffer, corners: RealBuffer) -> None:
     --------
     >>> from array import array
     >>> depth, triangle = array("d", [float("-inf")] * 6), array("q", [-1] * 6)
-    >>> fill_depths(DepthBuffer(3, 2, depth, triangle), array("d", [-0.5, -0.5, 1, 1.8, -0.5, 1, -0.5, 1.8, 1]))
+    >>> corners = array("d", [-0.5, -0.5, 1, 1.8, -0.5, 1, -0.5, 1.8, 1])
+    >>> _ = fill_depths(DepthBuffer(3, 2, depth, triangle), corners)
     >>> triangle.tolist()
     [0, 0, -1, 0, -1, -1]
     """
