@@ -74,9 +74,9 @@ def follow_darts(
     >>> from array import array
     >>> following = array("q", [0] * 4)
     >>> room = memoryview(array("q", [0] * 4))
-    >>> follow_darts(array("q", [1, 0]), array("B", [1, 0]), array("q", [0, 2]), following, room)
+    >>> _ = follow_darts(array("q", [1, 0]), array("B", [1, 0]), array("q", [0, 2]), following, room)
     >>> following.tolist()
-    [2, 1, 0, 3]
+    [3, 1, 2, 0]
     """
     before, after = room[: len(partner)], room[len(partner) : 2 * len(partner)]
     border = 0

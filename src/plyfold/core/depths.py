@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from plyfold.core.buffers import RealBuffer, WholeBuffer
 
-__all__ = ["Corners", "DepthBuffer", "Slope", "count_hidden", "fill_depths"]
+__all__ = ["DepthBuffer", "SeenTriangle", "Slope", "count_hidden", "fill_depths"]
 
 
 class DepthBuffer:
@@ -28,7 +28,7 @@ class Slope:
         self.x = self.y = self.slope = self.rise = 0.0
 
 
-class Corners:
+class SeenTriangle:
     """The triangle at hand: its corners a, b and c, in units of pixels, with centres at whole numbers, and depths.
 
     ``turn`` is its doubled area, positive if it is counter-clockwise; ``right`` and ``up`` say how fast depth grows.
@@ -53,11 +53,12 @@ def fill_depths(buffer: DepthBuffer, corners: RealBuffer) -> None:
     --------
     >>> from array import array
     >>> depth, triangle = array("d", [float("-inf")] * 6), array("q", [-1] * 6)
-    >>> fill_depths(DepthBuffer(3, 2, depth, triangle), array("d", [-0.5, -0.5, 1, 1.8, -0.5, 1, -0.5, 1.8, 1]))
+    >>> corners = array("d", [-0.5, -0.5, 1, 1.8, -0.5, 1, -0.5, 1.8, 1])
+    >>> _ = fill_depths(DepthBuffer(3, 2, depth, triangle), corners)
     >>> triangle.tolist()
     [0, 0, -1, 0, -1, -1]
     """
-    triangle = Corners()
+    triangle = SeenTriangle()
     for number in range(len(corners) // 9):
         _read(triangle, corners, 9 * number)
         if triangle.turn != 0:
@@ -90,7 +91,7 @@ def count_hidden(buffer: DepthBuffer, projection: RealBuffer, points: RealBuffer
                 hidden[number] += 1
 
 
-def _read(triangle: Corners, corners: RealBuffer, start: int) -> None:
+def _read(triangle: SeenTriangle, corners: RealBuffer, start: int) -> None:
     triangle.ax, triangle.ay, triangle.az = corners[start], corners[start + 1], corners[start + 2]
     triangle.bx, triangle.by, triangle.bz = corners[start + 3], corners[start + 4], corners[start + 5]
     triangle.cx, triangle.cy, triangle.cz = corners[start + 6], corners[start + 7], corners[start + 8]
@@ -104,7 +105,7 @@ def _read(triangle: Corners, corners: RealBuffer, start: int) -> None:
     triangle.highest = max(triangle.az, triangle.bz, triangle.cz)
 
 
-def _fill_rows(buffer: DepthBuffer, triangle: Corners, number: int) -> None:
+def _fill_rows(buffer: DepthBuffer, triangle: SeenTriangle, number: int) -> None:
     first = _first_above(min(triangle.ay, triangle.by, triangle.cy), buffer.rows)
     for row in range(first, _count_up_to(max(triangle.ay, triangle.by, triangle.cy), buffer.rows)):
         buffer.left, buffer.right = -1.0, buffer.columns
@@ -114,7 +115,7 @@ def _fill_rows(buffer: DepthBuffer, triangle: Corners, number: int) -> None:
         _fill_row(buffer, triangle, number, row)
 
 
-def _fill_row(buffer: DepthBuffer, triangle: Corners, number: int, row: int) -> None:
+def _fill_row(buffer: DepthBuffer, triangle: SeenTriangle, number: int, row: int) -> None:
     """Fill the pixels between left and right; rounding makes no depth that the triangle does not have."""
     first = _first_above(buffer.left, buffer.columns)
     for column in range(first, _count_up_to(buffer.right, buffer.columns)):

@@ -87,7 +87,7 @@ class CurveDirection:
         --------
         >>> from array import array
         >>> triangle, left = CurveDirection(), array("q", [0])
-        >>> triangle.settle(array("q"), array("B"), 0, False, left)
+        >>> _ = triangle.settle(array("q"), array("B"), 0, False, left)
         >>> triangle.turning, triangle.turned_round, triangle.outer, left.tolist()
         (1, True, 1, [1])
         """

@@ -52,7 +52,7 @@ class Meetings:
     >>> eight, real, whole = Meetings(lambda: None), memoryview(array("d", [0.0] * 24)), array("q", [0] * 16)
     >>> eight.find(array("d", [0, 0, 2, 2, 2, 0, 0, 2]), array("q", [1, 2, 3, 0]), real, memoryview(whole))
     >>> eight.crossings.as_array().tolist(), eight.touches.size
-    ([0, 4], 0)
+    ([0, 5], 0)
     """
 
     def __init__(self, step: Callable[[], None]) -> None:

@@ -226,6 +226,7 @@ def wants_flip(corners: Corners, u: int, b: int, v: int, a: int) -> bool:
     Examples
     --------
     >>> from array import array
+    >>> from plyfold.core.turns import ExactPoints
     >>> kite = array("d", [0, 0, 0.5, -0.125, 1, 0, 0.5, 0.125])
     >>> wants_flip(Corners(ExactPoints(kite), kite), 0, 1, 2, 3)
     True

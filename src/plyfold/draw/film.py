@@ -69,13 +69,13 @@ def save_film(  # noqa: PLR0913 - options
     surface : Surface
     path : path
         Ending in ``.gif``, or ``.mp4``; for this the program ffmpeg must be installed.
-    force : bool
+    force : bool, optional
         Replace an existing file.
     progress : callable, optional
         Called with a few words and the fraction done.
-    size : int
+    size : int, optional
         Width and height in pixels, from 16 to 1600; for MP4 it must be even.
-    frames : int
+    frames : int, optional
         How many pictures there are from the disk to the surface, from 3 to 101; on the way back they are shown again.
         The film takes as long with many as with few: there and back, with rests, seven seconds.
 
@@ -102,7 +102,8 @@ def save_film(  # noqa: PLR0913 - options
     >>> surface = lift([(0, 0), (2, 0), (2, 1), (0, 1)], triangles=50)
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     save_film(surface, f"{folder}/sheet.gif", size=60, frames=5)
-    ...     Picture.open(f"{folder}/sheet.gif").size
+    ...     with Picture.open(f"{folder}/sheet.gif") as film:
+    ...         film.size
     (60, 60)
     """
     refuse_film(path, size, frames)
@@ -180,7 +181,7 @@ def _window(meshes: list[Mesh], size: int) -> Pixels:
 
 def _paper() -> npt.NDArray[np.uint8]:
     """Return red, green and blue of the paper."""
-    return np.rint(255 * np.array(rgb(PAPER))).astype(np.uint8)
+    return np.asarray(np.rint(255 * np.array(rgb(PAPER))), dtype=np.uint8)
 
 
 class _Paper:
@@ -194,7 +195,7 @@ class _Paper:
 
     def draw(self, image: Image, outline: Floats) -> _Frame:
         """Return one frame: the shaded image, and the curve where it is not hidden."""
-        renderer = self.canvas.get_renderer()
+        renderer = self.canvas.get_renderer()  # type: ignore[no-untyped-call]
         drawn = np.asarray(renderer.buffer_rgba())
         drawn[..., :3], drawn[..., 3] = _paper(), 255
         self._lay(image, drawn[::-1, :, :3])

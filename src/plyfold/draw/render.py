@@ -220,7 +220,7 @@ def _body(mesh: Mesh, view: View, seen: Seen, paint: Floats | None) -> Floats:
     lit = colour * (brightness if paint is None else 1 - _ON_COLOURS * (1 - brightness))[:, None]
     rows, columns = seen.pixels.rows // 2, seen.pixels.columns // 2
     sums = [np.bincount(pixel, weight * share, rows * columns) for share in (*lit.clip(0, 1).T, 1.0)]
-    return np.stack(sums, axis=-1).reshape(rows, columns, 4)
+    return np.asarray(np.stack(sums, axis=-1).reshape(rows, columns, 4), dtype=np.float64)
 
 
 def _parts(mesh: Mesh, paint: Floats | None) -> Ints:
