@@ -106,7 +106,7 @@ class TestHalving:
     @staticmethod
     def drawn(seed):
         rng = np.random.default_rng(seed)
-        angle = np.sort(rng.uniform(0, 2 * np.pi, 12))
+        angle = 2 * np.pi / 12 * (np.arange(12) + rng.uniform(0, 0.9, 12))
         star = rng.uniform(0.1, 1.0, 12)[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
         cells = triangulate_cells(pf.arrange(star), triangles=300)
         mesh = disk_of(cells.points, cells.triangles)
