@@ -2,6 +2,8 @@
 cimport cython
 from libc.stdint cimport int64_t
 
+from plyfold.core.sides cimport next_side
+
 @cython.final
 cdef class HalvedMesh:
     cdef int64_t[::1] corner, twin, origin, target, ends
@@ -21,4 +23,3 @@ cdef Py_ssize_t _split(HalvedMesh mesh, Py_ssize_t side, Py_ssize_t middle) exce
 cdef Py_ssize_t _longest(HalvedMesh mesh, Py_ssize_t triangle) except -1
 cdef double _length(HalvedMesh mesh, Py_ssize_t side) except? -1
 cdef double _distance(HalvedMesh mesh, Py_ssize_t start, Py_ssize_t end) except? -1
-cdef Py_ssize_t _next(Py_ssize_t side) except -1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from plyfold.core.buffers import RealBuffer, WholeBuffer
+from plyfold.core.sides import next_side
 
 __all__ = ["HalvedMesh", "halve_towards"]
 
@@ -98,7 +99,7 @@ def _halve_at(mesh: HalvedMesh, triangle: int) -> bool:
 
 def _halve(mesh: HalvedMesh, side: int) -> None:
     """Put a vertex in the middle of an edge, and join it to what is on both sides."""
-    other, start, end, middle = mesh.twin[side], mesh.corner[side], mesh.corner[_next(side)], mesh.vertices
+    other, start, end, middle = mesh.twin[side], mesh.corner[side], mesh.corner[next_side(side)], mesh.vertices
     mesh.ends[2 * (middle - mesh.given)], mesh.ends[2 * (middle - mesh.given) + 1] = start, end
     mesh.x[middle] = mesh.x[start] / 2 + mesh.x[end] / 2
     mesh.y[middle] = mesh.y[start] / 2 + mesh.y[end] / 2
@@ -115,8 +116,8 @@ def _halve(mesh: HalvedMesh, side: int) -> None:
 
 def _split(mesh: HalvedMesh, side: int, middle: int) -> int:
     """Split the triangle on the left of a side at its middle; return the further half of the side."""
-    ahead, added = _next(side), 3 * mesh.triangles
-    back, outer = _next(ahead), mesh.twin[ahead]
+    ahead, added = next_side(side), 3 * mesh.triangles
+    back, outer = next_side(ahead), mesh.twin[ahead]
     mesh.corner[added], mesh.corner[added + 1], mesh.corner[added + 2] = middle, mesh.corner[ahead], mesh.corner[back]
     mesh.twin[added], mesh.twin[added + 1], mesh.twin[added + 2] = -1, outer, ahead
     mesh.corner[ahead], mesh.twin[ahead] = middle, added + 2
@@ -138,14 +139,10 @@ def _longest(mesh: HalvedMesh, triangle: int) -> int:
 
 def _length(mesh: HalvedMesh, side: int) -> float:
     """Return the square of the length of a side."""
-    return _distance(mesh, mesh.corner[side], mesh.corner[_next(side)])
+    return _distance(mesh, mesh.corner[side], mesh.corner[next_side(side)])
 
 
 def _distance(mesh: HalvedMesh, start: int, end: int) -> float:
     """Return the square of the distance of two vertices."""
     x, y = mesh.x[end] - mesh.x[start], mesh.y[end] - mesh.y[start]
     return x * x + y * y
-
-
-def _next(side: int) -> int:
-    return side - 2 if side % 3 == 2 else side + 1

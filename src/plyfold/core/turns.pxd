@@ -1,5 +1,7 @@
 # C types of `turns.py`.
-cdef double _ORIENT_ERROR, _UNDERFLOW, _SPLITTER, _LEAST, _LARGEST
+from plyfold.core.signs cimport quick_sign, rest_of_product
+
+cdef double _LEAST, _LARGEST
 
 cdef class ExactPoints:
     cdef readonly const double[::1] places

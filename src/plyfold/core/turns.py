@@ -8,15 +8,11 @@ import numpy as np
 
 from plyfold.arrays import Reals
 from plyfold.core.buffers import RealBuffer, flat, real_room
-from plyfold.core.signs import sign_of_fractions
+from plyfold.core.signs import quick_sign, rest_of_product, sign_of_fractions
 from plyfold.predicates import exact_cross
 
 __all__ = ["ExactPoints", "points_for_turns", "turn"]
 
-# See `predicates`, which has the same bounds.
-_ORIENT_ERROR = 6.7e-16
-_UNDERFLOW = 1e-290
-_SPLITTER = 134217729.0
 # Between these sizes no product of two coordinates over- or underflows, nor what rounding takes off it.
 _LEAST, _LARGEST = 1e-130, 1e140
 
@@ -60,12 +56,9 @@ def turn(points: ExactPoints, a: int, b: int, c: int) -> int:
     ax, ay = points.places[2 * a], points.places[2 * a + 1]
     bx, by = points.places[2 * b], points.places[2 * b + 1]
     cx, cy = points.places[2 * c], points.places[2 * c + 1]
-    left, right = (bx - ax) * (cy - ay), (by - ay) * (cx - ax)
-    bound = _ORIENT_ERROR * (abs(left) + abs(right)) + _UNDERFLOW
-    if left - right > bound:
-        return 1
-    if right - left > bound:
-        return -1
+    sign = quick_sign(ax, ay, bx, by, ax, ay, cx, cy)
+    if sign <= 1:
+        return sign
     if not (_is_moderate(ax, ay) and _is_moderate(bx, by) and _is_moderate(cx, cy)):
         return sign_of_fractions(ax, ay, bx, by, ax, ay, cx, cy)
     return _exact_turn(points, ax, ay, bx, by, cx, cy)
@@ -107,14 +100,9 @@ def _exact_turn(points: ExactPoints, ax: float, ay: float, bx: float, by: float,
 
 
 def _add_product(points: ExactPoints, size: int, one: float, other: float) -> None:
-    """Add a product to a sum of so many numbers: what rounding takes off it first (Dekker, Veltkamp)."""
-    shifted, other_shifted = _SPLITTER * one, _SPLITTER * other
-    high, other_high = shifted - (shifted - one), other_shifted - (other_shifted - other)
-    low, other_low = one - high, other - other_high
-    product = one * other
-    rest = low * other_low - (((product - high * other_high) - low * other_high) - high * other_low)
-    _add_exactly(points, size, rest)
-    _add_exactly(points, size + 1, product)
+    """Add a product to a sum of so many numbers: what rounding takes off it first."""
+    _add_exactly(points, size, rest_of_product(one, other))
+    _add_exactly(points, size + 1, one * other)
 
 
 def _add_exactly(points: ExactPoints, size: int, number: float) -> None:
