@@ -1,5 +1,6 @@
 """``-o -``: files to standard output, sentences to standard error."""
 
+import json
 import subprocess
 import sys
 
@@ -35,6 +36,12 @@ def test_other_commands(words, beginning):
     assert piped.returncode == 0, piped.stderr
     assert piped.stdout.startswith(beginning)
     assert piped.stdout
+
+
+def test_json_calls_it_standard_output():
+    piped = run("lift", "gallery:exit-ramp", "--triangles", "50", "--json", "-o", "-", "--format", "ply")
+    assert piped.stdout.startswith(b"ply")
+    assert json.loads(piped.stderr.splitlines()[-1])["written"] == ["standard output"]
 
 
 @pytest.mark.parametrize(

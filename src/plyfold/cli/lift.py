@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from plyfold.cli.inputs import DISK, add_command, add_outputs, add_repair, add_time_limit, prepare, title
 from plyfold.cli.progress import Stopwatch, timing
-from plyfold.cli.standard_output import say_written
+from plyfold.cli.standard_output import name_of_output, say_written
 from plyfold.clock import Clock
 from plyfold.errors import InputError
 from plyfold.wording import counted
@@ -60,37 +60,8 @@ def add_lift_command(commands: Any) -> None:
     )
     lift.add_argument("--triangles", type=int, default=4000, help="roughly how many triangles (default: %(default)s)")
     _add_height_options(lift)
-    lift.add_argument(
-        "--thicken",
-        type=float,
-        metavar="T",
-        help="a solid to be printed, T thick in vertical direction; less than the gap",
-    )
-    lift.add_argument(
-        "--min-wall",
-        type=float,
-        metavar="W",
-        help="with --thicken: make the solid thicker where it is steep, until it is W thick across everywhere",
-    )
-    lift.add_argument(
-        "--inflate",
-        nargs="?",
-        type=float,
-        const=True,
-        metavar="HEIGHT",
-        help="a round body, thick in the middle and thin at the outline, HEIGHT thick at most (default: by its width)",
-    )
-    lift.add_argument(
-        "--profile",
-        choices=["round", "flat"],
-        help="with --inflate: elliptic, or a plateau with a round rim (default: round)",
-    )
-    lift.add_argument(
-        "--size", type=int, metavar="PIXELS", help="of a film: width and height, from 16 to 1600 (default: 480)"
-    )
-    lift.add_argument(
-        "--frames", type=int, metavar="N", help="of a film: pictures from disk to surface, from 3 to 101 (default: 33)"
-    )
+    _add_solid_options(lift)
+    _add_film_options(lift)
     lift.add_argument("--json", action="store_true", help="print one JSON object and nothing else (see below)")
     lift.epilog, lift.formatter_class = _JSON_GUIDE, argparse.RawDescriptionHelpFormatter
     lift.add_argument(
@@ -126,7 +97,8 @@ def _lift(options: argparse.Namespace) -> int:
     watch.stop()
     figures = _figures(surface if solid is None else solid.surface, solid)
     if options.json:
-        print(json.dumps(figures | {"written": options.output, "seconds": watch.seconds}), flush=True)
+        written = [name_of_output(path) for path in options.output]
+        print(json.dumps(figures | {"written": written, "seconds": watch.seconds}), flush=True)
         return DISK
     print("\n".join([*_report(figures), timing(watch)]))
     for path in options.output:
@@ -263,6 +235,45 @@ def _add_height_options(command: argparse.ArgumentParser) -> None:
         const=True,
         metavar="W",
         help="keep parts level that nothing overlaps: they are W times as stiff, 100 times if no number follows",
+    )
+
+
+def _add_solid_options(command: argparse.ArgumentParser) -> None:
+    """Give the options of slabs and of round bodies to a subcommand."""
+    command.add_argument(
+        "--thicken",
+        type=float,
+        metavar="T",
+        help="a solid to be printed, T thick in vertical direction; less than the gap",
+    )
+    command.add_argument(
+        "--min-wall",
+        type=float,
+        metavar="W",
+        help="with --thicken: make the solid thicker where it is steep, until it is W thick across everywhere",
+    )
+    command.add_argument(
+        "--inflate",
+        nargs="?",
+        type=float,
+        const=True,
+        metavar="HEIGHT",
+        help="a round body, thick in the middle and thin at the outline, HEIGHT thick at most (default: by its width)",
+    )
+    command.add_argument(
+        "--profile",
+        choices=["round", "flat"],
+        help="with --inflate: elliptic, or a plateau with a round rim (default: round)",
+    )
+
+
+def _add_film_options(command: argparse.ArgumentParser) -> None:
+    """Give the options of films to a subcommand."""
+    command.add_argument(
+        "--size", type=int, metavar="PIXELS", help="of a film: width and height, from 16 to 1600 (default: 480)"
+    )
+    command.add_argument(
+        "--frames", type=int, metavar="N", help="of a film: pictures from disk to surface, from 3 to 101 (default: 33)"
     )
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from plyfold.errors import InputError
 
-__all__ = ["asks_for_standard_output", "say_written", "through_standard_output"]
+__all__ = ["asks_for_standard_output", "name_of_output", "say_written", "through_standard_output"]
 
 _NAME = "standard-output"
 
@@ -53,6 +53,17 @@ def _send(folder: Path, path: Path) -> None:
         sys.stdout.buffer.write(path.read_bytes())
 
 
+def name_of_output(path: str) -> str:
+    """Return what an output is called: its path, or standard output.
+
+    Examples
+    --------
+    >>> name_of_output("loop.glb"), name_of_output("/tmp/plyfold-1/standard-output.glb")
+    ('loop.glb', 'standard output')
+    """
+    return "standard output" if Path(path).stem == _NAME else path
+
+
 def say_written(path: str) -> None:
     """Say that an output has been written."""
-    print(f"  wrote {'standard output' if Path(path).stem == _NAME else path}")
+    print(f"  wrote {name_of_output(path)}")
