@@ -30,7 +30,7 @@ test-slow: $(READY)  ## The tests that take minutes: every curve with six crossi
 	@$(MAKE) --no-print-directory browser 2>/dev/null || echo "The tests of the pages are skipped."
 	$(BIN)/python -m pytest -n 2 -m slow
 
-nightly: $(READY)  ## 100,000 random curves, lists of curves and outlines that touch themselves, and 10,000 fronts of bodies, against the slow references: three hours; OPTIONS="--seconds 60" for a taste
+nightly: $(READY)  ## 100,000 random curves, lists of curves and outlines that touch themselves, 10,000 fronts of bodies and 1,000 solids, against the slow references: three hours; OPTIONS="--seconds 60" for a taste
 	PYTHONPATH=tests $(BIN)/python -m nightly $(OPTIONS)
 	PYTHONPATH=tests $(BIN)/python -m nightly.disturbed
 	PYTHONPATH=tests $(BIN)/python -m nightly.scales
@@ -38,6 +38,7 @@ nightly: $(READY)  ## 100,000 random curves, lists of curves and outlines that t
 	PYTHONPATH=tests $(BIN)/python -m nightly.fills
 	PYTHONPATH=tests $(BIN)/python -m nightly.repairs
 	PYTHONPATH=tests $(BIN)/python -m nightly.contacts
+	PYTHONPATH=tests $(BIN)/python -m nightly.solids
 
 browser:  ## A browser for the tests of the pages, where there is none: Debian's Chromium, if this is root on Debian
 	@for program in chromium chromium-browser google-chrome; do \
