@@ -23,18 +23,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from plyfold.arrays import Floats
+from plyfold.arrays import Floats, Ints
 from plyfold.core.buffers import all_flat
-from plyfold.core.sweep import sweep_over
+from plyfold.core.sweep import Drawing, sweep_over
 from plyfold.core.turns import points_for_turns
 from plyfold.errors import PlyfoldError, PrecisionError
-from plyfold.flat.sweep_line import TILTS, sweep_plan
-from plyfold.flat.swept_drawing import swept_drawing
+from plyfold.flat.sweep_line import TILTS, SweepPlan, sweep_order, sweep_plan
 from plyfold.halfedges import GluedTriangles, twins_of_edges
 from plyfold.immersion.immersion import Immersion
 from plyfold.mesh.begun import drawings_of
-from plyfold.mesh.refine import given_outline, is_moved
-from plyfold.mesh.sheets import twisted_bridges
+from plyfold.mesh.refine import borders_at_points, drawn_outline, given_outline, is_moved
+from plyfold.mesh.sheets import seams_of, twisted_bridges
 from plyfold.predicates import orient
 
 __all__ = ["sweep_as_drawn", "sweep_triangles"]
@@ -103,7 +102,7 @@ def _swept_triangles(immersion: Immersion, tilt: float, given: Floats | None) ->
     They are all, unless moved strands confuse the line.
     """
     plan = sweep_plan(immersion.arrangement, twisted_bridges(immersion), tilt)
-    drawing, points = swept_drawing(immersion, plan), points_for_turns(plan.exact)
+    drawing, points = _swept_drawing(immersion, plan), points_for_turns(plan.exact)
     corners = points if given is None else points_for_turns(given)
     # Room for one more: if there were more, that would be seen.
     faces, sides = np.empty((2, _expected(immersion) + 1, 3), dtype=np.int64)
@@ -114,3 +113,33 @@ def _swept_triangles(immersion: Immersion, tilt: float, given: Floats | None) ->
             raise
         found = 0
     return GluedTriangles(faces[:found], twins_of_edges(sides[:found].ravel()))
+
+
+def _swept_drawing(immersion: Immersion, plan: SweepPlan) -> Drawing:
+    """Return the drawing of an immersion for a line that sweeps over it."""
+    arrangement, n, bridges = immersion.arrangement, plan.n_vertices, len(plan.bridges)
+    order = sweep_order(plan)
+    rank = np.empty(n + len(arrangement.partner), dtype=np.int64)
+    rank[order] = np.arange(len(order))
+    seams = seams_of(immersion)
+    bridge_of_foot, bridge_at = np.full(len(arrangement.partner), -1), np.full(n, -1)
+    bridge_of_foot[plan.second_foot], bridge_at[plan.first_foot] = np.arange(bridges), np.arange(bridges)
+    preceding = np.empty(n, dtype=np.int64)
+    preceding[plan.following[:n]] = np.arange(n)
+    places = order, np.concatenate([rank[:n], rank[plan.first_foot], rank[n + plan.second_foot]])
+    visits = arrangement.partner, arrangement.visit_edge, arrangement.border_before, arrangement.border_after
+    around = *borders_at_points(arrangement), np.concatenate(drawn_outline(arrangement).cusps)
+    turned = _edges_before_bridges(plan, rank, preceding)
+    feet = bridge_of_foot, bridge_at, plan.above, turned, arrangement.n_borders + plan.bridges
+    gluing = immersion.own_sheet, seams.row, seams.table
+    return Drawing(*all_flat(*places, plan.following, preceding, *visits, *around, *feet, *gluing))
+
+
+def _edges_before_bridges(plan: SweepPlan, rank: Ints, preceding: Ints) -> Ints:
+    """Return how many edges of its first foot lie behind the line, above each bridge.
+
+    A bridge runs to the left from a leftmost vertex. What else is behind the line there is above it, all or nothing.
+    """
+    foot = plan.first_foot
+    behind = sum((rank[end[foot]] < rank[foot]).astype(np.int64) for end in (preceding, plan.following))
+    return np.asarray(behind if plan.tilt < 0 else np.zeros(len(foot), dtype=np.int64))
