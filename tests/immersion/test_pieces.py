@@ -4,7 +4,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 
 import plyfold as pf
 from plyfold.errors import CurveError
@@ -131,7 +131,8 @@ def test_random_polygons_loops_and_cusps():
     assert {1, 2, 3} <= {len(pieces) for pieces in found if pieces}
 
 
-@settings(max_examples=20, deadline=None)
+# Most touch nowhere, and another seed may bring many of these first.
+@settings(max_examples=20, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
 @given(grown_outlines())
 def test_grown_disks(points):
     assume(is_moved(pf.arrange(points)))

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
@@ -106,7 +106,8 @@ def test_strands_side_by_side_are_in_order():
     assert noding.times[part[beside]] == 0
 
 
-@settings(max_examples=50, deadline=None)
+# Most touch nowhere, and another seed may bring many of these first.
+@settings(max_examples=50, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
 @given(grown_outlines(), st.sampled_from([0, 40]))
 def test_what_is_left_is_bounded_by_the_outline_but_for_necks(points, triangles):
     arrangement = pf.arrange(points)

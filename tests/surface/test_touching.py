@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 
 import plyfold as pf
 from plyfold.certify import check_boundary, check_layered, check_solid, check_surface
@@ -35,7 +35,8 @@ def test_lifted_on_the_given_points(outline, kinds, layers):
     assert set(map(tuple, outline)) <= set(map(tuple, surface.vertices[:, :2].tolist()))
 
 
-@settings(max_examples=25, deadline=None)
+# Most touch nowhere, and another seed may bring many of these first.
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
 @given(grown_outlines())
 def test_grown_disks(points):
     arrangement = pf.arrange(points)
