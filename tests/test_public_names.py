@@ -37,6 +37,7 @@ def test_public_names():
         "best_immersion",
         "blank_word",
         "bounds_disk",
+        "census",
         "certify",
         "changed_borders",
         "count_embeddings",

@@ -31,6 +31,7 @@ ORDER = [
     ["graphs"],
     ["outline"],
     ["io"],
+    ["tables"],
     ["arrangement"],
     ["immersion"],
     ["layering"],
@@ -43,7 +44,7 @@ ORDER = [
     ["gallery"],
     ["report"],
     ["draw"],
-    ["sketch"],
+    ["sketch", "census"],
     ["plyfold"],
     ["cli"],
 ]
@@ -80,6 +81,7 @@ SAME_THINGS = {
 
 _SMALL = "small drawings are arranged and decided before it is imported, or without it"
 _STAGE = "its import is the stage that loads libraries, in which no other one's seconds are"
+_OPTIONAL = "it need not be installed"
 # Libraries that functions import when they are called: (file, library): the reason.
 LATE = {
     ("plyfold.arrangement.noding", "shapely"): _SMALL,
@@ -97,7 +99,10 @@ LATE = {
     ("plyfold.outline.direction", "shapely"): _SMALL,
     ("plyfold.outline.given", "shapely"): _SMALL,
     ("plyfold.sat", "pysat"): _STAGE,
-    ("plyfold.surface.files", "trimesh"): "it need not be installed",
+    ("plyfold.surface.files", "trimesh"): _OPTIONAL,
+    ("plyfold.tables.cluster", "distributed"): _OPTIONAL,
+    ("plyfold.tables.table", "pandas"): _OPTIONAL,
+    ("plyfold.tables.table", "pyarrow"): _OPTIONAL,
     ("plyfold.surface.heights", "scipy"): _STAGE,
 }
 

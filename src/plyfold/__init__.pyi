@@ -1,4 +1,5 @@
 # The public names, and where they are defined. Modules that are listed here are public with all of their names.
+from . import census as census
 from . import certify as certify
 from . import draw as draw
 from . import errors as errors

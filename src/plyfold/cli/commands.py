@@ -7,6 +7,7 @@ import importlib
 import json
 
 from plyfold import __version__
+from plyfold.cli.census import add_census_command
 from plyfold.cli.check import add_check_command
 from plyfold.cli.convert import add_convert_command
 from plyfold.cli.draw import add_draw_command
@@ -33,6 +34,7 @@ _COMMANDS = (
     add_repair_command,
     add_convert_command,
     add_gallery_command,
+    add_census_command,
     add_sketch_command,
 )
 
@@ -52,6 +54,7 @@ examples:
   plyfold convert letter.svg -o letter.json  the outline in another format, with its holes and cusps
   plyfold word loop.svg                      Blank's word and its groupings
   plyfold gallery                            named curves to begin with
+  plyfold census 8 --page census.html        all plane curves with 8 crossings
   plyfold sketch                             draw in the browser, and see at once how it lies
   plyfold lift gallery:exit-ramp -o ramp.glb
 
