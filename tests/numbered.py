@@ -1,5 +1,6 @@
 """A table of numbers in parts, for tests of how tables are made: other processes must be able to import it."""
 
+import time
 from pathlib import Path
 
 import numpy as np
@@ -29,4 +30,9 @@ def make_part(folder, number):
 def failing_part(folder, number):
     if number == 2 and not (Path(folder) / "mended").exists():
         raise ValueError("no part 2 yet")
+    return make_part(folder, number)
+
+
+def slow_part(folder, number):
+    time.sleep(0.2)
     return make_part(folder, number)

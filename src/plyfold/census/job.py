@@ -41,9 +41,9 @@ class Cost:
     size: int
 
 
-def census_job(n_crossings: int) -> Job:
-    """Return the census of curves with so many crossings, in as many parts as are of a handy size."""
-    n_parts = min(max(number_of_plane_curves(n_crossings) // _CURVES_PER_PART, 1), _MOST_PARTS)
+def census_job(n_crossings: int, n_parts: int | None = None) -> Job:
+    """Return the census of curves with so many crossings, by default in as many parts as are of a handy size."""
+    n_parts = n_parts or min(max(number_of_plane_curves(n_crossings) // _CURVES_PER_PART, 1), _MOST_PARTS)
     return Job({"census": n_crossings}, n_parts, partial(_part, n_crossings, n_parts))
 
 
