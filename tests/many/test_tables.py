@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -96,6 +97,7 @@ def test_notes_alone(tmp_path):
 KILLED = """
 import sys
 from functools import partial
+from pathlib import Path
 sys.path.insert(0, {tests!r})
 from numbered import slow_part
 from plyfold.tables.parts import Job, write_table
