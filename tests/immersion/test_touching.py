@@ -13,6 +13,8 @@ from plyfold.arrangement.general_position import InContact, without_contacts
 from plyfold.arrangement.ways import ways_apart
 from plyfold.errors import CurveError
 from plyfold.immersion.obstructions import touches_as_no_disk
+from plyfold.immersion.solve import nth_immersion
+from plyfold.report import verdict
 from reference import contacts as reference
 from reference.contacts import Answer, may_bound, random_touching, without_spikes
 from reference.crossings import base_visit, exact
@@ -303,3 +305,22 @@ def test_edges_through_one_point_are_no_contact():
         assert len(found.arrangement.contacts) == 0
         assert found.arrangement.outline.repairs
         assert answer(outline) == (1, 1)
+
+
+TWO_WAYS = [(-7, 1), (8, -2), (-5, -3), (-4, 9), (5, 7), (6, -2), (-7, 1), (-1, 8), (-2, 8), (6, 1), (4, -2), (-2, 8)]
+TWO_WAYS += [(1, 8), (5, 0), (5, 1), (1, -1), (2, -1)]
+
+
+def test_a_disk_that_does_not_touch_itself_comes_first():
+    """One of the two disks touches itself; which of them is found first depends on how the drawing lies on the page."""
+    for position in reference.positions(TWO_WAYS):
+        for outline in (position, position[::-1], position[5:] + position[:5]):
+            listed = list(pf.immersions(outline))
+            assert [len(immersion.touches) for immersion in listed] == [0, 2]
+            assert pf.bounds_disk(outline, touching=False)
+            for number, immersion in enumerate(listed):
+                assert nth_immersion(outline, number).own_sheet.tolist() == immersion.own_sheet.tolist()
+            assert pf.find_immersion(outline).own_sheet.tolist() == listed[0].own_sheet.tolist()
+            assert len(pf.triangulate(outline)) == len(outline) - 2
+            figures = verdict(pf.arrange(outline))
+            assert (figures["touches"], figures["euler_characteristic"], len(figures["pieces"])) == ([], 1, 1)

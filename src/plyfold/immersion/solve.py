@@ -161,6 +161,16 @@ def immersions(curve: OutlineLike, connected: bool = False) -> Iterator[Immersio
 
 def watched_immersions(arranged: Arrangement, watch: Watch, connected: bool = False) -> Iterator[Immersion]:
     """List the same as :func:`immersions`, or raise TimeLimitError."""
+    place = _place_of_strict(arranged, watch, connected)
+    if place:
+        yield next(islice(_listed(arranged, watch, connected), place, None))
+    for number, immersion in enumerate(_listed(arranged, watch, connected)):
+        if number != place or not place:
+            yield immersion
+
+
+def _listed(arranged: Arrangement, watch: Watch, connected: bool = False) -> Iterator[Immersion]:
+    """List the immersions as they are found."""
     watch = watch.begin("finding an immersion")
     if may_bound_disk(arranged):
         disks = None if is_visibly_no_disk(arranged) else find_disks(arranged, watch)
@@ -170,6 +180,23 @@ def watched_immersions(arranged: Arrangement, watch: Watch, connected: bool = Fa
         surfaces = find_surfaces(arranged)
         if surfaces is not None:
             yield from list_surfaces(surfaces, connected, watch)
+
+
+def _place_of_strict(arranged: Arrangement, watch: Watch, connected: bool = False) -> int:
+    """Return which immersion is found as the first one that does not touch itself; 0 if there is none.
+
+    It comes first in lists, for which immersion is found first depends on how the drawing lies on the page.
+    """
+    if arranged.given is None or len(arranged.contacts) == 0:
+        return 0
+    if len(list(islice(_listed(arranged, watch, connected), 2))) < 2:
+        return 0
+    for place, immersion in enumerate(_listed(arranged, watch, connected)):
+        if not immersion.touches:
+            return place
+        if place + 1 == _FEW and not _bounds_strictly_by_moves(arranged):
+            return 0
+    return 0
 
 
 @overload
@@ -240,34 +267,41 @@ def bounds_strictly(arranged: Arrangement) -> bool:
     """Tell whether the outline as given bounds a surface in the strict sense, which does not touch itself.
 
     A surface in the strict sense bears any small move, so one of those of the outline moved apart is the same, and
-    touches itself nowhere. Where there are too many to see each, moves inward tell: they can make many crossings. But
-    where cusps lie on each other, the surface may have the one beside the other on whatever side that moves, for it
-    goes all the way round; so there each is seen.
+    touches itself nowhere.
     """
-    found = (immersion for way in ways_apart(arranged) for immersion in watched_immersions(way, UNWATCHED))
-    moves_tell = arranged.given is None or number_of_ways(arranged.given) == 1
-    seen = islice(found, _FEW) if moves_tell else found
-    n_touching = 0
-    for immersion in seen:
-        if not immersion.touches:
-            return True
-        n_touching += 1
-    undecided = moves_tell and n_touching == _FEW
-    return undecided and any(_bounds_surface(way, UNWATCHED) for way in ways_apart(arranged, inward=True))
+    firsts = (next(watched_immersions(way, UNWATCHED), None) for way in ways_apart(arranged))
+    return any(first is not None and not first.touches for first in firsts)
+
+
+def _bounds_strictly_by_moves(arranged: Arrangement) -> bool:
+    """Tell the same by moves inward, which can make many crossings: for immersions too many to see each.
+
+    Where cusps lie on each other, the surface may have the one beside the other on whatever side that moves, for it
+    goes all the way round; so there each immersion is to be seen, and yes means no more than that.
+    """
+    if arranged.given is not None and number_of_ways(arranged.given) > 1:
+        return True
+    return any(_bounds_surface(way, UNWATCHED) for way in ways_apart(arranged, inward=True))
 
 
 def in_best_way(arranged: Arrangement, watch: Watch = UNWATCHED) -> Arrangement:
     """Return an outline with cusps that lie on each other moved apart so that it bounds a surface, if there is a way.
 
-    All other outlines stay as they are.
+    One that does not touch itself is better. All other outlines stay as they are.
     """
     if arranged.outline is None or not arranged.outline.has_cusps or len(arranged.contacts) == 0:
         return arranged
-    return next((way for way in ways_apart(arranged) if _bounds_surface(way, watch)), arranged)
+    good = []
+    for way in ways_apart(arranged):
+        first = next(watched_immersions(way, watch), None)
+        if first is not None and not first.touches:
+            return way
+        good += [way] if first is not None else []
+    return good[0] if good else arranged
 
 
 def _bounds_surface(arranged: Arrangement, watch: Watch) -> bool:
-    return next(watched_immersions(arranged, watch), None) is not None
+    return next(_listed(arranged, watch), None) is not None
 
 
 def sample_immersion(curve: OutlineLike, rng: np.random.Generator | int) -> Immersion | Obstruction:
@@ -348,6 +382,10 @@ def nth_immersion(curve: OutlineLike, index: int) -> Immersion:
     count = _count(arranged, False, UNWATCHED)
     if not 0 <= index < count:
         raise InputError(f"there is no immersion {index}", hint=f"the curve has {count}, numbered from 0")
+    place = _place_of_strict(arranged, UNWATCHED)
+    if place:
+        # The strict one comes first, and those that are found before it after it.
+        index = place if index == 0 else index - (index <= place)
     if may_bound_disk(arranged):
         disks = find_disks(arranged)
         assert disks is not None
