@@ -6,7 +6,7 @@ from collections import Counter
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
@@ -17,7 +17,7 @@ from plyfold.flat.coverage import coverage, directed_coverage
 from plyfold.flat.regions import refuse_invalid
 from reference import random_curves
 from reference.fills import cells_by_slabs
-from touching import touching_outlines
+from touching import are_loops, touching_outlines
 
 
 def winding_number(points, place):
@@ -120,6 +120,43 @@ def test_no_area_is_lost_where_contacts_are_nearly_broken(outline, scale):
         assert cell.polygon.is_valid
         total[cell.winding] -= cell.polygon.area
     assert max(map(abs, total.values()), default=0) < 1e-12 * scale * scale
+
+
+NEAR = 1 + 2**-52
+# Strands so near to each other that rounding their crossings makes ever more of them.
+CROWDED = [
+    [[(3, 0), (1, 3 * NEAR), (1, 1), (4, 5 * NEAR)], [(1, NEAR), (4, 5), (1, 1)]],
+    [[(1e-16, 3 * NEAR), (-1e-17, 3), (4, 4), (1, 0)], [(4, 2), (-1e-17, 3 * NEAR), (4, 1)]],
+]
+
+
+@st.composite
+def nearly_coincident(draw):
+    """One to three loops on a small grid, whose coordinates are the doubles beside whole numbers, too."""
+    numbers = st.integers(0, 5).flatmap(lambda n: st.sampled_from([n, n, np.nextafter(n, 9), np.nextafter(n, -9)]))
+    return draw(st.lists(st.lists(st.tuples(numbers, numbers), min_size=3, max_size=6), min_size=1, max_size=3))
+
+
+@settings(max_examples=100, deadline=None)
+@example(CROWDED[0])
+@example(CROWDED[1])
+@given(nearly_coincident())
+def test_no_area_is_lost_between_strands_a_few_roundings_apart(loops):
+    assume(are_loops(loops))
+    wound = sum(map(polygon_area, loops))
+    cells, turned = directed_coverage(pf.Outline(loops))
+    positive, negative = pf.decompose(pf.Outline(loops), signed=True)
+    assert all(polygon.is_valid for polygon in [*positive, *negative, *(cell.polygon for cell in cells)])
+    assert sum(cell.winding * cell.polygon.area for cell in cells) == pytest.approx(
+        -wound if turned else wound, abs=1e-9
+    )
+    assert sum(p.area for p in positive) - sum(p.area for p in negative) == pytest.approx(wound, abs=1e-9)
+    assert pf.fill(pf.Outline(loops)).area == pytest.approx(sum(cell.polygon.area for cell in cells), abs=1e-9)
+
+
+def polygon_area(points):
+    x, y = np.array(points, dtype=float).T
+    return float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2)
 
 
 @pytest.mark.parametrize("kind", ["turned", "mirrored", "shifted start"])

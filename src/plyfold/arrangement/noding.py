@@ -30,8 +30,9 @@ _LOOKUPS = 2**8
 # Crossings of edges between whole numbers from 0 up to this one are at least 2^-40 apart in x or in y, and rounded by
 # less: they are equal if and only if their rounded places are.
 _SMALL_GRID = 2**9
-# Rounds after which noding rounded nodes is given up; two or three are the rule.
-_ROUNDS = 20
+# Noding rounded nodes is given up after so many rounds, two or three are the rule, or with so many times the parts.
+_ROUNDS = 8
+_MOST_GROWTH = 8
 # A slope is a quotient of differences and their sum, each rounded.
 _SLOPE_ERROR = 2e-15
 
@@ -162,14 +163,17 @@ def node_rounded(noding: Noding) -> Noding:
     Raises
     ------
     PrecisionError
-        If there is no end to that after some rounds; never seen so far.
+        If there is no end to that after some rounds: strands a few roundings apart can cross again and again.
     """
+    most = _MOST_GROWTH * len(noding.ends)
     for _ in range(_ROUNDS):
         start, end = noding.points[noding.ends].swapaxes(0, 1)
         # Between doubles next to each other there is no room for errors.
         noding = _node_edges(start, end, noding.times, _nearest_doubles)
         if noding.is_vertex[noding.ends].all():
             return noding
+        if len(noding.ends) > most:
+            break
     raise PrecisionError(
         "strands are so crowded that rounding their crossings makes ever more of them",
         where=noding.points[~noding.is_vertex][:5],
@@ -259,7 +263,7 @@ def _in_units(points: Floats) -> tuple[Floats, float, Floats, bool]:
 
 def _directions(low: Floats, high: Floats, is_small_grid: bool) -> Ints:
     """Return the ranks of the directions from low to high, in the right half-plane, from down to up."""
-    x, y = (high / 2 - low / 2).T
+    x, y = (high - low).T
     slope = y / (x + np.abs(y))
     error = 0.0 if is_small_grid else _SLOPE_ERROR
 

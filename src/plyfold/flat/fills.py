@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from fractions import Fraction
 from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
@@ -13,6 +13,7 @@ import shapely
 from plyfold.arrangement.noding import node_outline
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import InputError
+from plyfold.flat.rays import windings_round
 from plyfold.flat.regions import regions
 from plyfold.outline.curve import Outline
 from plyfold.outline.given import OutlineLike, as_outline
@@ -34,8 +35,6 @@ _RULES: dict[str, Callable[[Ints], Bools]] = {
     "positive": lambda winding: winding > 0,
     "negative": lambda winding: winding < 0,
 }
-# How many places are looked up at a time.
-_LOOKUPS = 2**12
 
 
 def fill(outline: OutlineLike, rule: FillRule = "nonzero", *, at_least: int | None = None) -> MultiPolygon:
@@ -134,13 +133,7 @@ def winding_at(outline: OutlineLike, points: npt.ArrayLike, *, on_outline: OnOut
         raise InputError(f'on_outline must be "raise" or "right", not {on_outline!r}')
     drawn, given = as_outline(outline), np.asarray(points)
     places = as_points(given.reshape(-1, 2) if given.ndim == 1 else points)
-    winding, touching = np.zeros(len(places), dtype=np.int64), np.zeros(len(places), dtype=bool)
-    for place, edge in _edges_on_the_right(drawn, places):
-        start, end = drawn.points[edge], drawn.points[drawn.next_point[edge]]
-        side = orient(start, end, places[place])
-        np.add.at(winding, place, _passes(start[:, 1], end[:, 1], places[place, 1], side))
-        beside = (np.minimum(start, end) <= places[place]) & (places[place] <= np.maximum(start, end))
-        touching[place[(side == 0) & beside.all(axis=1)]] = True
+    winding, touching = windings_round(places, drawn.points, drawn.points[drawn.next_point])
     if on_outline == "raise" and touching.any():
         raise InputError(
             "some of the places lie on the outline",
@@ -148,24 +141,6 @@ def winding_at(outline: OutlineLike, points: npt.ArrayLike, *, on_outline: OnOut
             hint='on_outline="right" takes the winding number a little to the right',
         )
     return winding.reshape(given.shape[:-1] if given.size else len(winding))
-
-
-def _edges_on_the_right(drawn: Outline, places: Floats) -> Iterator[tuple[Ints, Ints]]:
-    """Yield pairs of a place and an edge at its height whose bounding box is not left of it."""
-    ends = np.stack([drawn.points, drawn.points[drawn.next_point]], axis=1)
-    tree = shapely.STRtree(shapely.linestrings(ends))
-    beyond = np.maximum(ends[..., 0].max(), places[:, 0])
-    rays = shapely.linestrings(np.stack([places, np.stack([beyond, places[:, 1]], axis=1)], axis=1))
-    for first in range(0, len(rays), _LOOKUPS):
-        place, edge = tree.query(rays[first : first + _LOOKUPS])
-        yield first + place, edge
-
-
-def _passes(start: Floats, end: Floats, height: Floats, side: npt.NDArray[np.int8]) -> Ints:
-    """Return what edges add to the winding number of places: those on the right that pass a little above the height."""
-    upward = (start <= height) & (height < end) & (side > 0)
-    downward = (end <= height) & (height < start) & (side < 0)
-    return upward.astype(np.int64) - downward
 
 
 # ---- masks -----------------------------------------------------------------------------------------------------------

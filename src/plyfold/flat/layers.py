@@ -79,11 +79,35 @@ def _without_holes(polygon: Polygon) -> list[Polygon]:
         if len(part.interiors) == 0:
             pieces.append(part)
             continue
-        triangles = _triangles(part)
-        beyond = _beyond(part, shapely.get_coordinates(shapely.centroid(triangles)))
-        for half in (triangles[beyond], triangles[~beyond]):
-            uncut += shapely.get_parts(shapely.coverage_union_all(half)).tolist()
+        try:
+            uncut += _cut_between_triangles(part)
+        except (PrecisionError, shapely.errors.GEOSException):
+            uncut += _cut_across(part)
     return pieces
+
+
+def _cut_between_triangles(polygon: Polygon) -> list[Polygon]:
+    """Cut a polygon along chords between its corners."""
+    triangles = _triangles(polygon)
+    beyond = _beyond(polygon, shapely.get_coordinates(shapely.centroid(triangles)))
+    halves = (triangles[beyond], triangles[~beyond])
+    return [part for half in halves for part in shapely.get_parts(shapely.coverage_union_all(half)).tolist()]
+
+
+def _cut_across(polygon: Polygon) -> list[Polygon]:
+    """Cut a polygon too thin for triangles, straight through its first hole."""
+    left, bottom, right, top = polygon.bounds
+    low_x, low_y, high_x, high_y = polygon.interiors[0].bounds
+    x, y = (low_x + high_x) / 2, (low_y + high_y) / 2
+    if high_x - low_x > high_y - low_y:
+        halves = (left, bottom, x, top), (x, bottom, right, top)
+    else:
+        halves = (left, bottom, right, y), (left, y, right, top)
+    parts = shapely.get_parts([shapely.intersection(polygon, shapely.box(*half)) for half in halves])
+    found: list[Polygon] = parts[shapely.area(parts) > 0].tolist()
+    if sum(len(part.interiors) for part in found) >= len(polygon.interiors):
+        raise PrecisionError("a polygon with a hole is too thin to be cut", where=polygon.exterior.coords[:1])
+    return found
 
 
 def _triangles(polygon: Polygon) -> npt.NDArray[np.object_]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -15,6 +16,7 @@ from plyfold.arrangement.noding import Noding, node_rounded
 from plyfold.arrangement.polylines import signed_areas
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.errors import PrecisionError
+from plyfold.flat.rays import windings_round
 from plyfold.graphs import components
 from plyfold.outline.direction import sense
 from plyfold.ragged import previous_in_rows
@@ -26,6 +28,9 @@ __all__ = ["Region", "refuse_invalid", "regions"]
 
 # A loop with less area than this share of its squared length may have lost all of it when its nodes were rounded.
 _THIN = 1e-9
+FINEST_GRID = 2.0**-50
+"""Of the largest coordinate: half a step must be a double, too."""
+_GRIDS = (FINEST_GRID, 2.0**-46, 2.0**-40, 2.0**-32)
 
 
 class Region(NamedTuple):
@@ -51,20 +56,50 @@ def regions(noding: Noding, label_of: Callable[[Ints], Ints]) -> list[Region]:
         hole that touches its outline there. What has no area left when its crossings are rounded is left out. Crossings
         on a straight side are left out if nothing else of the boundary is there.
 
-        Where rounding the crossings makes strands cross that did not, the regions are those of the rounded strands.
+        Where rounding the crossings makes strands cross that did not, the regions are those of the rounded strands; and
+        if that had no end, all nodes are put on a grid of :data:`FINEST_GRID` of the largest coordinate, or the finest
+        one beyond it that will do.
 
     Raises
     ------
     PrecisionError
-        If rounding has no end, see :func:`node_rounded`.
+        If there is no such grid; never seen so far.
     """
-    with suppress(PrecisionError):
-        return _regions(noding, label_of(noding.winding))
-    rounded = node_rounded(noding)
-    return _regions(rounded, label_of(rounded.winding))
+    size = np.ldexp(1.0, int(np.frexp(np.abs(noding.points).max(initial=0.0))[1]))
+    attempts: list[Callable[[], list[Region]]] = [
+        lambda: _regions(noding, label_of),
+        lambda: _regions(node_rounded(noding), label_of),
+        *(partial(_regions_on_grid, noding, label_of, size * grid) for grid in _GRIDS),
+    ]
+    for attempt in attempts:
+        with suppress(PrecisionError, shapely.errors.GEOSException):
+            return attempt()
+    raise PrecisionError(
+        "strands are so crowded that no rounding of their crossings keeps polygons apart",
+        where=noding.points[~noding.is_vertex][:5],
+        hint="move the strands apart there",
+    )
 
 
-def _regions(noding: Noding, label: Ints) -> list[Region]:
+def _regions_on_grid(noding: Noding, label_of: Callable[[Ints], Ints], grid: float) -> list[Region]:
+    """Return the regions with all nodes on a grid: strands that pass near a node are led through it."""
+    start, end = noding.points[noding.ends].swapaxes(0, 1)
+    on_grid = np.rint(np.stack([start, end], axis=1) / grid) * grid
+    strands = shapely.union_all(shapely.linestrings(on_grid), grid_size=grid)
+    faces = np.array(shapely.polygonize([strands]).geoms, dtype=object)
+    places = shapely.get_coordinates(shapely.point_on_surface(faces))
+    label = label_of(windings_round(places, start, end, noding.times)[0])
+    found = [
+        Region(polygon, one)
+        for one in np.unique(label[label != 0]).tolist()
+        for polygon in shapely.get_parts(shapely.union_all(faces[label == one], grid_size=grid)).tolist()
+    ]
+    refuse_invalid(np.array([region.polygon for region in found], dtype=object))
+    return [Region(shapely.orient_polygons(polygon), one) for polygon, one in found]
+
+
+def _regions(noding: Noding, label_of: Callable[[Ints], Ints]) -> list[Region]:
+    label = label_of(noding.winding)
     boundary, following = _boundary(noding, label[noding.face])
     loops = list(_simple_loops(boundary, following, _starts(noding)))
     if not loops:
@@ -190,7 +225,9 @@ def refuse_invalid(polygons: npt.NDArray[np.object_], corner: Floats | None = No
     bad = np.flatnonzero(~shapely.is_valid(polygons))
     if len(bad) == 0:
         return
-    reasons = " ".join(filter(None, shapely.is_valid_reason(polygons[bad])))
+    # The library divides by differences that may be 0.
+    with np.errstate(all="ignore"):
+        reasons = " ".join(filter(None, shapely.is_valid_reason(polygons[bad])))
     places = [(float(x), float(y)) for x, y in re.findall(r"\[(\S+) (\S+)\]", reasons)]
     raise PrecisionError(
         "strands are so close that rounding their crossings to double precision spoils a polygon there",
