@@ -7,6 +7,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
+from plyfold import bounds_disk, fill, winding_at
 from plyfold.errors import CurveError, InputError, StrokeError
 from plyfold.outline.curve import Curve, Outline, Repair
 from plyfold.outline.given import as_curve, as_outline
@@ -304,3 +305,33 @@ def test_polygons_with_holes_have_the_surface_on_the_left():
     assert shapely.LinearRing(outline.loops[0]).is_ccw
     assert not shapely.LinearRing(outline.loops[1]).is_ccw
     assert not shapely.LinearRing(as_outline(shapely.Polygon(SQUARE[::-1])).points).is_ccw
+
+
+FLAT = [(2, 2), (4, 1), (2, 2)]
+
+
+@pytest.mark.parametrize(
+    "drawn",
+    [
+        [SQUARE, FLAT],
+        [FLAT, SQUARE],
+        [SQUARE, [(2, 2)]],
+        [np.array(SQUARE), np.array([(2, 2), (4, 1), (3, 1.5)])],
+        shapely.Polygon(SQUARE, [[*FLAT, (2, 2)]]),
+        shapely.MultiPolygon([shapely.Polygon(SQUARE), shapely.Polygon([*FLAT, (2, 2)])]),
+    ],
+)
+def test_a_loop_without_area_beside_others_is_left_out(drawn):
+    outline = as_outline(drawn)
+    assert isinstance(outline, Curve)
+    assert outline.points.tolist() == np.array(SQUARE).tolist()
+    assert "loop without area left out at (2, 2)" in map(str, outline.repairs)
+    assert bounds_disk(drawn)
+    assert fill(drawn).area == shapely.Polygon(SQUARE).area
+    assert winding_at(drawn, (0.5, 0.5)) == 1
+
+
+def test_rows_and_cusps_are_counted_with_loops_that_are_left_out():
+    outline = Outline([FLAT, SQUARE, SQUARE], {(1, 2): 1})
+    assert outline.rows.tolist() == list(range(3, 11))
+    assert [index.tolist() for index in outline.cusps] == [[0, 0, 1, 0], [0, 0, 0, 0]]

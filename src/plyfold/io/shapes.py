@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from plyfold.arrays import Floats
 from plyfold.errors import CurveError, FileFormatError, StrokeError
 from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.direction import bounds_nothing, sense
@@ -16,7 +15,7 @@ from plyfold.outline.given import outline_of_curves, outline_with
 from plyfold.outline.points import Repair, as_planar_points
 from plyfold.outline.ribbons.sides import CapStyle, JoinStyle
 from plyfold.outline.strokes import join_strokes
-from plyfold.outline.vertices import naming_the_curve
+from plyfold.outline.vertices import naming_the_curve, no_area
 
 __all__ = ["Line", "Shape", "StrokeStyle", "outline_of_shapes", "shape_of_strokes"]
 
@@ -179,13 +178,8 @@ def _curve_or_nothing(loop: Line) -> Curve | Repair:
         points, _ = as_planar_points(loop.points)  # raises what else may be wrong
         if loop.cusps or not len(points):
             raise
-        return _no_area(points)
+        return no_area(points)
     if loop.direction and not loop.cusps and bounds_nothing(curve.points):
-        return _no_area(curve.points)
+        return no_area(curve.points)
     marked = Curve(loop.points, (), loop.cusps) if loop.cusps else curve
     return marked.reversed() if loop.direction and sense(curve.points) == -loop.direction else marked
-
-
-def _no_area(points: Floats) -> Repair:
-    x, y = points[0].tolist()
-    return Repair("loop without area left out", (x, y), 0.0)

@@ -16,7 +16,7 @@ from plyfold.errors import CurveError
 from plyfold.outline.from_mesh import boundary_of_mesh
 from plyfold.outline.points import Repair, as_planar_points
 from plyfold.outline.strokes import join_strokes
-from plyfold.outline.vertices import Vertices, cleaned, marked, naming_the_curve, whole_turns
+from plyfold.outline.vertices import Vertices, cleaned, cleaned_of_several, marked, naming_the_curve, whole_turns
 from plyfold.ragged import count_each
 
 __all__ = ["Curve", "Cusps", "Outline", "Repair", "backward_numbers", "outline_of_points"]
@@ -36,7 +36,8 @@ class Outline:
     Parameters
     ----------
     loops : iterable of Curve or array-like of shape (n, 2) or (n, 3)
-        Each as for :class:`Curve`, which is the outline with one loop.
+        Each as for :class:`Curve`, which is the outline with one loop. Of several, those whose points all lie on one
+        line are left out, and ``repairs`` says so.
     cusps : sequence of array-likes of int, or mapping from (loop, point) to int, optional
         By how many full turns the surface's angle at each point is larger than the one that is seen, from 0 to 360°, on
         the left: its *index* as a cusp, 0 at almost all points. By default, those of the curves.
@@ -57,7 +58,8 @@ class Outline:
     Raises
     ------
     CurveError
-        If there is no loop, if one is none (see :class:`Curve`), or if a cusp's index is no whole number from 0 up.
+        If there is no loop, if one is none (see :class:`Curve`), if none has an area, or if a cusp's index is no whole
+        number from 0 up.
 
     Notes
     -----
@@ -87,10 +89,11 @@ class Outline:
         given = [len(loop.given) for loop in vertices]
         index = [loop.cusps for loop in vertices] if cusps is None else _index_of_rows(cusps, given)
         starts = np.cumsum([0, *given])
+        marks = [marked(loop, turns) for loop, turns in zip(vertices, index, strict=True)]
         _settle(
             self,
-            loops=tuple(loop.points for loop in vertices),
-            cusps=tuple(marked(loop, index) for loop, index in zip(vertices, index, strict=True)),
+            loops=tuple(loop.points for loop in vertices if len(loop.points)),
+            cusps=tuple(turns for turns in marks if len(turns)),
             points=_one_after_the_other([loop.points for loop in vertices]),
             repairs=(*repairs, *(repair for loop in vertices for repair in loop.repairs)),
             rows=_one_after_the_other([start + loop.rows for start, loop in zip(starts, vertices, strict=False)]),
@@ -517,10 +520,14 @@ def _vertices_of_loops(loops: Sequence[Curve | npt.ArrayLike]) -> list[Vertices]
     """Return the vertices of each loop; an error says which one is none."""
     if not loops:
         raise CurveError("the outline has no loop", hint="give at least one closed curve")
+    clean = cleaned if len(loops) == 1 else cleaned_of_several
     vertices = []
     for number, loop in enumerate(loops):
         with naming_the_curve(number, len(loops)):
-            vertices.append(_vertices_of(loop) if isinstance(loop, Outline) else cleaned(loop))
+            vertices.append(_vertices_of(loop) if isinstance(loop, Outline) else clean(loop))
+    if not any(len(loop.points) for loop in vertices):
+        places = [loop.given[0] for loop in vertices]
+        raise CurveError(f"none of the {len(loops)} loops has an area", places, "draw one that goes round something")
     return vertices
 
 

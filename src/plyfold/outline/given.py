@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.errors import CurveError
-from plyfold.outline.curve import Curve, Cusps, Outline
+from plyfold.outline.curve import Curve, Cusps, Outline, outline_of_points
 from plyfold.outline.direction import sense
 from plyfold.outline.points import Repair, left_out
 from plyfold.outline.strokes import join_strokes
@@ -165,7 +165,14 @@ def _outline_of_several(values: Sequence[object]) -> Outline:
         is_array = isinstance(value, list | tuple | np.ndarray) and not are_several(value)
         with naming_the_curve(number, len(values)):
             loops.append(cast("npt.ArrayLike", value) if is_array else as_curve(value))
-    return Outline(loops)
+    return _one_loop_as_curve(Outline(loops))
+
+
+def _one_loop_as_curve(outline: Outline) -> Outline:
+    """Return an outline as it is, but one whose other loops were left out as a curve."""
+    if outline.n_loops > 1:
+        return outline
+    return outline_of_points(outline.points, outline.loop_of_point, outline.cusps[0], outline.rows, outline.repairs)
 
 
 def outline_of_curves(curves: Sequence[Curve]) -> Outline:
@@ -240,7 +247,8 @@ def _outline_of_geometry(geometry: BaseGeometry) -> Outline:
         case "Polygon" if not len(geometry.interiors):
             return Curve(_planar(geometry.exterior), left_out_coordinates(geometry))
         case "Polygon" | "MultiPolygon" if len(parts) != 1:
-            return outline_of_curves([loop for polygon in parts or [geometry] for loop in _loops_of_polygon(polygon)])
+            loops = [loop for polygon in parts or [geometry] for loop in _loops_of_polygon(polygon)]
+            return _one_loop_as_curve(Outline(loops))
         case "LinearRing":
             return Curve(_planar(geometry), left_out_coordinates(geometry))
         case "LineString" | "MultiLineString":
@@ -252,11 +260,17 @@ def _outline_of_geometry(geometry: BaseGeometry) -> Outline:
     raise CurveError(f"a {geometry.geom_type} is not one outline", hint=hint)
 
 
-def _loops_of_polygon(polygon: BaseGeometry) -> list[Curve]:
-    """Return shell and holes in the directions that leave the polygon on the left."""
-    curves = [Curve(_planar(ring), left_out_coordinates(ring)) for ring in (polygon.exterior, *polygon.interiors)]
-    wrong = [-1, *(1 for _ in polygon.interiors)]
-    return [curve.reversed() if sense(curve.points) == way else curve for curve, way in zip(curves, wrong, strict=True)]
+def _loops_of_polygon(polygon: BaseGeometry) -> list[Curve | npt.NDArray[np.float64]]:
+    """Return shell and holes in the directions that leave the polygon on the left; as points what is no curve."""
+    return [_loop_of_ring(polygon.exterior, 1), *(_loop_of_ring(ring, -1) for ring in polygon.interiors)]
+
+
+def _loop_of_ring(ring: BaseGeometry, way: int) -> Curve | npt.NDArray[np.float64]:
+    try:
+        curve = Curve(_planar(ring), left_out_coordinates(ring))
+    except CurveError:
+        return _planar(ring)
+    return curve.reversed() if sense(curve.points) == -way else curve
 
 
 def _planar(geometry: BaseGeometry) -> npt.NDArray[np.float64]:

@@ -16,7 +16,15 @@ from plyfold.errors import CurveError, InputError
 from plyfold.outline.points import Repair, as_planar_points
 from plyfold.predicates import orient
 
-__all__ = ["Vertices", "cleaned", "marked", "naming_the_curve", "whole_turns"]
+__all__ = [
+    "Vertices",
+    "cleaned",
+    "cleaned_of_several",
+    "marked",
+    "naming_the_curve",
+    "no_area",
+    "whole_turns",
+]
 
 
 MOST_TURNS = 1_000_000
@@ -64,6 +72,24 @@ def cleaned(points: npt.ArrayLike) -> Vertices:
     return Vertices(kept, rows, planar, (*flattened, *_dropped_points(given, rows)), none)
 
 
+def cleaned_of_several(points: npt.ArrayLike) -> Vertices:
+    """Return the vertices of one loop of several: none, which ``repairs`` tells, if all its points lie on one line."""
+    try:
+        return cleaned(points)
+    except CurveError:
+        planar, _ = as_planar_points(points)  # raises what else may be wrong
+        if not len(planar):
+            raise
+        nothing = np.empty((0, 2)), np.empty(0, dtype=np.int64)
+        return Vertices(*nothing, planar, (no_area(planar),), nothing[1])
+
+
+def no_area(points: Floats) -> Repair:
+    """Return the record that a loop is left out, for it goes round nothing."""
+    x, y = points[0].tolist()
+    return Repair("loop without area left out", (x, y), 0.0)
+
+
 def marked(vertices: Vertices, index: npt.ArrayLike) -> Ints:
     """Return the index of the cusp at each vertex, given one for each row; those of points left out are added up.
 
@@ -83,10 +109,12 @@ def marked(vertices: Vertices, index: npt.ArrayLike) -> Ints:
             hint="give one whole number for each point, mostly 0",
         )
     for row in np.flatnonzero(given) if given.dtype.kind in "iu" else range(len(given)):
-        whole_turns(given[row], vertices.given[row])
+        if whole_turns(given[row], vertices.given[row]) and n == 0:
+            raise CurveError("a loop whose points all lie on one line has no cusps", where=[vertices.given[row]])
     given = given.astype(np.int64)
     total = np.zeros(n, dtype=np.int64)
-    np.add.at(total, _vertex_of_row(vertices, len(given)), given)
+    if n:
+        np.add.at(total, _vertex_of_row(vertices, len(given)), given)
     total.setflags(write=False)
     return total
 
