@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.as_given import contacts_of, crossings_as_given, given_windings
 from plyfold.errors import TimeLimitError
@@ -345,9 +347,20 @@ def _cusps(outline: Outline | None) -> list[dict[str, Any]]:
 
 def _described_cusps(outline: Outline, marks: Sequence[CuspMark]) -> list[dict[str, Any]]:
     return [
-        {"loop": loop, "point": point, "index": turns, "where": outline.loops[loop][point].tolist()}
+        {
+            "loop": loop,
+            "point": _point_as_given(outline, loop, point),
+            "index": turns,
+            "where": outline.loops[loop][point].tolist(),
+        }
         for loop, point, turns in marks
     ]
+
+
+def _point_as_given(outline: Outline, loop: int, point: int) -> int:
+    """Return which point of its loop a point was before repeated ones were left out."""
+    rows = outline.rows[outline.first_point[loop] : outline.first_point[loop + 1]]
+    return int(rows[point] - rows[0]) if (np.diff(rows) > 0).all() else point
 
 
 def _repairs(outline: Outline | None) -> list[dict[str, Any]]:

@@ -178,3 +178,8 @@ def test_rays_in_fractions_know_a_square():
     ]  # fmt: skip
     assert cells_by_slabs([SQUARE, SQUARE[::-1]]) == []
     assert cells_by_slabs([SQUARE, SQUARE]) == [(2, Fraction(4))]
+
+
+def test_a_rule_and_a_least_winding_number_exclude_each_other():
+    with pytest.raises(InputError, match="in the place of a rule"):
+        pf.fill([(0, 0), (2, 0), (1, 1)], "evenodd", at_least=1)

@@ -324,3 +324,11 @@ def test_a_disk_that_does_not_touch_itself_comes_first():
             assert len(pf.triangulate(outline)) == len(outline) - 2
             figures = verdict(pf.arrange(outline))
             assert (figures["touches"], figures["euler_characteristic"], len(figures["pieces"])) == ([], 1, 1)
+
+
+def test_cusps_are_told_by_the_points_that_came_in_and_as_one_sees_them():
+    repeated = pf.Curve([(0, 0), (0, 0), (9, 0), (9, 9), (0, 9)], (), [0, 0, 0, 1, 0])
+    assert "No cusp of index 1 can be at point 3: it needs 2 sheets" in str(pf.find_immersion(repeated))
+    assert verdict(pf.arrange(repeated))["cusps"] == [{"loop": 0, "point": 3, "index": 1, "where": [9.0, 9.0]}]
+    spike = pf.Curve([(0, 0), (9, 0), (9, 9), (9, 12), (9, 9), (0, 9)], (), [0, 0, 0, 1, 0, 0])
+    assert "No cusp of index 1 can be at point 3: it needs 3 sheets" in str(pf.find_immersion(spike))

@@ -277,7 +277,10 @@ def test_cusps_follow_a_reversal_and_lists_of_curves():
     ("loops", "cusps", "message"),
     [
         ([], None, "no loop"),
-        ([SQUARE, [(0, 0)]], None, "curve 1 of 2"),
+        ([SQUARE, []], None, "curve 1 of 2"),
+        ([SQUARE, [(0, 0), (1, np.nan), (1, 1)]], None, "curve 1 of 2"),
+        ([[(0, 0), (2, 0), (1, 0)], [(5, 5)]], None, "none of the 2 loops has an area"),
+        ([SQUARE, [(0, 0), (2, 0), (1, 0)]], {(1, 2): 1}, "has no cusps"),
         ([SQUARE], [[0, 0.5, 0, 0]], "whole number"),
         ([SQUARE], [[0, -1, 0, 0]], "whole number"),
         ([SQUARE], [[0, 1]], "4 points have the shape"),

@@ -136,14 +136,19 @@ def test_a_side_that_its_line_would_cross_is_refused():
 @settings(deadline=None, max_examples=100)
 @given(st.integers(0, 2**32 - 1), st.sampled_from(KINDS), st.sampled_from(JOINS), st.sampled_from(CAPS))
 def test_a_ribbon_covers_the_neighbourhood_of_its_line_where_inner_corners_fit(seed, kind, join, cap):
-    """And where no bend is sharper than a right angle: beyond the next segment nothing is left of a sharper one."""
+    """And where no bend is sharper than a right angle: beyond the next segment nothing is left of a sharper one.
+
+    Near its ends the caps may cut off what belongs to the segments after the first one.
+    """
     rng = np.random.default_rng(seed)
     line = kind(rng, int(rng.integers(4, 15)))
     assume(len(line) > 1 and turns(line).max(initial=0) < math.pi / 2)
     width = min(0.99 * widest(line), 2.5)
     points = pf.ribbon(line, width, join, cap, closed=False).points
     for _ in range(8):
-        assert winding_number(points, within(line, width, rng, rng.uniform(-0.95, 0.95))) >= 1
+        place = within(line, width, rng, rng.uniform(-0.95, 0.95))
+        at_an_end = np.hypot(*(line[[0, -1]] - place).T).min() < width / 2
+        assert at_an_end or winding_number(points, place) >= 1
 
 
 @settings(deadline=None, max_examples=60)

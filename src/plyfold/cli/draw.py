@@ -73,7 +73,7 @@ def add_draw_command(commands: Any) -> None:
 
 
 def _columns(text: str) -> int:
-    columns = int(text)
+    columns = int(text) if text.isascii() and text.isdigit() else 0
     if not 1 <= columns <= _MOST_COLUMNS:
         raise argparse.ArgumentTypeError(f"{text} is not a number of columns from 1 to {_MOST_COLUMNS}")
     return columns

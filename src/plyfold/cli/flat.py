@@ -166,7 +166,7 @@ def _unwrap(options: argparse.Namespace) -> int:
     for path in options.output:
         unwound.export(path, options.force)
     watch.stop()
-    sheets = counted(unwound.immersion.n_sheets, "sheet")
+    sheets = counted(len(set(unwound.sheet.tolist())), "sheet")
     print(f"{len(unwound.faces):,} triangles in {sheets}, none of them flipped in the disk")
     for path in options.output:
         say_written(path)

@@ -94,7 +94,8 @@ class UnwoundDisk:
         freeze(self)
 
     def __repr__(self) -> str:
-        return f"<UnwoundDisk: {counted(len(self.faces), 'triangle')} in {counted(self.immersion.n_sheets, 'sheet')}>"
+        sheets = counted(len(np.unique(self.sheet)), "sheet")
+        return f"<UnwoundDisk: {counted(len(self.faces), 'triangle')} in {sheets}>"
 
     def _repr_png_(self) -> bytes:
         from plyfold.draw.notebook import unwound_png

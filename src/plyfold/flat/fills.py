@@ -58,7 +58,7 @@ def fill(outline: OutlineLike, rule: FillRule = "nonzero", *, at_least: int | No
     Raises
     ------
     InputError
-        If there is no such rule, or ``at_least`` is no whole number from 1 on.
+        If there is no such rule, if ``at_least`` is no whole number from 1 on, or if both are given.
     PrecisionError
         If rounding its crossings makes the drawing cross itself ever more, or it is so small that areas have no double.
 
@@ -89,6 +89,8 @@ def _painted(rule: str, at_least: int | None) -> Callable[[Ints], Bools]:
         return _RULES[rule]
     if isinstance(at_least, bool) or not isinstance(at_least, int | np.integer) or at_least < 1:
         raise InputError(f"at_least is a whole number from 1 on, not {at_least!r}")
+    if rule != "nonzero":
+        raise InputError(f"at_least stands in the place of a rule, and the rule is {rule!r}", hint="give one of them")
     return lambda winding: winding >= at_least
 
 

@@ -89,11 +89,17 @@ def impossible_cusp(arranged: Arrangement) -> Obstruction | None:
         return None
     visit = int(wrong[0])
     border = int(arranged.border_after[visit])
-    sheets, needed = int(arranged.winding[arranged.left_cell[border]]), int(arranged.cusp_index[visit]) + 1
-    place = f"point {int(arranged.visit_edge[visit])}" if arranged.outline else f"the start of border {border}"
+    sheets, index = int(arranged.winding[arranged.left_cell[border]]), int(arranged.cusp_index[visit])
+    place = f"the start of border {border}"
+    if arranged.outline is not None:
+        point = int(arranged.visit_edge[visit])
+        place = f"point {int(arranged.outline.rows[point])}"
+        # At the tip of a spike one sees an angle of a full turn, which strands that are moved apart turn round.
+        index -= int(tips(arranged.given)[point]) if arranged.given is not None else 0
     where = places_of_visits(arranged, [visit])
+    needed = int(arranged.cusp_index[visit]) + 1
     sentence = (
-        f"No cusp of index {needed - 1} can be at {place}: it needs {needed} sheets on its left, and there "
+        f"No cusp of index {index} can be at {place}: it needs {needed} sheets on its left, and there "
         f"{'is' if sheets == 1 else 'are'} {sheets}."
     )
     return Obstruction("cusp", sentence, where, sheets, arranged)
