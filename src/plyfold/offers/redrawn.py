@@ -174,14 +174,16 @@ def pen_for(drawn: Arrangement, opening: Fraction) -> Pen:
 def redrawn(pen: Pen, left: Rerouted) -> Outline:
     """Return an outline after all moves. Each loop starts with the first of its points that is left.
 
-    It runs as it was given, also where the arrangement turned it round.
+    It runs as it was given, also where the arrangement turned it round. A loop of which nothing is left is dropped.
     """
     loops, cusps = [], []
     index = np.append(np.concatenate(pen.given.cusps), 0)
     for loop in range(pen.drawn.n_loops):
-        points = _from_first(_without_repeats(pen.along(_darts_of_loop(left, loop), left.parted, True)))
-        loops.append(points.places)
-        cusps.append(index[points.number])
+        points = _without_repeats(pen.along(_darts_of_loop(left, loop), left.parted, True))
+        if len(points.number):
+            points = _from_first(points)
+            loops.append(points.places)
+            cusps.append(index[points.number])
     outline = Curve(loops[0], cusps=cusps[0]) if len(loops) == 1 else Outline(loops, cusps)
     return outline.reversed() if pen.drawn.reversed else outline
 
