@@ -255,7 +255,7 @@ def crossings(request):
     cells = steps_of(layering, Making()).cells
     mesh = stack_sheets(layering, cells)
     spread = spread_cloth(cells.points, mesh, 0.5, 1.0)
-    return layering, cells, mesh, spread, crossing_cloth(layering.immersion, mesh, spread)
+    return layering, cells, mesh, spread, crossing_cloth(order_problem(layering.immersion), mesh, spread)
 
 
 def heights_of_crossings(cells, mesh, spread, cloth):

@@ -22,6 +22,7 @@ from plyfold.layering.layering import Layering
 from plyfold.layering.orders.intersections import IntersectingLayering
 from plyfold.layering.orders.nicest import nicest_layering, walked_layering
 from plyfold.layering.orders.search import OrderProblem, order_problem
+from plyfold.matrices import one_thread
 from plyfold.memory import number_of_tuples
 from plyfold.mesh.cells import DEFAULT_TRIANGLES
 from plyfold.surface.glue import LiftedMesh, stack_sheets
@@ -191,10 +192,11 @@ def _distinct(layerings: Iterator[Layering]) -> list[Layering]:
     return kept
 
 
+@one_thread()
 def _candidates(problem: OrderProblem, first: Layering, ground: _Ground, watch: Watch) -> list[tuple[float, Layering]]:
     """Return layerings with bounds of their ranges in gaps, nearly, the lowest first; the bound is 0 if not known."""
     found = _distinct(_and_nice(problem, first, watch.clock))
-    if (cloth := _crossing_cloth(first, ground)) is None:
+    if (cloth := _crossing_cloth(problem, first, ground)) is None:
         return [(0.0, layering) for layering in found]
     ranked = sorted(((estimated(cloth, each.level).height, each) for each in found), key=lambda pair: pair[0])
     with suppress(TimeLimitError):
@@ -230,10 +232,10 @@ def _spread(first: Layering, ground: _Ground, watch: Watch) -> SpreadCloth | Non
     return spread_cloth(ground.steps.cells.points, mesh, ground.making.stiffness, ground.making.flat, watch)
 
 
-def _crossing_cloth(first: Layering, ground: _Ground) -> CrossingCloth | None:
+def _crossing_cloth(problem: OrderProblem, first: Layering, ground: _Ground) -> CrossingCloth | None:
     if ground.spread is None:
         return None
-    return crossing_cloth(first.immersion, stack_sheets(first, ground.steps.cells), ground.spread)
+    return crossing_cloth(problem, stack_sheets(first, ground.steps.cells), ground.spread)
 
 
 def _lowest_of(candidates: list[tuple[float, Layering]], ground: _Ground, watch: Watch) -> Raised:

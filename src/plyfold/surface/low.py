@@ -31,8 +31,13 @@ from plyfold.surface.heights import SpreadCloth
 
 __all__ = ["CrossingCloth", "Estimate", "crossing_cloth", "estimated", "lowered"]
 
-# With more vertices over crossings than this, the full matrix takes longer than the surface itself.
+# With more vertices over crossings than this, the full matrix takes longer than the surface itself. Then one crossing
+# stands for all those at which the same class of pairs is met: the corners of a place where strips cross, as a rule.
 _MOST_ENDS = 400
+# With more classes than this, they are not turned round together with all that come after.
+_MOST_IN_ROWS = 40
+# Of the gap: what may be missing. So many pairs of vertices join in a round, and as many again as there are.
+_MISSING, _FIRST_PAIRS = 1e-4, 16
 # A layering is lower if its range is by this share; of ranges that are equal to within it, one of less energy is taken.
 _LOWER = 1e-3
 # All classes are tried so many times.
@@ -66,14 +71,14 @@ class Estimate(NamedTuple):
     pressing: Bools
 
 
-def crossing_cloth(immersion: Immersion, mesh: LiftedMesh, spread: SpreadCloth) -> CrossingCloth | None:
+def crossing_cloth(problem: OrderProblem, mesh: LiftedMesh, spread: SpreadCloth) -> CrossingCloth | None:
     """Return the vertices over crossings.
 
     Parameters
     ----------
-    immersion : Immersion
+    problem : OrderProblem
     mesh : LiftedMesh
-        Of a layering of it.
+        Of a layering of its immersion.
     spread : SpreadCloth
         Of this mesh.
 
@@ -84,7 +89,10 @@ def crossing_cloth(immersion: Immersion, mesh: LiftedMesh, spread: SpreadCloth) 
     """
     outline = mesh.planar_vertex[: len(mesh.boundary)]
     is_crossing = np.bincount(outline, minlength=int(mesh.planar_vertex.max()) + 1) > 1
-    ends, sheet = _on_fullest_cell(immersion, mesh, is_crossing)
+    ends, sheet = _on_fullest_cell(problem.immersion, mesh, is_crossing)
+    if len(ends) > _MOST_ENDS:
+        kept = _one_for_each_class(problem, mesh, ends, sheet)
+        ends, sheet = ends[kept], sheet[kept]
     if not 0 < len(ends) <= _MOST_ENDS:
         return None
     weights = _against_the_first(ends, len(spread.fine.places))
@@ -111,6 +119,17 @@ def _on_fullest_cell(immersion: Immersion, mesh: LiftedMesh, is_crossing: Bools)
     return vertex[whole], sheet[whole]
 
 
+def _one_for_each_class(problem: OrderProblem, mesh: LiftedMesh, ends: Ints, sheet: Ints) -> Bools:
+    """Tell which vertices lie over the first crossing of those at which the same class of pairs is met."""
+    point = mesh.planar_vertex[ends]
+    rim = np.flatnonzero(ends < len(mesh.boundary))
+    rim = rim[np.argsort(point[rim], kind="stable")]
+    pair = np.flatnonzero(np.diff(point[rim]) == 0)
+    variable = np.abs(problem.above(sheet[rim[pair]], sheet[rim[pair + 1]]))
+    _, first = np.unique(variable, return_index=True)
+    return np.isin(point, point[rim[pair[first]]])
+
+
 def _against_the_first(ends: Ints, size: int) -> Any:
     """Return the rows that take heights of all vertices to those of some, less that of the first of these."""
     signs, rows = np.repeat([-1.0, 1.0], len(ends)), np.tile(np.arange(len(ends)), 2)
@@ -132,18 +151,38 @@ def estimated(cloth: CrossingCloth, level: Ints, near: Estimate | None = None) -
     Estimate
         Infinite where rounding errors leave it open.
     """
+    lower, upper = _stacked(cloth, level)
+    active = np.arange(len(lower)) < (_FIRST_PAIRS if near is None else 1)
+    if near is not None:
+        active |= near.pressing[lower, upper]
+    while True:
+        rows = np.flatnonzero(active)
+        answer = cloth.flexibility[:, upper[rows]] - cloth.flexibility[:, lower[rows]]
+        opening = answer[upper[rows]] - answer[lower[rows]]
+        force = least_forces((opening + opening.T) / 2, np.ones(len(rows)), 0, np.ones(len(rows), dtype=bool))
+        if force is None:
+            return Estimate(np.inf, np.inf, np.zeros(cloth.flexibility.shape, dtype=bool))
+        z = answer @ force
+        missing = np.where(active, 0.0, 1 - (z[upper] - z[lower]))
+        worst = np.argsort(-missing, kind="stable")[: _FIRST_PAIRS + len(rows)]
+        added = worst[missing[worst] > _MISSING]
+        if not len(added):
+            return Estimate(float(np.ptp(z)), float(force.sum()) / 2, _pairs(lower, upper, rows[force > 0], len(z)))
+        active[added] = True
+
+
+def _stacked(cloth: CrossingCloth, level: Ints) -> tuple[Ints, Ints]:
+    """Return the vertices next to each other over the same crossing, the lower and the upper ones."""
     order = np.lexsort((level[cloth.sheet], cloth.point))
     above = np.flatnonzero(np.diff(cloth.point[order]) == 0)
-    lower, upper = order[above], order[above + 1]
-    answer = cloth.flexibility[:, upper] - cloth.flexibility[:, lower]
-    opening = answer[upper] - answer[lower]
-    pressing = np.ones(len(lower), dtype=bool) if near is None else near.pressing[lower, upper]
-    force = least_forces((opening + opening.T) / 2, np.ones(len(lower)), 0, pressing)
-    presses = np.zeros(cloth.flexibility.shape, dtype=bool)
-    if force is None:
-        return Estimate(np.inf, np.inf, presses)
-    presses[lower, upper] = force > 0
-    return Estimate(float(np.ptp(answer @ force)), float(force.sum()) / 2, presses)
+    return order[above], order[above + 1]
+
+
+def _pairs(lower: Ints, upper: Ints, rows: Ints, size: int) -> Bools:
+    """Return a symmetric matrix that is true at some of the pairs."""
+    chosen = np.zeros((size, size), dtype=bool)
+    chosen[lower[rows], upper[rows]] = chosen[upper[rows], lower[rows]] = True
+    return chosen
 
 
 @one_thread()
@@ -182,11 +221,12 @@ def lowered(
 
 
 def _turns(problem: OrderProblem) -> Iterator[Bools]:
-    """Yield sets of classes to turn round together: each alone, those tied to each other, and all from one on."""
+    """Yield sets of classes to turn round together: each alone, those tied to each other, and few from one on."""
     number = np.arange(1, problem.n_variables + 1)
     yield from (number == one for one in number)
     yield from (np.isin(number, tied) for tied in problem.components() if 1 < len(tied) < len(number))
-    yield from (number >= one for one in number[1:])
+    if len(number) <= _MOST_IN_ROWS:
+        yield from (number >= one for one in number[1:])
 
 
 def _is_lower(one: Estimate, other: Estimate) -> bool:
