@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import cycle, islice
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -40,8 +41,8 @@ _MOST_IN_ROWS = 40
 _MISSING, _FIRST_PAIRS = 1e-4, 16
 # A layering is lower if its range is by this share; of ranges that are equal to within it, one of less energy is taken.
 _LOWER = 1e-3
-# All classes are tried so many times.
-_ROUNDS = 3
+# All classes are tried so many times, and so many tries are begun with.
+_ROUNDS, _MOST_TRIES = 3, 150
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,18 +205,18 @@ def lowered(
     Layering
     Estimate
     """
-    signs = _signs(problem, start)
-    best = estimated(cloth, start.level)
-    for _ in range(_ROUNDS):
-        before = best
-        for turned in _turns(problem):
-            watch.step()
-            tried = np.where(turned, -signs, signs)
-            if _solves(problem, tried):
-                estimate = estimated(cloth, problem.levels(_literals(tried)), best)
-                if _is_lower(estimate, best):
-                    signs, best = tried, estimate
-        if best is before:
+    signs, best = _signs(problem, start), estimated(cloth, start.level)
+    turns = list(_turns(problem))
+    idle = 0
+    for turned in islice(cycle(turns), min(_ROUNDS * len(turns), _MOST_TRIES)):
+        watch.step()
+        tried = np.where(turned, -signs, signs)
+        idle += 1
+        if _solves(problem, tried):
+            estimate = estimated(cloth, problem.levels(_literals(tried)), best)
+            if _is_lower(estimate, best):
+                signs, best, idle = tried, estimate, 0
+        if idle == len(turns):
             break
     return problem.layering(_literals(signs)), best
 
