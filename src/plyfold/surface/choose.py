@@ -27,7 +27,7 @@ from plyfold.memory import number_of_tuples
 from plyfold.mesh.cells import DEFAULT_TRIANGLES
 from plyfold.surface.glue import LiftedMesh, stack_sheets
 from plyfold.surface.heights import SpreadCloth, spread_cloth
-from plyfold.surface.low import CrossingCloth, crossing_cloth, estimated, lowered
+from plyfold.surface.low import crossing_cloth, estimated, lowered
 from plyfold.surface.making import Making, raised, steps_of
 from plyfold.surface.stairs import Steps
 
@@ -128,7 +128,8 @@ def _raised(layering: Layering | IntersectingLayering, ground: _Ground, watch: W
 
 def _coarser(first: Layering, ground: _Ground, watch: Watch) -> _Ground | None:
     """Return the same with fewer triangles; None where there are not many, or no less with less asked for."""
-    if (triangles := _count(first, ground.steps)) <= _MANY:
+    is_least = ground.making.max_area is None and ground.making.triangles <= DEFAULT_TRIANGLES
+    if is_least or (triangles := _count(first, ground.steps)) <= _MANY:
         return None
     making = replace(ground.making, triangles=DEFAULT_TRIANGLES, max_area=None)
     steps = steps_of(first, making, _quiet(watch))
@@ -193,10 +194,13 @@ def _distinct(layerings: Iterator[Layering]) -> list[Layering]:
 
 
 @one_thread()
-def _candidates(problem: OrderProblem, first: Layering, ground: _Ground, watch: Watch) -> list[tuple[float, Layering]]:
+def _candidates(
+    problem: OrderProblem, first: Layering, mesh: LiftedMesh, spread: SpreadCloth | None, watch: Watch
+) -> list[tuple[float, Layering]]:
     """Return layerings with bounds of their ranges in gaps, nearly, the lowest first; the bound is 0 if not known."""
     found = _distinct(_and_nice(problem, first, watch.clock))
-    if (cloth := _crossing_cloth(problem, first, ground)) is None:
+    cloth = None if spread is None else crossing_cloth(problem, mesh, spread)
+    if cloth is None:
         return [(0.0, layering) for layering in found]
     ranked = sorted(((estimated(cloth, each.level).height, each) for each in found), key=lambda pair: pair[0])
     with suppress(TimeLimitError):
@@ -217,25 +221,16 @@ def _and_nice(problem: OrderProblem, first: Layering, clock: Clock) -> Iterator[
 def _lowest(problem: OrderProblem, first: Layering, ground: _Ground, watch: Watch) -> Raised:
     """Return the lowest of the candidates."""
     hurried = _hurried(watch, _TO_FIND)
-    ground = replace(ground, spread=_spread(first, ground, _quiet(watch)))
-    candidates = _candidates(problem, first, ground, hurried)
-    return _lowest_of(candidates, ground, watch)
+    mesh = stack_sheets(first, ground.steps.cells, _quiet(watch))
+    ground = replace(ground, spread=_spread(mesh, ground, _quiet(watch)))
+    return _lowest_of(_candidates(problem, first, mesh, ground.spread, hurried), ground, watch)
 
 
-def _spread(first: Layering, ground: _Ground, watch: Watch) -> SpreadCloth | None:
+def _spread(mesh: LiftedMesh, ground: _Ground, watch: Watch) -> SpreadCloth | None:
     """Return the cloth that all layerings have in common; None if pieces, stairs or pins make it another one each."""
-    if ground.making.pins or len(ground.steps.outer):
-        return None
-    mesh = stack_sheets(first, ground.steps.cells, watch)
-    if mesh.piece.any():
+    if ground.making.pins or len(ground.steps.outer) or mesh.piece.any():
         return None
     return spread_cloth(ground.steps.cells.points, mesh, ground.making.stiffness, ground.making.flat, watch)
-
-
-def _crossing_cloth(problem: OrderProblem, first: Layering, ground: _Ground) -> CrossingCloth | None:
-    if ground.spread is None:
-        return None
-    return crossing_cloth(problem, stack_sheets(first, ground.steps.cells), ground.spread)
 
 
 def _lowest_of(candidates: list[tuple[float, Layering]], ground: _Ground, watch: Watch) -> Raised:

@@ -195,6 +195,9 @@ def _on_finer_mesh(fine: ClothMesh, problem: Problem) -> Problem:
         return problem
     rows = problem.wanted.rows.copy()
     rows.resize(rows.shape[0], rows.shape[1] + fine.added)
+    if not problem.held.any():
+        none = np.zeros(len(fine.places), dtype=bool)
+        return replace(problem, wanted=replace(problem.wanted, rows=rows), held=none, given=none.astype(np.float64))
     # In the middle between held vertices, vertices are held.
     held = fine.continued(problem.held.astype(np.float64)) == 1
     given = np.where(held, fine.continued(problem.given), 0.0)

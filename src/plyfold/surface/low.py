@@ -34,7 +34,7 @@ __all__ = ["CrossingCloth", "Estimate", "crossing_cloth", "estimated", "lowered"
 
 # With more vertices over crossings than this, the full matrix takes longer than the surface itself. Then one crossing
 # stands for all those at which the same class of pairs is met: the corners of a place where strips cross, as a rule.
-_MOST_ENDS = 400
+_MOST_ENDS, _MOST_CHOSEN = 400, 800
 # With more classes than this, they are not turned round together with all that come after.
 _MOST_IN_ROWS = 40
 # Of the gap: what may be missing. So many pairs of vertices join in a round, and as many again as there are.
@@ -94,7 +94,7 @@ def crossing_cloth(problem: OrderProblem, mesh: LiftedMesh, spread: SpreadCloth)
     if len(ends) > _MOST_ENDS:
         kept = _one_for_each_class(problem, mesh, ends, sheet)
         ends, sheet = ends[kept], sheet[kept]
-    if not 0 < len(ends) <= _MOST_ENDS:
+    if not 0 < len(ends) <= _MOST_CHOSEN:
         return None
     weights = _against_the_first(ends, len(spread.fine.places))
     return CrossingCloth(sheet, mesh.planar_vertex[ends], spread.answers.between(weights, weights))
@@ -158,12 +158,12 @@ def estimated(cloth: CrossingCloth, level: Ints, near: Estimate | None = None) -
         active |= near.pressing[lower, upper]
     while True:
         rows = np.flatnonzero(active)
-        answer = cloth.flexibility[:, upper[rows]] - cloth.flexibility[:, lower[rows]]
-        opening = answer[upper[rows]] - answer[lower[rows]]
+        answer = cloth.flexibility[upper[rows]] - cloth.flexibility[lower[rows]]
+        opening = answer[:, upper[rows]] - answer[:, lower[rows]]
         force = least_forces((opening + opening.T) / 2, np.ones(len(rows)), 0, np.ones(len(rows), dtype=bool))
         if force is None:
             return Estimate(np.inf, np.inf, np.zeros(cloth.flexibility.shape, dtype=bool))
-        z = answer @ force
+        z = force @ answer
         missing = np.where(active, 0.0, 1 - (z[upper] - z[lower]))
         worst = np.argsort(-missing, kind="stable")[: _FIRST_PAIRS + len(rows)]
         added = worst[missing[worst] > _MISSING]
