@@ -1,8 +1,9 @@
-"""Time of surfaces, stage by stage, and their angles: ``python benchmarks/surfaces.py``, a few minutes.
+"""Time of surfaces, stage by stage, their angles and heights: ``python benchmarks/surfaces.py``, a few minutes.
 
 Sketches of up to 30 crossings with the usual number of triangles, from points, the best of five; and the pretzel with
-ten thousand, a hundred thousand and a million triangles. With ``--docs`` the tables are written into
-docs/surfaces.md.
+ten thousand, a hundred thousand and a million triangles. Then the ranges of heights of the first layering, the nicest
+one, and the one that stays low, with the time of the processor for lifting the first and the last. With ``--docs`` the
+tables are written into docs/surfaces.md.
 """
 
 from __future__ import annotations
@@ -12,15 +13,16 @@ import time
 from collections.abc import Callable, Iterator
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
-from families import chain, glued_disk, ribbon_disk
+from families import FAMILIES, chain, glued_disk, ribbon_disk
 from tables import machine, markdown, number
 
 import plyfold as pf
 from plyfold.gallery import CURVES
 from plyfold.mesh.cells import CellTriangulation, triangulate_cells
+from plyfold.surface.choose import LayeringChoice
 from plyfold.surface.glue import stack_sheets
 from plyfold.surface.heights import smooth_heights
 from plyfold.surface.lift import layering_of
@@ -29,6 +31,16 @@ PAGE = Path(__file__).parent.parent / "docs" / "surfaces.md"
 PICTURE = "![Meshes of three drawings, and the smallest angles over the gallery](images/mesh.png)"
 MOST_CROSSINGS = 30
 STAGES = ("verdict", "mesh", "gluing", "heights")
+LARGE = {
+    "chain": (370, 1500),
+    "coil": (400,),
+    "ribbon": (300, 1000, 3000),
+    "wild-ribbon": (100, 300, 1000),
+    "dense-disk": (60, 100, 200),
+    "piled-disk": (100,),
+    "spiral": (1000,),
+    "band": (720,),
+}
 ANGLES = (0, 5, 15, 25, 30, 40, 50, 60)
 
 
@@ -120,6 +132,28 @@ def rows(case: Case) -> tuple[list[str], list[str]]:
     return times, [case.name, f"{faces:,}", f"{angles.min():.1f}", *(f"{part:,}" for part in count)]
 
 
+def choices() -> Iterator[tuple[str, Any]]:
+    """Yield the curves that leave a choice between layerings."""
+    yield from ((name, CURVES[name].curve) for name in ("pretzel", "knotted-ribbon", "pentagram"))
+    for family, sizes in LARGE.items():
+        yield from ((f"{family} of {size:,}", FAMILIES[family].draw(size, 0)) for size in sizes)
+
+
+def chosen(name: str, points: Any) -> list[str]:
+    """Lift a curve in three ways: its line in the table of heights."""
+    drawn = pf.arrange(points)
+    heights, seconds = {}, {}
+    for choose in get_args(LayeringChoice):
+        times = []
+        for _ in range(3):
+            start = time.process_time()
+            surface = pf.lift(drawn, choose=choose)
+            times.append(time.process_time() - start)
+        heights[choose], seconds[choose] = np.ptp(surface.vertices[:, 2]) / surface.gap, 1000 * min(times)
+    ranges = [f"{heights[choose]:.3f}" for choose in ("first", "nicest", "low")]
+    return [name, str(drawn.n_crossings), *ranges, number(seconds["first"]), number(seconds["low"])]
+
+
 def main() -> None:
     """Measure, print, and write the tables if asked to."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -132,9 +166,13 @@ def main() -> None:
     )
     between = [f"{low}–{high}°" for low, high in pairwise(ANGLES)]
     angles = markdown(["curve", "triangles", "least", *between], [b for _, b in measured])
+    heights = markdown(
+        ["curve", "k", "first", "nicest", "low", "first ms", "low ms"], [chosen(*case) for case in choices()]
+    )
     where = machine([]).replace(", GEOS ?", "")
     text = f"# Surfaces: time and angles\n\nMade by `python benchmarks/surfaces.py --docs`. {where}\n\n"
-    text += f"## Time\n\n{times}\n\n## The smallest angle of each triangle\n\n{PICTURE}\n\n{angles}\n"
+    text += f"## Time\n\n{times}\n\n## The smallest angle of each triangle\n\n{PICTURE}\n\n{angles}\n\n"
+    text += f"## The range of heights by the choice of the layering, in gaps\n\n{heights}\n"
     print(text)
     if options.docs:
         PAGE.write_text(text, encoding="utf-8")

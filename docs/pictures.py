@@ -46,11 +46,11 @@ def gallery() -> None:
     save_small(figure, "gallery", 160)
 
 
-def layered(named: NamedOutline) -> pf.Layering:
-    """Return a layering; of those of the two rings one that links them, and of the torus's front that of the torus."""
+def layered(named: NamedOutline) -> pf.Outline | pf.Layering:
+    """Return what to lift: of the two rings a layering that links them, of the torus's front that of the torus."""
     if named.name == "linked-rings":
         return linked(named.outline)
-    return torus_layering(named.outline) if named.name == "torus-front" else pf.find_embedding(named.outline)
+    return torus_layering(named.outline) if named.name == "torus-front" else named.outline
 
 
 if __name__ == "__main__":

@@ -48,8 +48,8 @@ def test_wrong_forces_are_an_error(dense, monkeypatch):
     """Forces that are a little too large keep all distances, and more."""
     right = heights.forced_heights
 
-    def wrong(problem, watch):
-        found = right(problem, watch)
+    def wrong(*arguments):
+        found = right(*arguments)
         return replace(found, heights=1.01 * found.heights, force=1.01 * found.force)
 
     monkeypatch.setattr(heights, "forced_heights", wrong)

@@ -54,6 +54,13 @@ def add_lift_command(commands: Any) -> None:
         "cloth's mean width if that is less)",
     )
     lift.add_argument(
+        "--choose",
+        choices=["low", "first", "nicest"],
+        default="low",
+        help="which layering: one that stays low, the first one, or the one that changes least often between over and "
+        "under (default: %(default)s)",
+    )
+    lift.add_argument(
         "--allow-intersections",
         action="store_true",
         help="where no layered surface exists, lift one with the shortest self-intersections",
@@ -84,6 +91,7 @@ def _lift(options: argparse.Namespace) -> int:
     arranged = prepare(options, (".glb", ".obj", ".ply", ".stl", ".3mf", ".html", *films), watch, clock)
     surface = lift(
         _by_heights(arranged, options),
+        choose=options.choose,
         gap=options.gap,
         triangles=options.triangles,
         time_limit=clock.left,

@@ -161,13 +161,15 @@ class _Contacts:
 
 
 @one_thread()
-def forced_heights(problem: Problem, watch: Watch) -> Balance | None:
+def forced_heights(problem: Problem, watch: Watch, answers: Answers | None = None) -> Balance | None:
     """Return the heights of least energy, from the forces that keep the distances.
 
     Parameters
     ----------
     problem : Problem
     watch : Watch
+    answers : Answers, optional
+        Those of the problem's cloth, if they are there already.
 
     Returns
     -------
@@ -176,7 +178,7 @@ def forced_heights(problem: Problem, watch: Watch) -> Balance | None:
         forces keep them apart. Cost: an answer to forces in each of some dozens of rounds.
     """
     held, wanted, tolerance = problem.held, problem.wanted, problem.tolerance
-    answers, across = Answers(problem.cloth, held, watch), wanted.rows.T.tocsr()
+    answers, across = answers or Answers(problem.cloth, held, watch), wanted.rows.T.tocsr()
     base = problem.given - (answers.heights(problem.cloth.stiffness @ problem.given) if held.any() else 0.0)
     found, contacts, done = Balance(base, np.zeros(len(wanted.least))), _Contacts.none(), 0.0
     added = (

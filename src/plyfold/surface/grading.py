@@ -12,7 +12,7 @@ other: distances of sheets are kept at the given ones.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from typing import TypeVar
 
 import numpy as np
@@ -71,14 +71,21 @@ class ClothMesh:
     def continued(self, values: Floats) -> Floats:
         """Return values of the surface's vertices, and of each further one the mean of those it is the middle of."""
         whole = np.concatenate([values, np.zeros(self.added)])
-        known = len(values)
-        while known < len(whole):
-            # As many at once as lie between vertices that are known already.
-            ends = self.ends[known - len(values) :]
-            count = int(np.argmax(np.append((ends >= known).any(axis=1), True)))
-            whole[known : known + count] = whole[ends[:count]].mean(axis=1)
-            known += count
+        for rows in self._generations:
+            whole[len(values) + rows] = whole[self.ends[rows]].mean(axis=1)
         return whole
+
+    @cached_property
+    def _generations(self) -> list[Ints]:
+        """The rows of ``ends``, grouped so that each lies between vertices of the surface and of groups before."""
+        own, left, groups = len(self.places) - self.added, np.arange(self.added), []
+        known = np.arange(len(self.places)) < own
+        while len(left):
+            between = known[self.ends[left]].all(axis=1)
+            groups.append(left[between])
+            known[own + groups[-1]] = True
+            left = left[~between]
+        return groups
 
 
 def cloth_mesh(points: Floats, mesh: LiftedMesh, stiffness: float) -> ClothMesh:

@@ -28,8 +28,9 @@ import numpy as np
 from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import UNWATCHED, Watch
 from plyfold.errors import InputError, PrecisionError
+from plyfold.surface.answers import Answers
 from plyfold.surface.contact import Balance, Distances, Problem, forced_heights, sprung_heights
-from plyfold.surface.energy import cloth_of
+from plyfold.surface.energy import Cloth, cloth_of
 from plyfold.surface.glue import LiftedMesh, shares_of_gap
 from plyfold.surface.grading import ClothMesh, cloth_mesh
 
@@ -38,6 +39,7 @@ __all__ = [
     "PinKey",
     "Pins",
     "Room",
+    "SpreadCloth",
     "distances_apart",
     "flat_weight",
     "highest_below",
@@ -46,6 +48,7 @@ __all__ = [
     "room_between",
     "rows_upward",
     "smooth_heights",
+    "spread_cloth",
 ]
 
 
@@ -76,6 +79,7 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
     stiffness: float = DEFAULT_STIFFNESS,
     pins: Mapping[PinKey, float] | None = None,
     flat: float = 1.0,
+    spread: SpreadCloth | None = None,
     watch: Watch = UNWATCHED,
 ) -> Floats:
     """Return smooth heights that keep stacked vertices apart.
@@ -97,6 +101,9 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
         Heights of sheets and points, see :func:`plyfold.surface.lift`.
     flat : float
         How many times as stiff the cloth is where nothing overlaps.
+    spread : SpreadCloth, optional
+        That of the same mesh, stiffness and weight, with the sheets in whatever order, if it is there already and
+        nothing is pinned.
     watch : Watch, optional
 
     Returns
@@ -128,14 +135,16 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
     distance = distances_apart(mesh, gap * shares_of_gap(points, mesh, gap), thickness)
     room = room_between(given, points, mesh, distance)
     held, fixed = _without_room(given, room, gap)
-    fine = cloth_mesh(points, mesh, stiffness)
-    cloth = cloth_of(fine, mesh, stiffness, flat, watch)
+    fine = cloth_mesh(points, mesh, stiffness) if spread is None else spread.fine
+    cloth = cloth_of(fine, mesh, stiffness, flat, watch) if spread is None else spread.cloth
     # With the largest distance, mostly the gap, as the unit of height, the numbers are of the order of 1.
     unit = max(gap, float(distance.max(initial=0.0)))
     tolerance = max(_TOLERANCE, _RELATIVE * float(np.abs([*fixed, *given.heights]).max()) / unit)
     wanted = _distances(mesh, distance / unit + tolerance, given, held, unit)
     problem = _on_finer_mesh(fine, Problem(cloth, wanted, held, fixed / unit, tolerance))
-    found = forced_heights(problem, watch) or sprung_heights(problem, watch)
+    # Where next to no room is left, vertices are held: then answers are others.
+    answers = None if spread is None or held.any() else spread.answers
+    found = forced_heights(problem, watch, answers) or sprung_heights(problem, watch)
     z = found.heights[: len(held)]
     if pins and np.max(missing := wanted.missing(z), initial=0.0) > _LARGEST_REST:
         place = points[mesh.planar_vertex[wanted.rows[[int(np.argmax(missing))]].indices[:1]]]
@@ -146,6 +155,31 @@ def smooth_heights(  # noqa: PLR0913 - each option is keyword-only and independe
     moved = fine.continued((heights - settled) / unit)
     _require_least(found.heights + moved, found, problem, points[mesh.planar_vertex])
     return heights
+
+
+@dataclass(frozen=True, eq=False)
+class SpreadCloth:
+    """The cloth of a surface in one piece without pins: the same in whatever order its sheets lie.
+
+    Parameters
+    ----------
+    fine : ClothMesh
+    cloth : Cloth
+    answers : Answers
+    """
+
+    fine: ClothMesh
+    cloth: Cloth
+    answers: Answers
+
+
+def spread_cloth(
+    points: Floats, mesh: LiftedMesh, stiffness: float, flat: float, watch: Watch = UNWATCHED
+) -> SpreadCloth:
+    """Return what :func:`smooth_heights` needs of a surface in one piece, for one order of its sheets after another."""
+    fine = cloth_mesh(points, mesh, stiffness)
+    cloth = cloth_of(fine, mesh, stiffness, flat, watch)
+    return SpreadCloth(fine, cloth, Answers(cloth, np.zeros(len(fine.places), dtype=bool), watch))
 
 
 def distances_apart(mesh: LiftedMesh, gap: float | Floats, thickness: Floats | None) -> Floats:
@@ -161,6 +195,9 @@ def _on_finer_mesh(fine: ClothMesh, problem: Problem) -> Problem:
         return problem
     rows = problem.wanted.rows.copy()
     rows.resize(rows.shape[0], rows.shape[1] + fine.added)
+    if not problem.held.any():
+        none = np.zeros(len(fine.places), dtype=bool)
+        return replace(problem, wanted=replace(problem.wanted, rows=rows), held=none, given=none.astype(np.float64))
     # In the middle between held vertices, vertices are held.
     held = fine.continued(problem.held.astype(np.float64)) == 1
     given = np.where(held, fine.continued(problem.given), 0.0)

@@ -37,13 +37,14 @@ from plyfold.obstruction import IMMERSION_REASONS, Obstruction, Unknown
 from plyfold.options import refuse_unless_flag, refuse_unless_number
 from plyfold.outline.curve import Curve, Outline
 from plyfold.outline.given import OutlineLike
+from plyfold.surface.choose import LayeringChoice, raised_as_chosen, refuse_choice
 from plyfold.surface.files import Colouring, model_of_surface, trimesh_of
 from plyfold.surface.gap import gap_over
-from plyfold.surface.glue import cusps_of, intersection_curves, stack_sheets
+from plyfold.surface.glue import cusps_of, intersection_curves
 from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, flat_weight, refuse_stiffness
 from plyfold.surface.inflate import Profile, inflate
 from plyfold.surface.left import kinds_of, loops_of, may_touch
-from plyfold.surface.making import Making, raised, steps_of
+from plyfold.surface.making import Making, steps_of
 from plyfold.surface.thicken import Solid, thicken
 from plyfold.wording import counted
 
@@ -376,6 +377,7 @@ class Surface:
 def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     curve: OutlineLike | Immersion | Layering | IntersectingLayering,
     *,
+    choose: LayeringChoice = "low",
     allow_intersections: bool = False,
     gap: float | None = None,
     triangles: int = DEFAULT_TRIANGLES,
@@ -395,6 +397,11 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         Of a curve that bounds a disk the first immersion that can be layered is lifted; of any other outline, such as
         an :class:`~plyfold.Outline` or a list of curves, an embedding. Pieces that do not hang together keep the gap
         too, where they lie over each other, and lie on the table where not. Round a cusp the surface is a spiral stair.
+    choose : {"low", "first", "nicest"}
+        Which layering of the immersion is lifted, unless one is given. ``"low"``: one whose heights range little, never
+        more than those of the other two where they are known soon; ``"first"``: that of :func:`~plyfold.find_layering`
+        or :func:`~plyfold.find_embedding`; ``"nicest"``: that of :func:`~plyfold.nicest_layering`. The surface's
+        ``layering`` is the one that was taken.
     allow_intersections : bool, optional
         If no immersion can be layered, lift the one that does with the shortest self-intersections, as far as is known
         (``surface.layering.optimal``), and report them.
@@ -423,7 +430,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     progress : callable, optional
         Called with the name of the stage and the fraction of it done: "finding the crossings", "finding an immersion",
         "layering immersion 1" or "layering the sheets", "looking for short intersections", "triangulating the cells",
-        "gluing the sheets", "smoothing heights".
+        "choosing the layering", "gluing the sheets", "smoothing heights".
 
     Returns
     -------
@@ -458,6 +465,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     ([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]], [[0, 1, 2]])
     """
     _refuse_wrong_kinds(allow_intersections, stiffness, pins, flat)
+    refuse_choice(choose)
     watch = Watch(Clock(time_limit), progress)
     layering = layering_of(curve, allow_intersections, watch)
     drawn = layering.immersion.arrangement
@@ -467,11 +475,12 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
     refuse_stiffness(stiffness)
     making = Making(triangles, max_area, stiffness, dict(pins or {}), flat_weight(flat))
     steps = steps_of(layering, making, watch)
-    mesh = stack_sheets(layering, steps.cells, watch)
-    vertices = raised(mesh, steps, distance, making, watch=watch)
+    choice: LayeringChoice = "first" if layering is curve else choose
+    made = raised_as_chosen(layering, choice, steps, distance, making, watch=watch)
+    mesh = made.mesh
     return Surface(
-        layering=layering,
-        vertices=vertices,
+        layering=made.layering,
+        vertices=made.vertices,
         faces=mesh.faces,
         sheet=mesh.sheet,
         boundary=mesh.boundary,
@@ -479,7 +488,7 @@ def lift(  # noqa: PLR0913 - each option is keyword-only and independent
         cusps=mesh.cusps,
         gap=distance,
         passing=mesh.passing,
-        intersections=intersection_curves(vertices, mesh),
+        intersections=intersection_curves(made.vertices, mesh),
         making=making,
     )
 
@@ -499,7 +508,7 @@ def layering_of(
     allow_intersections: bool,
     watch: Watch = UNWATCHED,
 ) -> Layering | IntersectingLayering:
-    """Return the layering that :func:`lift` lifts, with its options and errors."""
+    """Return the first layering that :func:`lift` could lift, with its options and errors."""
     if isinstance(curve, Layering | IntersectingLayering):
         return curve
     choose = _least_intersecting if allow_intersections else _liftable

@@ -19,7 +19,7 @@ from plyfold.mesh.cells import DEFAULT_TRIANGLES, CellTriangulation, refuse_brok
 from plyfold.mesh.refine import given_outline, is_moved
 from plyfold.surface.chords import split_chords
 from plyfold.surface.glue import LiftedMesh, cusps_of
-from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, smooth_heights
+from plyfold.surface.heights import DEFAULT_STIFFNESS, PinKey, SpreadCloth, smooth_heights
 from plyfold.surface.stairs import Steps, heights_of_stairs, with_cusps_apart, with_steps
 
 __all__ = ["Making", "raised", "steps_of"]
@@ -91,9 +91,15 @@ def raised(  # noqa: PLR0913 - a mesh, and what is asked of its heights
     *,
     watch: Watch = UNWATCHED,
     thickness: Floats | None = None,
+    spread: SpreadCloth | None = None,
 ) -> Floats:
-    """Return the vertices of a mesh with their heights, (v, 3); bodies of some thickness round them keep the gap."""
+    """Return the vertices of a mesh with their heights, (v, 3); bodies of some thickness round them keep the gap.
+
+    The cloth may be spread already, if there are no steps and nothing is pinned.
+    """
     points = steps.cells.points
-    smooth = partial(smooth_heights, stiffness=making.stiffness, pins=making.pins, flat=making.flat, watch=watch)
+    smooth = partial(
+        smooth_heights, stiffness=making.stiffness, pins=making.pins, flat=making.flat, spread=spread, watch=watch
+    )
     heights = heights_of_stairs(points, mesh, steps.outer, gap, smooth, thickness=thickness)
     return np.column_stack([points[mesh.planar_vertex], heights])

@@ -27,7 +27,7 @@ from plyfold.layering.orders.search import OrderProblem, order_problem_in_time, 
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.sat import StoppableSolver, search_in_time
 
-__all__ = ["nicest_layering"]
+__all__ = ["nicest_layering", "walked_layering"]
 
 _QUESTION = "which layering changes least often between over and under"
 
@@ -70,12 +70,17 @@ def nicest_layering(immersion: Immersion, time_limit: float | None = None) -> La
     over = _over(problem)
     good = found
     with suppress(TimeoutError):
-        good = problem.layering(_greedy(problem, list(chain(*over)), clock))
+        good = walked_layering(problem, clock)
     true, least = _fewest_changes(problem, over, clock)
     if true is not None:
         return problem.layering(true)
     unknown = undecided("time limit", _QUESTION, clock, problem)
     return replace(unknown, established={**unknown.established, "layering": good, "changes at least": least})
+
+
+def walked_layering(problem: OrderProblem, clock: Clock) -> Layering:
+    """Return a layering of a problem that has one, with few changes: a greedy one. Raises TimeoutError."""
+    return problem.layering(_greedy(problem, list(chain(*_over(problem))), clock))
 
 
 def _over(problem: OrderProblem) -> list[list[int]]:
