@@ -39,11 +39,11 @@ cdef class PlainCurve:
     )
     cdef bint _sort_visits(self) except -1
     @cython.locals(room=int64_t[::1])
-    cdef int64_t[::1] _whole(self, Py_ssize_t size)
+    cdef int64_t[::1] take_whole(self, Py_ssize_t size)
     @cython.locals(room=double[::1])
-    cdef double[::1] _real(self, Py_ssize_t size)
+    cdef double[::1] take_real(self, Py_ssize_t size)
     @cython.locals(room=uint8_t[::1])
-    cdef uint8_t[::1] _bytes(self, Py_ssize_t size)
+    cdef uint8_t[::1] take_bytes(self, Py_ssize_t size)
     cpdef int find_direction(self) except -1
     @cython.locals(whole_curve=int64_t[::1])
     cpdef int find_cells(self) except -1

@@ -66,23 +66,23 @@ class PlainCurve:
 
     def _find_crossings(self, groups: int) -> None:
         n = self.n
-        self.following, self.scratch = self._whole(n), self._whole(3 * n + 2 * groups + 34)
+        self.following, self.scratch = self.take_whole(n), self.take_whole(3 * n + 2 * groups + 34)
         for point in range(n):
             self.following[point] = point + 1 if point < n - 1 else 0
-        self.meetings.find(self.points, self.following, self._real(4 * n + 8 * groups), self.scratch)
+        self.meetings.find(self.points, self.following, self.take_real(4 * n + 8 * groups), self.scratch)
         self.k = self.meetings.crossings.size // 2
 
     def _sort_visits(self) -> bool:
         """Sort the visits; tell whether doubles tell their order."""
         k = self.k
-        edge, order, from_right = self._whole(2 * k), self._whole(2 * k), self._bytes(k)
-        self.visit_edge, self.partner, self.ccw = self._whole(2 * k), self._whole(2 * k), self._bytes(2 * k)
-        self.point = self._real(4 * k)
+        edge, order, from_right = self.take_whole(2 * k), self.take_whole(2 * k), self.take_bytes(k)
+        self.visit_edge, self.partner, self.ccw = self.take_whole(2 * k), self.take_whole(2 * k), self.take_bytes(2 * k)
+        self.point = self.take_real(4 * k)
         for crossing in range(k):
             edge[crossing] = self.meetings.crossings.data[2 * crossing]
             other = self.meetings.crossings.data[2 * crossing + 1]
             edge[k + crossing], from_right[crossing] = other // 2, other % 2
-        places, whole = self._real(4 * k), self._whole(self.n + 2 + 2 * k)
+        places, whole = self.take_real(4 * k), self.take_whole(self.n + 2 + 2 * k)
         self.visits.sort(self.points, self.following, edge, order, places, whole)
         if self.visits.unsure.size > 0:
             return False
@@ -91,7 +91,7 @@ class PlainCurve:
 
     # ---- room --------------------------------------------------------------------------------------------------------
 
-    def _whole(self, size: int) -> WholeBuffer:
+    def take_whole(self, size: int) -> WholeBuffer:
         """Return room for so many whole numbers, with anything in it."""
         if self.n_whole <= size:
             self.n_whole = max(size, _BLOCK)
@@ -100,7 +100,7 @@ class PlainCurve:
         self.n_whole -= size
         return room
 
-    def _real(self, size: int) -> RealBuffer:
+    def take_real(self, size: int) -> RealBuffer:
         """Return room for so many doubles."""
         if self.n_real <= size:
             self.n_real = max(size, _BLOCK)
@@ -109,7 +109,7 @@ class PlainCurve:
         self.n_real -= size
         return room
 
-    def _bytes(self, size: int) -> WholeBuffer:
+    def take_bytes(self, size: int) -> WholeBuffer:
         """Return room for so many truth values."""
         if self.n_bytes <= size:
             self.n_bytes = max(size, _BLOCK)
@@ -123,18 +123,22 @@ class PlainCurve:
     def find_direction(self) -> None:
         """Find how the curve turns and winds, and turn the map round if need be."""
         self.borders, self.cells = max(2 * self.k, 1), self.k + 2
-        self.left = self._whole(self.borders)
+        self.left = self.take_whole(self.borders)
         outer = outer_dart_of_points(self.points, self.visit_edge)
         self.direction.settle(self.partner, self.ccw, outer, False, self.left)
 
     def find_cells(self) -> None:
         """Walk round the cells."""
         darts = 2 * self.borders
-        self.next_dart, self.cell_of_dart, self.cell_darts = self._whole(darts), self._whole(darts), self._whole(darts)
-        self.cell_start, self.winding = self._whole(darts + 1), self._whole(self.cells)
-        whole_curve = self._whole(2)
+        self.next_dart, self.cell_of_dart, self.cell_darts = (
+            self.take_whole(darts),
+            self.take_whole(darts),
+            self.take_whole(darts),
+        )
+        self.cell_start, self.winding = self.take_whole(darts + 1), self.take_whole(self.cells)
+        whole_curve = self.take_whole(2)
         whole_curve[0], whole_curve[1] = 0, 2 * self.k
-        follow_darts(self.partner, self.ccw, whole_curve, self.next_dart, self._whole(4 * self.k))
+        follow_darts(self.partner, self.ccw, whole_curve, self.next_dart, self.take_whole(4 * self.k))
         for dart in range(darts):
             self.cell_of_dart[dart] = -1
         walk_cells(self.next_dart, self.direction.outer, self.cell_darts, self.cell_start, self.cell_of_dart)
@@ -146,16 +150,16 @@ class PlainCurve:
     def write_word(self) -> None:
         """Grow the dual tree, and write the word of the ways out of its pits."""
         cells, borders = self.cells, self.borders
-        self.tree.begin(self.cell_of_dart, self.next_dart, self.winding, self._whole(room_for_tree(cells, borders)))
+        self.tree.begin(self.cell_of_dart, self.next_dart, self.winding, self.take_whole(room_for_tree(cells, borders)))
         self.tree.flood()
         self.tree.measure()
-        room = self._whole(room_for_arcs(cells, borders) + 2 * borders)
+        room = self.take_whole(room_for_arcs(cells, borders) + 2 * borders)
         self.letters = self.word.walk(self.tree, self.tree.ascends, room)
-        self.word.sort(self._whole(room_for_letters(self.letters)))
+        self.word.sort(self.take_whole(room_for_letters(self.letters)))
 
     def has_grouping(self) -> int:
         """Return whether the word has a grouping, if propagation tells."""
-        word, room = self.word, self._whole(room_for_propagation(self.letters, self.word.labels))
+        word, room = self.word, self.take_whole(room_for_propagation(self.letters, self.word.labels))
         self.propagation.begin(
             word.border, word.label, word.block, word.minus, word.first[: word.labels + 1], word.partner, room
         )

@@ -9,12 +9,17 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement, arrange
 from plyfold.arrangement.spikes import without_spikes
 from plyfold.arrays import Floats, Ints
+from plyfold.core.buffers import all_flat, flat
+from plyfold.core.cloth import CLOCKWISE, cut_into_triangles
+from plyfold.core.pauses import pause
+from plyfold.core.vertices import without_closing_point
 from plyfold.errors import InputError, NotImmersibleError, PrecisionError
 from plyfold.flat.delaunay import delaunay_triangles, flip_edges
 from plyfold.flat.settle import settled_triangles
 from plyfold.halfedges import GluedTriangles, ends_of, split_in_three, split_in_two
 from plyfold.immersion.immersion import Immersion, require_immersion
 from plyfold.immersion.solve import find_immersion
+from plyfold.immersion.verdict import plain_points
 from plyfold.mesh.cells import refuse_max_area
 from plyfold.mesh.refine import drawn_outline, given_outline
 from plyfold.outline.curve import Outline
@@ -130,6 +135,8 @@ def triangulate(
     >>> triangulate([(0, 0), (1, 1), (2, 1), (3, 0), (3, 2), (2, 1), (1, 1), (0, 2)]).tolist()
     [[0, 6, 7], [2, 3, 4]]
     """
+    if immersion is None and refine is None and not twins and (found := _without_values(curve)) is not None:
+        return found
     # Codes and arrangements have partners; from all else an outline is made, once.
     outline = curve if hasattr(curve, "partner") else as_outline(curve)
     chosen = chosen_immersion(outline, immersion)
@@ -143,6 +150,24 @@ def triangulate(
     if isinstance(outline, Outline) and not isinstance(curve, Outline):
         faces = outline.rows[faces]
     return (faces, settled.triangles.twin) if twins else faces
+
+
+def _without_values(curve: OutlineLike) -> Ints | None:
+    """Return triangles of points that plainly draw a disk, from loop to loop without a value between; None otherwise.
+
+    Points, stages and triangles are those that there are with values, so it is the same triangles.
+    """
+    points = plain_points(curve)
+    if points is None or len(points) < 3:
+        return None
+    faces, sides = np.empty((2, len(points) - 1, 3), dtype=np.int64)
+    count = cut_into_triangles(flat(points), pause, *all_flat(faces, sides))
+    if count != CLOCKWISE:
+        return faces[:count] if count >= 0 else None
+    n = without_closing_point(flat(points))
+    turned_round = np.roll(points[n - 1 :: -1], 1, axis=0)
+    count = cut_into_triangles(flat(turned_round), pause, *all_flat(faces, sides))
+    return -faces[:count] % n if count >= 0 else None
 
 
 class _CameIn(NamedTuple):

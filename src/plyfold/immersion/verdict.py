@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from plyfold.arrays import Floats
     from plyfold.outline.given import OutlineLike
 
-__all__ = ["bounds_disk"]
+__all__ = ["bounds_disk", "plain_points"]
 
 # Every whole number up to this one is a double.
 _LARGEST_EXACT_INTEGER = 2**53
@@ -50,7 +50,7 @@ def bounds_disk(curve: OutlineLike, touching: bool = True) -> bool:
     >>> bounds_disk(two_triangles), bounds_disk(two_triangles, touching=False)
     (True, False)
     """
-    points = _points_of(curve)
+    points = plain_points(curve)
     told = NOT_TOLD if points is None else decide(flat(points), _go_on)
     if told != NOT_TOLD:
         return told == YES
@@ -63,7 +63,7 @@ def _go_on() -> None:
     """Let Python look for a Ctrl-C, as it does at every call."""
 
 
-def _points_of(curve: object) -> Floats | None:
+def plain_points(curve: object) -> Floats | None:
     """Return a copy of what plainly are points of shape (n, 2); None for all else, be it an outline or not."""
     if type(curve) is not np.ndarray:
         if not isinstance(curve, list | tuple):
