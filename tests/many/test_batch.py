@@ -56,7 +56,7 @@ def test_a_folder_of_drawings_is_a_table(tmp_path, capsys):
     ]
     assert [row["error"] for row in rows(out) if row["verdict"] is None] == [
         "c.json: line 1: broken JSON (expecting ',' delimiter)",
-        "the curve has only 2 different point(s)",
+        "the curve has only 2 different point(s), at (0, 0), (1, 1)",
     ]
     printed = capsys.readouterr().out.split()
     assert printed[:6] == ["disk", "6", "none", "2", "error", "2"]
@@ -67,7 +67,7 @@ def test_several_processes_make_the_same_table(tmp_path):
     for out, workers in zip(outs, "12", strict=True):
         main(["batch", str(folder), "-o", str(out), "--workers", workers, "--columns", "verdict,place,immersions"])
     assert outs[0].read_text() == outs[1].read_text()
-    assert outs[0].read_text().splitlines()[0] == "file,index,id,verdict,x,y,immersions"
+    assert outs[0].read_text().splitlines()[0] == "file,index,id,verdict,place_x,place_y,immersions"
 
 
 def test_what_is_written_is_not_read(tmp_path):

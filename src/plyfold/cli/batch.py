@@ -50,7 +50,7 @@ def add_batch_command(commands: Any) -> None:
 def _batch(options: argparse.Namespace) -> int:
     from plyfold.many.batch import batch_job
     from plyfold.many.sources import files_in
-    from plyfold.many.verdicts import COLUMNS, require_columns
+    from plyfold.many.verdicts import DEFAULT_COLUMNS, checked_columns
     from plyfold.tables.cluster import connected
     from plyfold.tables.files import require_writer
     from plyfold.tables.parts import write_table
@@ -58,8 +58,8 @@ def _batch(options: argparse.Namespace) -> int:
     ending = Path(options.output).suffix.lower()
     require_writer(ending)
     refuse_output(options.output, (ending,), options.force)
-    columns = COLUMNS if options.columns is None else tuple(name.strip() for name in options.columns.split(","))
-    require_columns(columns)
+    asked = DEFAULT_COLUMNS if options.columns is None else options.columns.split(",")
+    columns = checked_columns(name.strip() for name in asked)
     watch = Stopwatch()
     watch("looking for outlines")
     job = batch_job(files_in(options.inputs, Path(options.output)), columns, options.time_limit)

@@ -10,16 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from plyfold.many.given import as_many
 from plyfold.many.sources import Chunk, chunks_of, outlines_in
-from plyfold.many.verdicts import COLUMNS, verdicts
+from plyfold.many.verdicts import DEFAULT_COLUMNS, verdicts
 from plyfold.tables.parts import Job
 from plyfold.tables.table import DataTable
 
 __all__ = ["batch_job"]
 
 
-def batch_job(files: Sequence[str], columns: Sequence[str] = COLUMNS, time_limit: float | None = None) -> Job:
+def batch_job(files: Sequence[str], columns: Sequence[str] = DEFAULT_COLUMNS, time_limit: float | None = None) -> Job:
     """Return the table of verdicts on all outlines in files, in parts.
 
     Parameters
@@ -46,11 +45,11 @@ def _made(
 ) -> tuple[DataTable, dict[str, Any]]:
     found = list(outlines_in(chunks[number]))
     asked = tuple(dict.fromkeys((*columns, "verdict")))
-    told = verdicts(as_many([outline for *_, outline in found]), asked, time_limit=time_limit)
+    told = verdicts([outline for *_, outline in found], asked, time_limit=time_limit)
     named = {
         "file": np.array([row.file for row in found], dtype=object),
         "index": np.array([row.number for row in found], dtype=np.int64),
         "id": np.array([row.id for row in found], dtype=object),
     }
-    kept = {name: column for name, column in told.columns.items() if name in columns or name in ("x", "y")}
+    kept = {name: column for name, column in told.columns.items() if name in columns or name.startswith("place")}
     return DataTable(named | kept), dict(Counter(verdict or "error" for verdict in told["verdict"].tolist()))

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from plyfold.arrays import Floats, Ints, freeze
 from plyfold.errors import CurveError, InputError, PlyfoldError
 from plyfold.immersion.verdict import plain_points
+from plyfold.outline.curve import Curve
 
 if TYPE_CHECKING:
     from plyfold.outline.given import OutlineLike
@@ -107,7 +108,7 @@ def as_many(outlines: ManyOutlinesLike) -> ManyOutlines:
         return _by_offsets(*map(np.asarray, outlines))
     # A frame has its outlines in a column.
     rows = _one_by_one(getattr(outlines, "geometry", outlines))
-    given: list[Any] = list(map(plain_points, rows))
+    given: list[Any] = list(map(_plain, rows))
     others = {row: rows[row] for row, points in enumerate(given) if points is None}
     if others:
         _take_geometries(given, others)
@@ -116,6 +117,13 @@ def as_many(outlines: ManyOutlinesLike) -> ManyOutlines:
     first = np.zeros(len(rows) + 1, dtype=np.int64)
     np.cumsum([len(points) for points in taken], out=first[1:])
     return ManyOutlines(np.concatenate([empty, *taken]), first, others)
+
+
+def _plain(row: object) -> Floats | None:
+    """Return the points of what plainly is one curve without cusps."""
+    if isinstance(row, Curve):
+        return None if row.cusps[0].any() else row.points
+    return plain_points(row)
 
 
 def _by_offsets(coordinates: npt.NDArray[Any], offsets: npt.NDArray[Any]) -> ManyOutlines:

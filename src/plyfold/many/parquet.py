@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import pyarrow
 from pyarrow import parquet
 
 from plyfold.errors import FileFormatError
-from plyfold.many.given import Row, as_many
+from plyfold.many.given import as_many
 
 __all__ = ["rows_of_group", "sizes_of_groups"]
 
@@ -22,7 +23,7 @@ def sizes_of_groups(path: str) -> list[int]:
     return [known.row_group(number).num_rows for number in range(known.num_row_groups)]
 
 
-def rows_of_group(path: str, group: int, usual: Sequence[str]) -> Iterator[tuple[str | None, Row]]:
+def rows_of_group(path: str, group: int, usual: Sequence[str]) -> Iterator[tuple[str | None, Any]]:
     """Read the rows of a group: the value of a column ``id``, if there is one, and the outline.
 
     Parameters
@@ -44,7 +45,8 @@ def rows_of_group(path: str, group: int, usual: Sequence[str]) -> Iterator[tuple
         many = as_many(batch.column(column).to_pylist())
         ids = batch.column("id").to_pylist() if len(names) > 1 else [None] * len(many)
         for number, name in enumerate(ids):
-            yield None if name is None else str(name), many.row(number)
+            row = many.others[number] if number in many.others else many.outline(number)
+            yield None if name is None else str(name), row
 
 
 def _opened(path: str) -> parquet.ParquetFile:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from plyfold.errors import FileFormatError, InputError, PlyfoldError
 from plyfold.io.json_points import shapes_in_json
 from plyfold.io.reading import SIZE_LIMIT, read_contents
 from plyfold.io.shapes import outline_of_shapes
-from plyfold.many.given import Row
 
 __all__ = ["Chunk", "FoundOutline", "chunks_of", "files_in", "outlines_in"]
 
@@ -48,7 +47,7 @@ class FoundOutline(NamedTuple):
     file: str
     number: int
     id: str | None
-    outline: Row
+    outline: Any
 
 
 def files_in(inputs: Iterable[str], without: Path | None = None) -> list[str]:
@@ -169,7 +168,7 @@ def _in_file(path: str) -> Iterator[FoundOutline]:
         return
     for index in range(len(contents)):
         try:
-            row: Row = contents.outline(index)
+            row: Any = contents.outline(index)
         except PlyfoldError as error:
             row = error
         yield FoundOutline(path, index, contents.name(index) or None, row)
@@ -188,7 +187,7 @@ def _on_lines(chunk: Chunk) -> Iterator[FoundOutline]:
             index += 1
 
 
-def _on_line(line: bytes) -> tuple[str | None, Row]:
+def _on_line(line: bytes) -> tuple[str | None, Any]:
     name = None
     try:
         shapes = shapes_in_json(line.decode("utf-8"))

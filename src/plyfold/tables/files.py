@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import math
 import shutil
 from collections.abc import Callable, Sequence
 from importlib.util import find_spec
@@ -84,15 +83,12 @@ def _as_json_lines(table: DataTable) -> bytes:
 
 
 def _plain(value: Any) -> Any:
-    """Return a value as it is written: bytes are text, and what is no number is missing."""
-    if isinstance(value, float) and math.isnan(value):
-        return None
     return value.decode() if isinstance(value, bytes) else value
 
 
-def _text(value: Any) -> str | bool | None:
+def _text(value: Any) -> str | None:
     """Return a value of an object column: decimal text for whole numbers, whatever their size."""
-    return value if value is None or isinstance(value, bool) else str(value)
+    return None if value is None else str(value)
 
 
 _WRITERS: dict[str, Callable[[DataTable], bytes]] = {
