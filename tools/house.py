@@ -38,6 +38,7 @@ ORDER = [
     ["mesh"],
     ["flat"],
     ["offers"],
+    ["homotopy"],
     ["disk"],
     ["surface"],
     ["hard", "paper"],
