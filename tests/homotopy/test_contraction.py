@@ -41,10 +41,20 @@ def test_what_is_swept_and_what_is_left_make_the_disk(contraction):
 
 def test_the_loop_stays_closed_and_where_it_was_cut(contraction):
     for shrinking in contraction.shrinking:
-        for size in (0.2, 0.6, 0.95):
+        for size in (0.02, 0.2, 0.6, 0.95):
             pieces = np.round(shrinking.curve_at(size), 6).reshape(-1, 2).tolist()
             ends = Counter(map(tuple, pieces))
             assert set(ends.values()) == {2}
+            ways = {}
+            for one, other in np.round(shrinking.curve_at(size), 6).tolist():
+                ways.setdefault(tuple(one), []).append(tuple(other))
+                ways.setdefault(tuple(other), []).append(tuple(one))
+            reached, waiting = set(), [tuple(np.round(shrinking.points[0], 6).tolist())]
+            while waiting:
+                if (place := waiting.pop()) not in reached:
+                    reached.add(place)
+                    waiting += ways[place]
+            assert reached == set(ends)
             assert tuple(np.round(shrinking.points[0], 6).tolist()) in ends
 
 

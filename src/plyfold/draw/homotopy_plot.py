@@ -23,7 +23,7 @@ from plyfold.draw.canvas import blank, dots, line, region, write, write_below
 from plyfold.draw.film import FILMS
 from plyfold.draw.placement import Frame, cell_rings, closed, drawn_points, label_circle, line_weight
 from plyfold.errors import InputError
-from plyfold.homotopy.contraction import Contraction, Moment, contraction_of
+from plyfold.homotopy.contraction import Contraction, contraction_of
 from plyfold.homotopy.homotopy import Homotopy, Loop, least_homotopy
 from plyfold.io.saving import refuse_existing, save_bytes
 from plyfold.options import refuse_unless_count
@@ -32,7 +32,7 @@ from plyfold.outline.curve import Curve
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["plot_homotopy", "save_contraction"]
+__all__ = ["draw_contraction", "plot_homotopy", "save_contraction"]
 
 _Frame = npt.NDArray[np.uint8]
 
@@ -162,20 +162,20 @@ def save_contraction(  # noqa: PLR0913 - options
 
 
 def _frames(contraction: Contraction, times: list[float], size: int) -> Iterator[_Frame]:
-    frame = Frame(drawn_points(contraction.homotopy.arrangement))
     for time in times:
         figure = Figure(figsize=(size / 100, size / 100), dpi=100, facecolor=PAPER)
         canvas = FigureCanvasAgg(figure)
         axes = figure.add_axes((0, 0, 1, 1), xlim=(-0.55, 0.55), ylim=(-0.55, 0.55))
         axes.set_axis_off()
-        _draw_moment(axes, contraction, contraction.moment(time), frame)
+        draw_contraction(contraction, time, axes)
         canvas.draw()  # type: ignore[no-untyped-call]
         yield np.asarray(canvas.buffer_rgba())[..., :3].copy()  # type: ignore[no-untyped-call]
 
 
-def _draw_moment(axes: Axes, contraction: Contraction, now: Moment, frame: Frame) -> None:
-    """Draw what is left of the cloth and the curve at a moment."""
-    found = contraction.homotopy
+def draw_contraction(contraction: Contraction, time: float, axes: Axes) -> None:
+    """Draw what is left of the cloth and the curve at a time from 0 to 1, in a picture of size 1 around the origin."""
+    found, now = contraction.homotopy, contraction.moment(time)
+    frame = Frame(drawn_points(found.arrangement))
     waiting = [found.loops[number] for number in contraction.order[now.loop + 1 :]]
     for cell in range(1, found.arrangement.n_cells):
         if any(loop.winding[cell] for loop in waiting):

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from heapq import heapify, heappop, heappush
 from itertools import pairwise, repeat
+from math import inf
 
 import numpy as np
 
@@ -84,9 +86,8 @@ class Shrinking:
     def swept_at(self, size: float) -> float:
         """Return the area that has been swept when the circle has some size; that of the whole disk at 0."""
         low, middle, high = np.sort(self.size[self.faces], axis=1).T
-        with np.errstate(divide="ignore", invalid="ignore"):
-            begun = (size - low) ** 2 / ((middle - low) * (high - low))
-            ended = 1 - (high - size) ** 2 / ((high - low) * (high - middle))
+        begun = _ratio((size - low) ** 2, (middle - low) * (high - low))
+        ended = 1 - _ratio((high - size) ** 2, (high - low) * (high - middle))
         left = np.select([size < low, size >= high, size < middle], [0.0, 1.0, begun], ended)
         return float((self._areas * (1 - (left if size else 0))).sum())
 
@@ -94,6 +95,11 @@ class Shrinking:
     def _areas(self) -> Floats:
         one, other = (self.points[self.faces[:, [corner]]][:, 0] - self.points[self.faces[:, 0]] for corner in (1, 2))
         return np.asarray(cross(one, other) / 2)
+
+
+def _ratio(part: Floats, whole: Floats) -> Floats:
+    """Return quotients, and 0 of nothing: of triangles where they are not asked for."""
+    return np.asarray(part / np.where(whole > 0, whole, 1))
 
 
 @dataclass(frozen=True)
@@ -185,7 +191,30 @@ def _shrinking(curve: Curve, triangles: int) -> Shrinking:
     size = np.ones(len(points))
     size[inside] = (((x - 1) ** 2 + y**2)[inside]) / (2 * (1 - x[inside]))
     size[0] = 0
+    size = 1 - _without_pits(1 - _without_pits(size, faces, [0]), faces, np.flatnonzero(size == 1).tolist())
     return Shrinking(points, faces, size, rim[rim[:, 0] == 0, 1])
+
+
+def _without_pits(heights: Floats, faces: Ints, lowest: list[int]) -> Floats:
+    """Return heights with pits filled: from every vertex a way that never climbs leads to one of the lowest.
+
+    On a coarse mesh circles may seem to shrink to other vertices, too.
+    """
+    ends = np.concatenate([faces, faces[:, ::-1]]).T
+    around: list[list[int]] = [[] for _ in heights]
+    for one, other in zip(ends.ravel().tolist(), np.roll(ends, -1, axis=0).ravel().tolist(), strict=True):
+        around[one].append(other)
+    given, filled = heights.tolist(), [inf] * len(heights)
+    waiting = [(given[vertex], vertex) for vertex in lowest]
+    heapify(waiting)
+    while waiting:
+        height, vertex = heappop(waiting)
+        if filled[vertex] == inf:
+            filled[vertex] = height
+            for other in around[vertex]:
+                if filled[other] == inf:
+                    heappush(waiting, (max(height, given[other]), other))
+    return np.array(filled)
 
 
 def _sides_once(faces: Ints) -> Ints:
