@@ -45,7 +45,7 @@ ORDER = [
     ["gallery"],
     ["report"],
     ["draw"],
-    ["sketch", "census"],
+    ["sketch", "census", "many"],
     ["plyfold"],
     ["cli"],
 ]
@@ -95,6 +95,7 @@ LATE = {
     ("plyfold.io.pieces", "shapely"): "the command line knows what files hold polygons before that stage",
     ("plyfold.io.vector", "shapely"): _SMALL,
     ("plyfold.layering.orders.maxsat", "pysat"): _STAGE,
+    ("plyfold.many.given", "shapely"): "arrays of points do without it",
     ("plyfold.matrices", "scipy"): _STAGE,
     ("plyfold.offers.cusps", "pysat"): _STAGE,
     ("plyfold.outline.direction", "shapely"): _SMALL,
