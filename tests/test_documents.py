@@ -1,7 +1,7 @@
 """The README and the documents say nothing that does not work: all their commands and Python lines run, in order.
 
 Each document has a folder of its own with ``examples`` in it and a drawing ``loop.svg``, and its Python lines share
-their names from block to block. Blocks of Python and shell are run, and so is what stands in single backquotes in the
+their names from block to block. Blocks of Python and shell are run, blocks of text say that they are not, and so is what stands in single backquotes in the
 text and is a command or a call. A comment behind an expression that is a Python literal, or begins with one and a
 colon, is what it must give.
 """
@@ -185,13 +185,17 @@ def run_name(code, _):
     pkgutil.resolve_name(code)
 
 
-RUN = {"sh": run_shell, "python": run_python, "call": run_call, "name": run_name}
+def see_that_it_says_so(code, _):
+    assert code.startswith("# not run here\n")
+
+
+RUN = {"sh": run_shell, "python": run_python, "text": see_that_it_says_so, "call": run_call, "name": run_name}
 
 
 def test_every_block_is_of_a_language_that_is_run():
     for document in DOCUMENTS:
         fences = re.findall(r"^```(\w*)$", (ROOT / document).read_text(encoding="utf-8"), re.MULTILINE)
-        assert set(fences[::2]) <= {"python", "sh"}
+        assert set(fences[::2]) <= {"python", "sh", "text"}
         assert set(fences[1::2]) <= {""}
 
 

@@ -95,6 +95,7 @@ LATE = {
     ("plyfold.io.vector", "shapely"): _SMALL,
     ("plyfold.layering.orders.maxsat", "pysat"): _STAGE,
     ("plyfold.many.given", "shapely"): "arrays of points do without it",
+    ("plyfold.many.sources", "pyarrow"): _OPTIONAL,
     ("plyfold.matrices", "scipy"): _STAGE,
     ("plyfold.offers.cusps", "pysat"): _STAGE,
     ("plyfold.outline.direction", "shapely"): _SMALL,

@@ -7,11 +7,12 @@ import importlib
 import json
 
 from plyfold import __version__
+from plyfold.cli.batch import add_batch_command
 from plyfold.cli.census import add_census_command
 from plyfold.cli.check import add_check_command
 from plyfold.cli.convert import add_convert_command
 from plyfold.cli.draw import add_draw_command
-from plyfold.cli.each import each_shape
+from plyfold.cli.each import each_file, each_shape
 from plyfold.cli.flat import add_flat_commands
 from plyfold.cli.gallery import add_gallery_command
 from plyfold.cli.inputs import BAD_INPUT, NO_DISK, UNKNOWN
@@ -34,6 +35,7 @@ _COMMANDS = (
     add_repair_command,
     add_convert_command,
     add_gallery_command,
+    add_batch_command,
     add_census_command,
     add_sketch_command,
 )
@@ -43,6 +45,8 @@ examples:
   plyfold check loop.svg                     is it the outline of a disk of cloth? in how many ways?
   plyfold check loop.svg --json              the same for a program
   plyfold check map.geojson --each           of every shape in it
+  plyfold check a.svg b.svg c.svg --json     one line each
+  plyfold batch glyphs/ -o verdicts.parquet  a table with a row for each outline, however many there are
   plyfold check contour.json --cusp 0:12x2   with a point where the surface turns further than one sees
   plyfold lift loop.svg -o loop.html         the layered surface, as a 3D page for any browser
   plyfold lift loop.csv -o a.glb -o a.obj    as meshes; the ending chooses the format
@@ -86,6 +90,11 @@ def main(arguments: list[str] | None = None) -> int:
     2
     """
     options = _parser().parse_args(arguments)
+    return each_file(options, _answer_all) if getattr(options, "more", ()) else _answer_all(options)
+
+
+def _answer_all(options: argparse.Namespace) -> int:
+    """Run a command, for each shape of its file if that is asked for."""
     return each_shape(options, _answer) if getattr(options, "each", False) else _answer(options)
 
 

@@ -1,4 +1,4 @@
-"""``--each``: a command for every shape of a file, one after the other."""
+"""A command for every one of several files, and, with ``--each``, for every shape of a file, one after the other."""
 
 from __future__ import annotations
 
@@ -17,10 +17,26 @@ from plyfold_command import INTERRUPTED
 if TYPE_CHECKING:
     from plyfold.io.reading import Contents
 
-__all__ = ["each_shape"]
+__all__ = ["each_file", "each_shape"]
 
 # Of several exit codes the first one here is that of all together.
 _WORST_FIRST = (BAD_INPUT, UNKNOWN, NO_DISK, DISK)
+
+
+def each_file(options: argparse.Namespace, answer: Callable[[argparse.Namespace], int]) -> int:
+    """Run a command for each of its files; parameters and exit codes are those of :func:`each_shape`."""
+    codes = set()
+    for file in (options.file, *options.more):
+        if not options.json:
+            print(file)
+        codes.add(code := answer(argparse.Namespace(**vars(options) | {"file": file, "shape": {"file": file}})))
+        if code == INTERRUPTED:
+            return code
+    return _worst(codes)
+
+
+def _worst(codes: set[int]) -> int:
+    return next(code for code in _WORST_FIRST if code in codes)
 
 
 def each_shape(options: argparse.Namespace, answer: Callable[[argparse.Namespace], int]) -> int:
@@ -46,7 +62,7 @@ def each_shape(options: argparse.Namespace, answer: Callable[[argparse.Namespace
         codes.add(code := answer(_of_one_shape(options, found[0], number)))
         if code == INTERRUPTED:
             return code
-    return next(code for code in _WORST_FIRST if code in codes)
+    return _worst(codes)
 
 
 def _open(found: list[Contents], options: argparse.Namespace) -> int:
@@ -64,7 +80,10 @@ def _open(found: list[Contents], options: argparse.Namespace) -> int:
 def _of_one_shape(options: argparse.Namespace, contents: Contents, number: int) -> argparse.Namespace:
     """Return the options for one of the shapes; unless JSON is asked for, say which one it is."""
     name = contents.name(number)
-    changed = {"read_shape": partial(contents.outline_and_ribbon, number), "shape": {"index": number, "id": name}}
+    changed = {
+        "read_shape": partial(contents.outline_and_ribbon, number),
+        "shape": options.shape | {"index": number, "id": name},
+    }
     if getattr(options, "output", None):
         changed["output"] = [_numbered(path, number) for path in options.output]
     if not getattr(options, "json", False):

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from plyfold.arrays import Floats, Ints, freeze
 from plyfold.errors import CurveError, InputError, PlyfoldError
 from plyfold.immersion.verdict import plain_points
+from plyfold.outline.curve import Curve
 
 if TYPE_CHECKING:
     from plyfold.outline.given import OutlineLike
@@ -107,7 +108,7 @@ def as_many(outlines: ManyOutlinesLike) -> ManyOutlines:
         return _by_offsets(*map(np.asarray, outlines))
     # A frame has its outlines in a column.
     rows = _one_by_one(getattr(outlines, "geometry", outlines))
-    given: list[Any] = list(map(plain_points, rows))
+    given: list[Any] = list(map(_points_of, rows))
     others = {row: rows[row] for row, points in enumerate(given) if points is None}
     if others:
         _take_geometries(given, others)
@@ -136,6 +137,13 @@ def _one_by_one(outlines: Any) -> Sequence[Any]:
     if isinstance(outlines, str | bytes) or not hasattr(outlines, "__iter__"):
         raise InputError(f"a {type(outlines).__name__} does not hold many outlines", hint=_HINT)
     return list(np.asarray(outlines) if hasattr(outlines, "__array__") else outlines)
+
+
+def _points_of(outline: object) -> Floats | None:
+    """Return the points of what plainly is one curve; None for all else."""
+    if isinstance(outline, Curve):
+        return None if outline.has_cusps else outline.points
+    return plain_points(outline)
 
 
 def _take_geometries(given: list[Any], others: dict[int, Any]) -> None:
