@@ -1,9 +1,9 @@
 """The README and the documents say nothing that does not work: all their commands and Python lines run, in order.
 
 Each document has a folder of its own with ``examples`` in it and a drawing ``loop.svg``, and its Python lines share
-their names from block to block. Blocks of Python and shell are run, blocks of text say that they are not, and so is what stands in single backquotes in the
-text and is a command or a call. A comment behind an expression that is a Python literal, or begins with one and a
-colon, is what it must give.
+their names from block to block. Blocks of Python and shell are run, and so is what stands in single backquotes in the
+text and is a command or a call; blocks of text say that they are not run. A comment behind an expression that is a
+Python literal, or begins with one and a colon, is what it must give.
 """
 
 import ast
