@@ -2,8 +2,8 @@
 
 Each document has a folder of its own with ``examples`` in it and a drawing ``loop.svg``, and its Python lines share
 their names from block to block. Blocks of Python and shell are run, and so is what stands in single backquotes in the
-text and is a command or a call; blocks of text say that they are not run. A comment behind an expression that is a
-Python literal, or begins with one and a colon, is what it must give.
+text and is a command or a call. A comment behind an expression that is a Python literal, or begins with one and a
+colon, is what it must give.
 """
 
 import ast
@@ -185,17 +185,13 @@ def run_name(code, _):
     pkgutil.resolve_name(code)
 
 
-def see_that_it_says_so(code, _):
-    assert code.startswith("# not run here\n")
-
-
-RUN = {"sh": run_shell, "python": run_python, "text": see_that_it_says_so, "call": run_call, "name": run_name}
+RUN = {"sh": run_shell, "python": run_python, "call": run_call, "name": run_name}
 
 
 def test_every_block_is_of_a_language_that_is_run():
     for document in DOCUMENTS:
         fences = re.findall(r"^```(\w*)$", (ROOT / document).read_text(encoding="utf-8"), re.MULTILINE)
-        assert set(fences[::2]) <= {"python", "sh", "text"}
+        assert set(fences[::2]) <= {"python", "sh"}
         assert set(fences[1::2]) <= {""}
 
 

@@ -23,6 +23,8 @@ from .flat.fills import winding_at as winding_at
 from .flat.limit import Limit as Limit
 from .flat.limit import limit_of as limit_of
 from .flat.triangulate import triangulate as triangulate
+from .homotopy.homotopy import Homotopy as Homotopy
+from .homotopy.homotopy import least_homotopy as least_homotopy
 from .immersion.blank_word import BlankWord as BlankWord
 from .immersion.blank_word import blank_word as blank_word
 from .immersion.compare import changed_borders as changed_borders

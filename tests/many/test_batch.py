@@ -1,255 +1,171 @@
-"""``plyfold batch``: all outlines of files, in a table."""
+"""``plyfold batch`` and ``plyfold check FILE FILE …``: tables of the outlines in many files."""
 
-import csv
 import json
 import os
 import signal
 import subprocess
 import sys
 
-import numpy as np
 import pytest
 import shapely
 
-import heaps
-import plyfold as pf
 from plyfold.cli.commands import main
-from plyfold.errors import FileFormatError
-from plyfold.many import sources
+from plyfold.errors import InputError
 from plyfold.many.batch import batch_job
-from plyfold.many.sources import pieces_of_files, rows_of_piece
-from plyfold.many.verdicts import DEFAULT_COLUMNS, VERDICT_COLUMNS
+from plyfold.many.sources import chunks_of, files_in, outlines_in
 from plyfold.tables.parts import write_table
 
-pyarrow = pytest.importorskip("pyarrow")
-from pyarrow import parquet  # noqa: E402
-
-TRIANGLE = [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]
-EIGHT = [[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]]
-SVG = '<svg xmlns="http://www.w3.org/2000/svg"><path id="a" d="M0 0h4v3z"/><path id="b" d="M0 0l2 2v-2l-2 2z"/></svg>'
+TRIANGLE = [[0, 0], [4, 0], [0, 3]]
+EIGHT = [[0, 0], [2, 2], [2, 0], [0, 2]]
+FEATURE = {"type": "Feature", "id": "house", "geometry": {"type": "Polygon", "coordinates": [[*TRIANGLE, TRIANGLE[0]]]}}
+SVG = '<svg xmlns="http://www.w3.org/2000/svg"><path id="a" d="M0 0H9V9Z"/><path id="b" d="M0 0L2 2V0L0 2Z"/></svg>'
 
 
-def lines_of(path):
+def a_folder(tmp_path):
+    """Return a folder with drawings of several kinds, two of which are broken."""
+    folder = tmp_path / "in"
+    (folder / "deeper").mkdir(parents=True)
+    (folder / "a.svg").write_text(SVG)
+    (folder / "b.json").write_text(json.dumps(TRIANGLE))
+    (folder / "c.json").write_text("[[0, 0], [1")
+    (folder / "deeper" / "d.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": [FEATURE] * 2}))
+    (folder / "e.jsonl").write_text("\n".join(map(json.dumps, (TRIANGLE, EIGHT, FEATURE, [[0, 0], [1, 1]]))) + "\n\n")
+    (folder / "notes.md").write_text("no drawing")
+    return folder
+
+
+def rows(path):
     return [json.loads(line) for line in path.read_text().splitlines()]
 
 
-def feature(coordinates, **more):
-    return {"type": "Feature", "geometry": {"type": "Polygon", "coordinates": coordinates}, "properties": {}} | more
-
-
-@pytest.fixture
-def folder(tmp_path):
-    """A folder with a file of every kind, some of them spoiled."""
-    here = tmp_path / "in"
-    (here / "deeper").mkdir(parents=True)
-    (here / "a.svg").write_text(SVG)
-    (here / "b.svg").write_text("<svg")
-    ring = [[*TRIANGLE, TRIANGLE[0]]]
-    collection = {"type": "FeatureCollection", "features": [feature(ring, id="x"), feature([], id="y"), 3]}
-    (here / "deeper" / "c.geojson").write_text(json.dumps(collection))
-    hole = [[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]], [[1, 1], [1, 3], [3, 1], [1, 1]]
-    records = [TRIANGLE, EIGHT, {"loops": [TRIANGLE]}, feature(hole, id="hole")]
-    text = "\n".join(map(json.dumps, records)) + "\n\nnonsense\n[[0, 0]]\n42"
-    (here / "d.jsonl").write_text(text)
-    (here / "e.json").write_text(json.dumps(EIGHT))
-    table = pyarrow.table({"geom": [shapely.Polygon(TRIANGLE).wkb, None, b"no WKB", shapely.Point(1, 2).wkb]})
-    parquet.write_table(table, here / "f.parquet")
-    (here / "notes.txt").write_text("no outlines")
-    return here
-
-
-EXPECTED = [
-    ("a.svg", 0, "a", "disk"),
-    ("a.svg", 1, "b", "none"),
-    ("b.svg", None, None, None),
-    ("d.jsonl", 0, None, "disk"),
-    ("d.jsonl", 1, None, "none"),
-    ("d.jsonl", 2, None, "disk"),
-    ("d.jsonl", 3, "hole", "surface"),
-    ("d.jsonl", 5, None, None),
-    ("d.jsonl", 6, None, None),
-    ("d.jsonl", 7, None, None),
-    ("deeper/c.geojson", 0, "x", "disk"),
-    ("deeper/c.geojson", 1, "y", None),
-    ("deeper/c.geojson", 2, None, None),
-    ("e.json", 0, None, "none"),
-    ("f.parquet", 0, None, "disk"),
-    ("f.parquet", 1, None, None),
-    ("f.parquet", 2, None, None),
-    ("f.parquet", 3, None, None),
-]
-
-
-def test_a_folder(folder, tmp_path, capsys):
-    out = tmp_path / "out.jsonl"
-    assert main(["batch", str(folder), "-o", str(out), "--workers", "1"]) == 0
-    rows = lines_of(out)
-    assert [*rows[0]] == ["file", "index", "id", *DEFAULT_COLUMNS]
-    found = [(os.path.relpath(row["file"], folder), row["index"], row["id"], row["verdict"]) for row in rows]
-    assert found == EXPECTED
-    assert [bool(row["error"]) for row in rows] == [row["verdict"] is None for row in rows]
-    assert "18 outlines: 5 disk, 1 surface, 3 none, 9 with an error\n" in capsys.readouterr().out
-    assert not (tmp_path / "out.jsonl.parts").exists()
-
-
-@pytest.mark.parametrize("ending", [".csv", ".parquet"])
-def test_other_tables(folder, tmp_path, ending):
-    """All columns, and the output inside the folder that is read, where it is passed over when it is made again."""
-    out = folder / f"out{ending}"
-    command = [
-        "batch",
-        str(folder),
-        "-o",
-        str(out),
-        "--workers",
-        "1",
-        "--columns",
-        ",".join(VERDICT_COLUMNS),
-        "--force",
+def test_a_folder_of_drawings_is_a_table(tmp_path, capsys):
+    folder, out = a_folder(tmp_path), tmp_path / "out.jsonl"
+    assert main(["batch", str(folder), "-o", str(out), "--workers", "1"]) == 2
+    found = [(row["file"].removeprefix(f"{folder}/"), row["index"], row["id"], row["verdict"]) for row in rows(out)]
+    assert found == [
+        ("a.svg", 0, "a", "disk"),
+        ("a.svg", 1, "b", "none"),
+        ("b.json", 0, None, "disk"),
+        ("c.json", -1, None, None),
+        ("deeper/d.geojson", 0, "house", "disk"),
+        ("deeper/d.geojson", 1, "house", "disk"),
+        ("e.jsonl", 0, None, "disk"),
+        ("e.jsonl", 1, None, "none"),
+        ("e.jsonl", 2, "house", "disk"),
+        ("e.jsonl", 3, None, None),
     ]
-    assert main(command) == 0
-    assert main(command) == 0
-    if ending == ".parquet":
-        rows = parquet.read_table(out).to_pylist()
-    else:
-        with out.open() as file:
-            rows = [*csv.DictReader(file)]
-    assert [row["verdict"] or None for row in rows] == [row[3] for row in EXPECTED]
-    assert rows[0]["immersions"] == "1"
+    assert [row["error"] for row in rows(out) if row["verdict"] is None] == [
+        "c.json: line 1: broken JSON (expecting ',' delimiter)",
+        "the curve has only 2 different point(s), at (0, 0), (1, 1)",
+    ]
+    printed = capsys.readouterr().out.split()
+    assert printed[:6] == ["disk", "6", "none", "2", "error", "2"]
 
 
-def test_the_same_as_in_memory(tmp_path):
-    outlines = [outline for draw in (heaps.glyphs, heaps.strokes) for outline in draw(30, 1)]
-    file = tmp_path / "many.jsonl"
-    file.write_text("\n".join(json.dumps(outline.tolist()) for outline in outlines))
-    write_table(batch_job([str(file)], VERDICT_COLUMNS), tmp_path / "out.parquet", workers=1)
-    found = parquet.read_table(tmp_path / "out.parquet").drop_columns(["file", "index", "id"])
-    assert found.equals(pf.verdicts(outlines, VERDICT_COLUMNS).to_arrow())
+def test_several_processes_make_the_same_table(tmp_path):
+    folder, outs = a_folder(tmp_path), [tmp_path / "one.csv", tmp_path / "two.csv"]
+    for out, workers in zip(outs, "12", strict=True):
+        main(["batch", str(folder), "-o", str(out), "--workers", workers, "--columns", "verdict,place,immersions"])
+    assert outs[0].read_text() == outs[1].read_text()
+    assert outs[0].read_text().splitlines()[0] == "file,index,id,verdict,place_x,place_y,immersions"
 
 
-def test_pieces_are_whole_lines(tmp_path, monkeypatch):
-    """However long pieces are, every line is in one of them, under its number."""
-    file = tmp_path / "many.jsonl"
-    lines = [json.dumps(TRIANGLE), "", json.dumps(EIGHT), "x" * 50, "", json.dumps(TRIANGLE)]
-    for text in ("\n".join(lines), "\n".join(lines) + "\n", "\r\n".join(lines)):
-        file.write_bytes(text.encode())
-        for size in (1, 7, 60, 1000):
-            monkeypatch.setattr(sources, "_PIECE", size)
-            pieces = pieces_of_files([str(file)])
-            assert [row.number for piece in pieces for row in rows_of_piece(piece)] == [0, 2, 3, 5]
-            assert (len(pieces) > 1) == (size < 1000)
+def test_what_is_written_is_not_read(tmp_path):
+    (tmp_path / "b.json").write_text(json.dumps(TRIANGLE))
+    out = tmp_path / "out.jsonl"
+    for _ in range(2):
+        assert main(["batch", str(tmp_path), "-o", str(out), "--workers", "1", "--force"]) == 0
+    assert len(rows(out)) == 1
 
 
-def test_pieces_of_parquet(tmp_path, monkeypatch):
-    monkeypatch.setattr(sources, "_PIECE", 300)
-    table = pyarrow.table({"name": [*"abcdefgh"], "shape": shapely.to_wkb(shapely.points(np.arange(8), 0))})
-    parquet.write_table(table, file := tmp_path / "many.parquet", row_group_size=2)
-    with pytest.raises(FileFormatError, match="no column of geometry"):
-        pieces_of_files([str(file)])
-    pieces = pieces_of_files([str(file)], column="shape")
-    assert len(pieces) > 1
-    assert [row.number for piece in pieces for row in rows_of_piece(piece)] == [*range(8)]
-    geo = {"geo": json.dumps({"primary_column": "shape"})}
-    parquet.write_table(table.replace_schema_metadata(geo), file)
-    assert pieces_of_files([str(file)])[0].column == "shape"
+def test_wkb_in_parquet(tmp_path):
+    pyarrow, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
+    wkb = [shapely.to_wkb(shapely.Polygon(points)) for points in (TRIANGLE, EIGHT)]
+    table = pyarrow.table({"id": [7, 8, 9], "shape": [*wkb, b"broken"]})
+    source, out = tmp_path / "many.parquet", tmp_path / "out.parquet"
+    parquet.write_table(table, source, row_group_size=2)
+    assert main(["batch", str(source), "-o", str(out), "--workers", "1"]) == 2
+    found = parquet.read_table(out).to_pylist()
+    assert [(row["index"], row["id"], row["verdict"]) for row in found] == [
+        (0, "7", "disk"),
+        (1, "8", "none"),
+        (2, "9", None),
+    ]
+    assert len(chunks_of([str(source)])) == 2
 
 
-def test_what_is_refused(folder, tmp_path, capsys):
-    out = str(tmp_path / "out.jsonl")
-    for words, said in (
-        ([str(tmp_path / "no"), "-o", out], "is not there"),
-        ([str(folder), "-o", out, "--columns", "crossing"], "no column 'crossing'"),
-        ([str(folder), "-o", str(tmp_path / "out.xls")], "tables are no .xls"),
-        ([str(folder / "d.jsonl"), "-o", str(folder / "d.jsonl"), "--force"], "one of the files that are read"),
-        ([str(folder / "deeper" / ".."), "-o", str(folder / "d.jsonl")], "exists already"),
-        ([str(folder / "f.parquet"), "-o", out, "--column", "nothing"], "no column nothing"),
-    ):
-        assert main(["batch", *words]) == 2
-        assert said in capsys.readouterr().err
-    (tmp_path / "empty").mkdir()
-    assert main(["batch", str(tmp_path / "empty"), "-o", out]) == 2
-    (folder / "f.parquet").write_text("none")
-    assert main(["batch", str(folder), "-o", out]) == 2
-    assert "is no Parquet file" in capsys.readouterr().err
+def test_parquet_without_geometries(tmp_path):
+    pyarrow, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
+    parquet.write_table(pyarrow.table({"name": ["a"]}), tmp_path / "a.parquet")
+    (tmp_path / "b.parquet").write_bytes(b"broken")
+    found = [row for chunk in chunks_of(files_in([str(tmp_path)])) for row in outlines_in(chunk)]
+    assert [row.number for row in found] == [-1, -1]
+    assert [row.outline.message.rpartition("/")[2][:30] for row in found] == [
+        "no column holds geometries as ",
+        "b.parquet: this is no Parquet ",
+    ]
 
 
-RUN = """
-import sys
-from plyfold.many import sources
-from plyfold.cli.commands import main
-if __name__ == "__main__":
-    sources._PIECE = 1 << 17
-    import plyfold.many.batch as batch
-    batch._BYTES = 1 << 17
-    sys.exit(main(sys.argv[1:]))
-"""
+def test_long_files_of_lines_are_cut_between_lines(tmp_path):
+    path = tmp_path / "many.ndjson"
+    path.write_text("".join(f"[[0, 0], [{number + 1}, 0], [0, 1]]\n" for number in range(25_000)))
+    chunks = chunks_of([str(path)])
+    assert [chunk.first for chunk in chunks] == [0, 10_000, 20_000]
+    for chunk in chunks:
+        first = next(outlines_in(chunk))
+        assert first.number == chunk.first
+        assert first.outline.points[1, 0] == chunk.first + 1
+    assert sum(1 for chunk in chunks for _ in outlines_in(chunk)) == 25_000
 
 
-def test_a_killed_run_goes_on(tmp_path):
-    """It is killed when the first part is there; the same command makes the others, and the same table."""
-    curves = np.random.default_rng(1).random((6000, 12, 2)).round(3)
-    (tmp_path / "many.jsonl").write_text("\n".join(map(json.dumps, curves.tolist())))
-    (tmp_path / "run.py").write_text(RUN)
-    command = [sys.executable, "run.py", "batch", "many.jsonl", "-o", "out.parquet", "--workers", "1"]
-    parts = tmp_path / "out.parquet.parts"
-    with subprocess.Popen(command, cwd=tmp_path, start_new_session=True) as run:
-        while run.poll() is None and not list(parts.glob("part-*.json")):
-            pass
+def test_nothing_to_read_is_an_error(tmp_path, capsys):
+    out = str(tmp_path / "out.csv")
+    assert main(["batch", str(tmp_path), "-o", out]) == 2
+    assert main(["batch", str(tmp_path / "nowhere"), "-o", out]) == 2
+    assert main(["batch", str(tmp_path), "-o", str(tmp_path / "out.xls")]) == 2
+    assert main(["batch", str(tmp_path), "-o", out, "--columns", "area"]) == 2
+    said = capsys.readouterr().err
+    for words in ("there is no drawing in it", "there is no file or folder", "tables are no .xls", "no column 'area'"):
+        assert words in said
+
+
+def test_a_killed_batch_goes_on(tmp_path):
+    """Killed after its first part, the same command makes the others, and the table is whole."""
+    source, out = tmp_path / "many.jsonl", tmp_path / "out.jsonl"
+    source.write_text(f"{json.dumps(TRIANGLE)}\n" * 30_000)
+    command = [sys.executable, "-m", "plyfold", "batch", str(source), "-o", str(out), "--workers", "1"]
+    parts = tmp_path / "out.jsonl.parts"
+    with subprocess.Popen(command, start_new_session=True) as run:
+        while not (parts / "part-000000.json").exists():
+            assert run.poll() is None
         os.killpg(run.pid, signal.SIGKILL)
-    done = {path: path.stat().st_mtime_ns for path in parts.glob("part-*.json")}
-    assert done
-    assert not (tmp_path / "out.parquet").exists()
-    subprocess.run(command, cwd=tmp_path, check=True)
-    found = parquet.read_table(tmp_path / "out.parquet")
-    assert found["index"].to_pylist() == [*range(6000)]
-    assert found.select(DEFAULT_COLUMNS).equals(pf.verdicts(curves).to_arrow())
+    assert not out.exists()
+    subprocess.run(command, check=True, capture_output=True)
+    assert [row["index"] for row in rows(out)] == list(range(30_000))
+    assert not parts.exists()
 
 
-def test_files_that_change_begin_anew(tmp_path):
-    file, out = tmp_path / "many.jsonl", tmp_path / "out.jsonl"
-    file.write_text(json.dumps(TRIANGLE))
-    before = batch_job([str(file)], DEFAULT_COLUMNS).what
-    assert batch_job([str(file)], DEFAULT_COLUMNS, but=str(out)).what == before
-    file.write_text(json.dumps(EIGHT))
-    assert batch_job([str(file)], DEFAULT_COLUMNS).what != before
+def test_checks_of_several_files_are_lines(tmp_path, capsys):
+    folder = a_folder(tmp_path)
+    files = [str(folder / name) for name in ("b.json", "c.json", "a.svg")]
+    assert main(["check", *files]) == 2
+    lines = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert [line["file"] for line in lines] == files
+    assert [line.get("immersible") for line in lines] == [True, None, False]
+    assert "broken JSON" in lines[1]["error"]
+    assert main(["check", "--each", *files[2:], files[0]]) == 1
+    lines = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert [(line["file"], line["index"]) for line in lines] == [(files[2], 0), (files[2], 1), (files[0], 0)]
 
 
-@pytest.mark.slow
-def test_a_cluster_that_loses_a_machine_makes_the_same_table(tmp_path, monkeypatch):
-    distributed = pytest.importorskip("distributed")
-    monkeypatch.setattr(sources, "_PIECE", 1 << 16)
-    monkeypatch.setattr("plyfold.many.batch._BYTES", 1 << 16)
-    curves = np.random.default_rng(2).random((4000, 12, 2)).round(3)
-    (tmp_path / "many.jsonl").write_text("\n".join(map(json.dumps, curves.tolist())))
-    job = batch_job([str(tmp_path / "many.jsonl")], DEFAULT_COLUMNS)
-    assert len(job.parts) > 5
-    done = []
-    options = {"n_workers": 2, "threads_per_worker": 1, "processes": True, "dashboard_address": None}
-    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
-
-        def kill_one(*_):
-            done.append(True)
-            if len(done) == 2:
-                os.kill(next(iter(cluster.workers.values())).pid, signal.SIGKILL)
-
-        notes = write_table(job, tmp_path / "cluster.parquet", client, progress=kill_one)
-    assert sum(note["rows"] for note in notes) == 4000
-    found = parquet.read_table(tmp_path / "cluster.parquet")
-    assert found["index"].to_pylist() == [*range(4000)]
-    assert found.select(DEFAULT_COLUMNS).equals(pf.verdicts(curves).to_arrow())
-
-
-def test_check_of_several_files(folder, capsys):
-    files = [str(folder / name) for name in ("a.svg", "b.svg", "e.json")]
-    assert main(["check", *files, "--json"]) == 2
-    found = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
-    assert [row["file"] for row in found] == files
-    assert "error" in found[1]
-    assert found[2]["immersible"] is False
-    assert main(["check", files[0], files[2], "--json", "--each"]) == 1
-    found = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
-    assert [(row["file"], row["index"]) for row in found] == [(files[0], 0), (files[0], 1), (files[2], 0)]
-    assert main(["check", files[2], "gallery:circle"]) == 1
-    said = capsys.readouterr().out.splitlines()
-    assert said[0] == files[2]
-    assert "gallery:circle" in said
+def test_files_change_and_their_parts_go(tmp_path):
+    """Parts of another state of the files are not taken."""
+    source, out = tmp_path / "many.jsonl", tmp_path / "out.jsonl"
+    source.write_text(f"{json.dumps(TRIANGLE)}\n")
+    before = batch_job([str(source)])
+    source.write_text(f"{json.dumps(EIGHT)}\n" * 2)
+    assert batch_job([str(source)]).what != before.what
+    (tmp_path / "out.jsonl.parts").mkdir()
+    (tmp_path / "out.jsonl.parts" / "what.json").write_text(json.dumps(before.what | {"parts": 1}))
+    with pytest.raises(InputError, match="something else"):
+        write_table(batch_job([str(source)]), out)

@@ -11,6 +11,7 @@ import plyfold as pf
 from plyfold.arrangement.as_given import crossings_as_given, given_windings
 from plyfold.errors import CurveError, InputError, PlyfoldError
 from plyfold.many.verdicts import DEFAULT_COLUMNS, VERDICT_COLUMNS
+from plyfold.report import touches_of
 
 
 def single(outline):
@@ -38,6 +39,9 @@ def single(outline):
     row["repair"] = mended.region_change if mended else None
     if found:
         row["verdict"] = "disk" if pf.bounds_disk(outline) else "surface"
+        row["verdict"] += " that touches itself" if touches_of(found) else ""
+        strictly = pf.bounds_disk(outline, touching=False)
+        assert strictly == (row["verdict"] == "disk")
     else:
         row |= {"verdict": "none", "reason": found.reason}
         if found.where:

@@ -14,8 +14,8 @@ from plyfold.loading import FOR_LAYERINGS, load_libraries
 __all__ = ["add_check_command"]
 
 _JSON_GUIDE = """\
-the object that --json prints, one on a line for each of several files, and with --each for each shape:
-  file                      which file it is (of several)
+the object that --json prints; with --each one on a line for each shape, of several files for each file:
+  file                      which file it is in (of several)
   index, id                 which shape it is (with --each)
   points, loops             how many
   crossings                 how often two edges cross inside both
@@ -49,9 +49,9 @@ or, with exit code 2, {error, where, hint}
 def add_check_command(commands: Any) -> None:
     """Add the subcommand to a parser."""
     check = add_command(commands, "check", _check, "say what surface an outline bounds, with all figures")
-    check.add_argument("more", nargs="*", metavar="FILE", help="more drawings, each for itself")
     add_time_limit(check)
     add_repair(check)
+    check.add_argument("more", nargs="*", metavar="FILE", help="further drawings: a line of JSON for each")
     check.add_argument("--json", action="store_true", help="print one JSON object and nothing else (see below)")
     check.epilog, check.formatter_class = _JSON_GUIDE, argparse.RawDescriptionHelpFormatter
 

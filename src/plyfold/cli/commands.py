@@ -45,8 +45,7 @@ examples:
   plyfold check loop.svg                     is it the outline of a disk of cloth? in how many ways?
   plyfold check loop.svg --json              the same for a program
   plyfold check map.geojson --each           of every shape in it
-  plyfold check a.svg b.svg c.svg --json     one line each
-  plyfold batch glyphs/ -o verdicts.parquet  a table with a row for each outline, however many there are
+  plyfold check a.svg b.svg c.svg            of several files, a line of JSON for each
   plyfold check contour.json --cusp 0:12x2   with a point where the surface turns further than one sees
   plyfold lift loop.svg -o loop.html         the layered surface, as a 3D page for any browser
   plyfold lift loop.csv -o a.glb -o a.obj    as meshes; the ending chooses the format
@@ -58,6 +57,7 @@ examples:
   plyfold convert letter.svg -o letter.json  the outline in another format, with its holes and cusps
   plyfold word loop.svg                      Blank's word and its groupings
   plyfold gallery                            named curves to begin with
+  plyfold batch outlines/ -o verdicts.csv    a table for any number of files, by all cores
   plyfold census 8 --page census.html        all plane curves with 8 crossings
   plyfold sketch                             draw in the browser, and see at once how it lies
   plyfold lift gallery:exit-ramp -o ramp.glb
@@ -66,7 +66,7 @@ FILE is an SVG, CSV, TXT, NPY, JSON, WKT or GeoJSON file, a flat mesh as OBJ or 
 gallery:NAME. All that it holds is one outline, unless --id, --index or --each say otherwise.
 
 exit codes: 0 a disk or another surface (or written), 1 none or not to be lifted, 2 bad input,
-3 unknown whether it can be lifted (time limit), 130 interrupted; of --each: 2, 3 or 1 if one of them ends so
+3 unknown whether it can be lifted (time limit), 130 interrupted; of several: 2, 3 or 1 if one of them ends so
 """
 
 
@@ -90,11 +90,10 @@ def main(arguments: list[str] | None = None) -> int:
     2
     """
     options = _parser().parse_args(arguments)
-    return each_file(options, _answer_all) if getattr(options, "more", ()) else _answer_all(options)
+    return each_file(options, _each)
 
 
-def _answer_all(options: argparse.Namespace) -> int:
-    """Run a command, for each shape of its file if that is asked for."""
+def _each(options: argparse.Namespace) -> int:
     return each_shape(options, _answer) if getattr(options, "each", False) else _answer(options)
 
 

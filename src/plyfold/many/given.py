@@ -108,7 +108,7 @@ def as_many(outlines: ManyOutlinesLike) -> ManyOutlines:
         return _by_offsets(*map(np.asarray, outlines))
     # A frame has its outlines in a column.
     rows = _one_by_one(getattr(outlines, "geometry", outlines))
-    given: list[Any] = list(map(_points_of, rows))
+    given: list[Any] = list(map(_plain, rows))
     others = {row: rows[row] for row, points in enumerate(given) if points is None}
     if others:
         _take_geometries(given, others)
@@ -117,6 +117,13 @@ def as_many(outlines: ManyOutlinesLike) -> ManyOutlines:
     first = np.zeros(len(rows) + 1, dtype=np.int64)
     np.cumsum([len(points) for points in taken], out=first[1:])
     return ManyOutlines(np.concatenate([empty, *taken]), first, others)
+
+
+def _plain(row: object) -> Floats | None:
+    """Return the points of what plainly is one curve without cusps."""
+    if isinstance(row, Curve):
+        return None if row.cusps[0].any() else row.points
+    return plain_points(row)
 
 
 def _by_offsets(coordinates: npt.NDArray[Any], offsets: npt.NDArray[Any]) -> ManyOutlines:
@@ -137,13 +144,6 @@ def _one_by_one(outlines: Any) -> Sequence[Any]:
     if isinstance(outlines, str | bytes) or not hasattr(outlines, "__iter__"):
         raise InputError(f"a {type(outlines).__name__} does not hold many outlines", hint=_HINT)
     return list(np.asarray(outlines) if hasattr(outlines, "__array__") else outlines)
-
-
-def _points_of(outline: object) -> Floats | None:
-    """Return the points of what plainly is one curve; None for all else."""
-    if isinstance(outline, Curve):
-        return None if outline.has_cusps else outline.points
-    return plain_points(outline)
 
 
 def _take_geometries(given: list[Any], others: dict[int, Any]) -> None:

@@ -1,268 +1,210 @@
-"""Files with many outlines, in pieces of a handy size: folders of drawings, JSON lines, and Parquet with WKB."""
+"""Files that hold many outlines, in chunks that fit into memory: folders, JSON lines, and Parquet with WKB."""
 
 from __future__ import annotations
 
-import json
-import os
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
-from itertools import chain
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from plyfold.errors import FileFormatError, PlyfoldError
-from plyfold.immersion.verdict import plain_points
-from plyfold.io.json_points import parsed_json, shapes_of_value
-from plyfold.io.reading import SIZE_LIMIT, naming_the_file, read_contents
+from plyfold.errors import FileFormatError, InputError, PlyfoldError
+from plyfold.io.json_points import shapes_in_json
+from plyfold.io.reading import SIZE_LIMIT, read_contents
 from plyfold.io.shapes import outline_of_shapes
 
-if TYPE_CHECKING:
-    from pyarrow import parquet
+__all__ = ["Chunk", "FoundOutline", "chunks_of", "files_in", "outlines_in"]
 
-__all__ = ["FilePiece", "OutlineRow", "pieces_of_files", "rows_of_piece"]
-
-_DRAWINGS = (".svg", ".json", ".geojson", ".wkt", ".csv", ".txt", ".npy", ".gpx", ".obj", ".ply")
-_JSON_LINES = (".jsonl", ".ndjson", ".geojsonl", ".geojsons")
-_PARQUET = (".parquet", ".geoparquet")
-# What a folder is looked through for: a text can be anything.
-_IN_FOLDERS = (*(ending for ending in _DRAWINGS if ending != ".txt"), *_JSON_LINES, *_PARQUET)
-# Bytes in a piece of a file that has pieces, and rows that are read at once.
-_PIECE = 8 * 2**20
-_ROWS = 5000
-# Columns in which geometry is found, where the file does not say so itself.
-_GEOMETRY_COLUMNS = ("geometry", "geom", "wkb_geometry", "wkb", "the_geom")
+_LINES, _PARQUET = (".jsonl", ".ndjson", ".geojsonl", ".geojsons"), ".parquet"
+_DRAWINGS = (".svg", ".json", ".geojson", ".wkt", ".csv", ".npy", ".gpx", ".obj", ".ply", ".txt")
+_FILES_AT_ONCE, _BYTES_AT_ONCE, _LINES_AT_ONCE = 200, 2**22, 10_000
+_GEOMETRY_COLUMNS = ("geometry", "wkb", "geom")
 
 
-@dataclass(frozen=True)
-class FilePiece:
-    """A part of a file.
+class Chunk(NamedTuple):
+    """What one part of a batch reads: some files, lines of one, or a group of rows of one.
 
-    Parameters
+    Attributes
     ----------
-    path, name : str
-        Where the file is, and what it was called.
-    size : int
-        About how many bytes.
-    start, stop : int
-        Of JSON lines, the first byte, and the first one after them; of Parquet, the row groups.
+    paths : tuple of str
+        One path, unless whole files are read.
     first : int
-        The number of the first row.
-    column : str
-        Of Parquet, where the geometry is.
+        The number of the first outline in its file.
+    start, stop : int
+        Of lines, the bytes; of a Parquet file, the number of the group, and the next; of whole files 0.
     """
 
-    path: str
-    name: str
-    size: int
+    paths: tuple[str, ...]
+    first: int = 0
     start: int = 0
     stop: int = 0
-    first: int = 0
-    column: str = ""
 
 
-class OutlineRow(NamedTuple):
-    """Whatever stands for an outline, or the error that is there in its place, and where it comes from."""
+class FoundOutline(NamedTuple):
+    """An outline in a file: where it stands, and what it is; an error in place of one that cannot be read.
+
+    A file that cannot be read at all is one outline with the number −1.
+    """
 
     file: str
-    number: int | None
+    number: int
     id: str | None
     outline: Any
 
 
-def pieces_of_files(paths: Iterable[str], column: str | None = None, but: str = "") -> list[FilePiece]:
-    """Return the pieces of files, and of all files in folders, in the order of their names.
+def files_in(inputs: Iterable[str], without: Path | None = None) -> list[str]:
+    """Return the files that are named, and those in folders that are, in order.
 
     Parameters
     ----------
-    paths : iterable of str
-    column : str, optional
-        Of Parquet files: where the WKB is.
-    but : str, optional
-        A file that is none of them, even if it is in one of the folders.
-
-    Returns
-    -------
-    list of FilePiece
+    inputs : iterable of str
+    without : Path, optional
+        A file in such a folder that is not to be read, since it is written.
 
     Raises
     ------
-    FileFormatError
-        If there is no such file or folder, or nothing to read in it; or a Parquet file has no such column.
+    InputError
+        If there is no such file or folder, or nothing in it.
     """
-    files = [(file, name) for path in paths for file, name in _files(path) if not _is_same(file, but)]
+    files: list[str] = []
+    for name in inputs:
+        if not Path(name).exists():
+            raise InputError(f"there is no file or folder {name}")
+        files += [name] if Path(name).is_file() else map(str, sorted(_drawings_in(Path(name), without)))
     if not files:
-        raise FileFormatError("there is no file with outlines", hint=f"in folders, {' '.join(_IN_FOLDERS)} are read")
-    return [piece for file, name in files for piece in _pieces(file, name, column)]
+        endings = " ".join((*_DRAWINGS, *_LINES, _PARQUET))
+        raise InputError("there is no drawing in it", hint=f"drawings end in {endings}")
+    return list(dict.fromkeys(files))
 
 
-def _files(path: str) -> Iterator[tuple[Path, str]]:
-    """Yield the file of a name, or the files of a folder, with their names."""
-    given = Path(path)
-    if not given.exists():
-        raise FileFormatError(f"{path} is not there", hint="check the path")
-    if not given.is_dir():
-        yield given, path
-        return
-    for file in sorted(given.rglob("*")):
-        # Parts of a table that is being made are no drawings.
-        if file.suffix.lower() in _IN_FOLDERS and file.parent.suffix != ".parts" and file.is_file():
-            yield file, str(file)
+def _drawings_in(folder: Path, without: Path | None) -> Iterator[Path]:
+    kept = None if without is None else without.resolve()
+    for path in folder.rglob("*"):
+        parts = [parent.suffix for parent in path.parents]
+        if path.suffix.lower() in (*_DRAWINGS, *_LINES, _PARQUET) and ".parts" not in parts and path.resolve() != kept:
+            yield path
 
 
-def _is_same(file: Path, other: str) -> bool:
-    return bool(other) and os.path.realpath(file) == os.path.realpath(other)
+def chunks_of(files: Sequence[str]) -> list[Chunk]:
+    r"""Cut files into chunks of a handy size, in order.
 
-
-def _pieces(file: Path, name: str, column: str | None) -> Iterator[FilePiece]:
-    ending, path = file.suffix.lower(), str(file.absolute())
-    if ending in _PARQUET:
-        yield from _row_groups(path, name, column)
-    elif ending in _JSON_LINES:
-        yield from _runs_of_lines(path, name)
-    else:
-        yield FilePiece(path, name, file.stat().st_size)
-
-
-def rows_of_piece(piece: FilePiece) -> Iterator[OutlineRow]:
-    """Yield the outlines of a piece; what cannot be read is a row with its error."""
-    ending = Path(piece.path).suffix.lower()
-    try:
-        if ending in _PARQUET:
-            yield from _parquet_rows(piece)
-        elif ending in _JSON_LINES:
-            yield from _json_lines(piece)
-        elif ending in (".json", ".geojson"):
-            yield from _json_rows(piece)
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "many.jsonl")
+    ...     _ = path.write_text("[[0, 0], [4, 0], [0, 3]]\n" * 25_000)
+    ...     [chunk.first for chunk in chunks_of([str(path)])]
+    [0, 10000, 20000]
+    """
+    chunks: list[Chunk] = []
+    whole: list[str] = []
+    for path in files:
+        ending = Path(path).suffix.lower()
+        if ending in _LINES or ending == _PARQUET:
+            chunks += _chunks_of_files(whole)
+            whole = []
+            chunks += _chunks_of_lines(path) if ending in _LINES else _groups(path)
         else:
-            yield from _rows_of_drawing(piece)
+            whole.append(path)
+    return chunks + _chunks_of_files(whole)
+
+
+def _chunks_of_files(paths: Sequence[str]) -> list[Chunk]:
+    chunks: list[Chunk] = []
+    kept, size = [], 0
+    for path in paths:
+        kept.append(path)
+        size += Path(path).stat().st_size
+        if size > _BYTES_AT_ONCE or len(kept) == _FILES_AT_ONCE:
+            chunks.append(Chunk(tuple(kept)))
+            kept, size = [], 0
+    return chunks + ([Chunk(tuple(kept))] if kept else [])
+
+
+def _chunks_of_lines(path: str) -> list[Chunk]:
+    """Cut a file of lines between lines."""
+    chunks: list[Chunk] = []
+    first = start = number = stop = 0
+    with Path(path).open("rb") as lines:
+        for number, line in enumerate(lines, start=1):
+            stop += len(line)
+            if number - first == _LINES_AT_ONCE or stop - start > _BYTES_AT_ONCE:
+                chunks.append(Chunk((path,), first, start, stop))
+                first, start = number, stop
+    return [*chunks, Chunk((path,), first, start, stop)] if number > first or not chunks else chunks
+
+
+def _groups(path: str) -> list[Chunk]:
+    """Return the groups of rows of a Parquet file; one that cannot be read is a chunk all the same."""
+    from plyfold.many.parquet import sizes_of_groups
+
+    first, chunks = 0, []
+    try:
+        sizes = sizes_of_groups(path)
+    except InputError:
+        return [Chunk((path,), 0, 0, 1)]
+    for number, size in enumerate(sizes):
+        chunks.append(Chunk((path,), first, number, number + 1))
+        first += size
+    return chunks
+
+
+def outlines_in(chunk: Chunk) -> Iterator[FoundOutline]:
+    """Read the outlines of a chunk one after the other; what is wrong with one is no error, but in its place."""
+    ending = Path(chunk.paths[0]).suffix.lower()
+    if ending in _LINES:
+        yield from _on_lines(chunk)
+    elif ending == _PARQUET:
+        yield from _in_group(chunk)
+    else:
+        for path in chunk.paths:
+            yield from _in_file(path)
+
+
+def _in_file(path: str) -> Iterator[FoundOutline]:
+    try:
+        contents = read_contents(path)
     except PlyfoldError as error:
-        yield OutlineRow(piece.name, None, None, error)
-
-
-# ---- files of one drawing, or of few -----------------------------------------------------------------------------
-
-
-def _rows_of_drawing(piece: FilePiece) -> Iterator[OutlineRow]:
-    contents = read_contents(piece.path)
+        yield FoundOutline(path, -1, None, error)
+        return
     for index in range(len(contents)):
         try:
-            outline: Any = contents.outline(index)
+            row: Any = contents.outline(index)
         except PlyfoldError as error:
-            outline = error
-        yield OutlineRow(piece.name, index, contents.name(index) or None, outline)
+            row = error
+        yield FoundOutline(path, index, contents.name(index) or None, row)
 
 
-def _json_rows(piece: FilePiece) -> Iterator[OutlineRow]:
-    """Yield the features of a collection, each with its own errors; of other JSON what is drawn."""
-    if piece.size > SIZE_LIMIT:
-        raise FileFormatError(
-            f"{piece.name}: it is larger than {SIZE_LIMIT // 2**20} MiB", hint="write features as JSON lines"
-        )
-    with naming_the_file(piece.name):
-        value = parsed_json(Path(piece.path).read_bytes())
-    if not isinstance(value, dict) or not isinstance(features := value.get("features"), list):
-        yield from _rows_of_drawing(piece)
-        return
-    for index, feature in enumerate(features):
-        yield OutlineRow(piece.name, index, *_outline_of_value(feature))
-
-
-def _outline_of_value(value: Any) -> tuple[str | None, Any]:
-    """Return the name of what parsed JSON draws, and its outline or the error."""
-    points = plain_points(value)
-    if points is not None:
-        return None, points
-    try:
-        shapes = shapes_of_value(value)
-        return shapes[0].name or None, outline_of_shapes(shapes)
-    except PlyfoldError as error:
-        return _name(value), error
-
-
-def _name(value: Any) -> str | None:
-    """Return the id of a feature that could not be read."""
-    name = value.get("id") if isinstance(value, dict) else None
-    return None if name is None else str(name)
-
-
-# ---- JSON lines --------------------------------------------------------------------------------------------------
-
-
-def _runs_of_lines(path: str, name: str) -> Iterator[FilePiece]:
-    """Yield runs of whole lines, each begun where the one before ends."""
+def _on_lines(chunk: Chunk) -> Iterator[FoundOutline]:
+    """Read lines; empty ones count, and hold nothing."""
+    (path,) = chunk.paths
     with Path(path).open("rb") as file:
-        start = first = 0
-        while chunk := file.read(_PIECE):
-            rest = b"" if chunk.endswith(b"\n") else file.readline()
-            stop = file.tell()
-            yield FilePiece(path, name, stop - start, start, stop, first)
-            start, first = stop, first + chunk.count(b"\n") + rest.count(b"\n")
-
-
-def _json_lines(piece: FilePiece) -> Iterator[OutlineRow]:
-    with Path(piece.path).open("rb") as file:
-        file.seek(piece.start)
-        index = piece.first
-        while file.tell() < piece.stop:
-            # Sequences of GeoJSON begin each record with this character.
-            line = file.readline().strip(b"\x1e \t\r\n")
-            if line:
-                yield OutlineRow(piece.name, index, *_outline_of_line(line))
+        file.seek(chunk.start)
+        index = chunk.first
+        while file.tell() < chunk.stop:
+            line = file.readline(SIZE_LIMIT)
+            if line.strip():
+                yield FoundOutline(path, index, *_on_line(line))
             index += 1
 
 
-def _outline_of_line(line: bytes) -> tuple[str | None, Any]:
+def _on_line(line: bytes) -> tuple[str | None, Any]:
+    name = None
     try:
-        return _outline_of_value(json.loads(line))
-    except (ValueError, RecursionError) as error:
-        return None, FileFormatError(f"broken JSON ({str(error).lower()})")
+        shapes = shapes_in_json(line.decode("utf-8"))
+        name = shapes[0].name or None
+        return name, outline_of_shapes(shapes)
+    except UnicodeDecodeError as error:
+        return name, FileFormatError(f"it is not text in UTF-8: byte {error.start} is not")
+    except PlyfoldError as error:
+        return name, error
 
 
-# ---- Parquet -----------------------------------------------------------------------------------------------------
+def _in_group(chunk: Chunk) -> Iterator[FoundOutline]:
+    from plyfold.many.parquet import rows_of_group
 
-
-def _open_parquet(path: str, name: str) -> parquet.ParquetFile:
+    (path,) = chunk.paths
     try:
-        import pyarrow
-        from pyarrow import parquet
-    except ImportError as error:
-        raise FileFormatError("Parquet files need pyarrow", hint='pip install "plyfold[tables]"') from error
-    try:
-        return parquet.ParquetFile(path)
-    except (OSError, pyarrow.ArrowException) as error:
-        raise FileFormatError(f"{name} is no Parquet file ({error})") from error
-
-
-def _row_groups(path: str, name: str, column: str | None) -> Iterator[FilePiece]:
-    """Yield runs of row groups."""
-    with _open_parquet(path, name) as file:
-        column = _geometry_column(file, name, column)
-        start = first = rows = size = 0
-        for group in range(file.num_row_groups):
-            found = file.metadata.row_group(group)
-            rows, size = rows + found.num_rows, size + found.total_byte_size
-            if size >= _PIECE or group + 1 == file.num_row_groups:
-                yield FilePiece(path, name, size, start, group + 1, first, column)
-                start, first, rows, size = group + 1, first + rows, 0, 0
-
-
-def _geometry_column(file: parquet.ParquetFile, name: str, column: str | None) -> str:
-    """Return the column that is named, or that the file says has its geometry, or that is called so."""
-    names = file.schema_arrow.names
-    told = json.loads((file.schema_arrow.metadata or {}).get(b"geo", b"{}")).get("primary_column")
-    wanted = (column,) if column else (told, *_GEOMETRY_COLUMNS)
-    found = next((one for one in wanted if one in names), None)
-    if found is None:
-        raise FileFormatError(
-            f"{name} has no column {column or 'of geometry'}", hint=f"it has {', '.join(names)}: name one with --column"
-        )
-    return found
-
-
-def _parquet_rows(piece: FilePiece) -> Iterator[OutlineRow]:
-    with _open_parquet(piece.path, piece.name) as file:
-        groups = range(piece.start, piece.stop)
-        batches = file.iter_batches(_ROWS, row_groups=groups, columns=[piece.column])
-        values = chain.from_iterable(batch.column(0).to_pylist() for batch in batches)
-        for index, value in enumerate(values, start=piece.first):
-            yield OutlineRow(piece.name, index, None, value)
+        for index, (name, row) in enumerate(rows_of_group(path, chunk.start, _GEOMETRY_COLUMNS), start=chunk.first):
+            yield FoundOutline(path, index, name, row)
+    except InputError as error:
+        yield FoundOutline(path, -1, None, error)

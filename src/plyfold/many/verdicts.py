@@ -24,6 +24,7 @@ from plyfold.many.answers import in_batches
 from plyfold.many.given import ManyOutlines, ManyOutlinesLike, as_many
 from plyfold.obstruction import Obstruction, Unknown
 from plyfold.offers.repair import Repaired, repair
+from plyfold.report import touches_of
 from plyfold.tables.table import Column, DataTable, joined
 
 if TYPE_CHECKING:
@@ -76,7 +77,8 @@ def verdicts(
         Which, in which order; by default the first six.
 
         * ``crossings``: how often two edges cross inside both; ``loops``; ``turning``, the turning number.
-        * ``verdict``: ``"disk"``, ``"surface"`` (another one), ``"none"``, or ``"unknown"``, at the time limit.
+        * ``verdict``: ``"disk"``, ``"surface"`` (another one), either with ``" that touches itself"`` behind it,
+          ``"none"``, or ``"unknown"``, at the time limit.
         * ``reason``: why there is none, see :class:`Obstruction`.
         * ``error``: what is wrong with what is no outline, or what went wrong later; all that it left unknown is
           missing.
@@ -250,7 +252,8 @@ def _verdict(arranged: Arrangement, time_limit: float | None) -> dict[str, Any]:
         return {"verdict": "unknown"}
     if isinstance(found, Obstruction):
         return {"verdict": "none", "reason": found.reason} | _place(found.where)
-    return {"verdict": "disk" if may_bound_disk(arranged) else "surface"}
+    surface = "disk" if may_bound_disk(arranged) else "surface"
+    return {"verdict": surface + " that touches itself" * bool(touches_of(found))}
 
 
 def _place(where: tuple[tuple[float, ...], ...]) -> dict[str, float]:
