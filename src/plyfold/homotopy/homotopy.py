@@ -207,7 +207,8 @@ def least_homotopy(curve: CurveLike, time_limit: float | None = None, weights: n
     contracts one after the other [FKW17]_. What it costs is a question of which letters cancel in a word [Nie14]_, and
     an exact program answers it: O(L² m) time and up to 4 L² bytes for L letters that are left when the word has been
     shortened, of which each may cancel m others. Areas are doubles, and compared as multiples of a unit some 10⁻¹² of
-    the whole: contractions that differ by less count as equal.
+    the whole: contractions that differ by less count as equal. Of a drawing that touches itself they are those of the
+    cells that it has when points in contact have moved apart, as ``arrangement.outline.repairs`` says.
 
     References
     ----------
