@@ -14,7 +14,7 @@ def glyphs(count, seed):
         n = int(rng.integers(3, 7))
         angle = np.sort(rng.uniform(0, 2 * np.pi, n))
         knots = rng.uniform(250, 500, (n, 1)) * np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        handles = rng.normal(0, 120, (n, 2))
+        handles = rng.normal(0, 50, (n, 2))
         following = np.roll(knots, -1, axis=0)
         out, back = knots + handles, following - np.roll(handles, -1, axis=0)
         curves = [

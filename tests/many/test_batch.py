@@ -10,7 +10,7 @@ import pytest
 import shapely
 
 from plyfold.cli.commands import main
-from plyfold.errors import InputError
+from plyfold.errors import InputError, PlyfoldError
 from plyfold.many.batch import batch_job
 from plyfold.many.sources import chunks_of, files_in, outlines_in
 from plyfold.tables.parts import write_table
@@ -116,6 +116,24 @@ def test_long_files_of_lines_are_cut_between_lines(tmp_path):
         assert first.number == chunk.first
         assert first.outline.points[1, 0] == chunk.first + 1
     assert sum(1 for chunk in chunks for _ in outlines_in(chunk)) == 25_000
+
+
+def test_features_are_bad_each_for_itself(tmp_path):
+    """So are records of a sequence of GeoJSON, which begin with a character of their own."""
+    bad = [{**FEATURE, "geometry": None}, {**FEATURE, "id": 7, "geometry": {"type": "Polygon", "coordinates": []}}, 3]
+    features = [FEATURE, *bad, FEATURE]
+    (tmp_path / "a.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    (tmp_path / "b.geojsons").write_text("".join(f"\x1e{json.dumps(feature)}\n" for feature in features))
+    found = [row for chunk in chunks_of(files_in([str(tmp_path)])) for row in outlines_in(chunk)]
+    expected = [(0, "house", False), (1, "house", True), (2, "7", True), (3, None, True), (4, "house", False)]
+    assert [(row.number, row.id, isinstance(row.outline, PlyfoldError)) for row in found] == expected * 2
+
+
+def test_a_part_is_judged_some_rows_at_a_time(tmp_path, monkeypatch):
+    job = batch_job(files_in([str(a_folder(tmp_path))]))
+    expected = [[*job.make(part)[0].rows()] for part in job.parts]
+    monkeypatch.setattr("plyfold.many.batch._ROWS_AT_ONCE", 2)
+    assert [[*job.make(part)[0].rows()] for part in job.parts] == expected
 
 
 def test_nothing_to_read_is_an_error(tmp_path, capsys):

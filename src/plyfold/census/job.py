@@ -44,7 +44,7 @@ class Cost:
 def census_job(n_crossings: int, n_parts: int | None = None) -> Job:
     """Return the census of curves with so many crossings, by default in as many parts as are of a handy size."""
     n_parts = n_parts or min(max(number_of_plane_curves(n_crossings) // _CURVES_PER_PART, 1), _MOST_PARTS)
-    return Job({"census": n_crossings}, n_parts, partial(_part, n_crossings, n_parts))
+    return Job({"census": n_crossings}, range(n_parts), partial(_part, n_crossings, n_parts))
 
 
 def _part(n_crossings: int, of: int, number: int) -> tuple[DataTable, dict[str, Any]]:
@@ -66,7 +66,7 @@ def cost_of_census(n_crossings: int, ending: str) -> Cost:
     -------
     Cost
     """
-    of = _SAMPLES_PER_PART * census_job(n_crossings).n_parts
+    of = _SAMPLES_PER_PART * len(census_job(n_crossings).parts)
     started = time.process_time()
     tables = [_part(n_crossings, of, number)[0] for number in range(of // 6, of, of // 3)]
     seconds, curves = time.process_time() - started, number_of_plane_curves(n_crossings)

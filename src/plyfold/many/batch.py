@@ -5,17 +5,21 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from functools import partial
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from plyfold.many.sources import Chunk, chunks_of, outlines_in
+from plyfold.many.sources import Chunk, FoundOutline, chunks_of, outlines_in
 from plyfold.many.verdicts import DEFAULT_COLUMNS, verdicts
 from plyfold.tables.parts import Job
-from plyfold.tables.table import DataTable
+from plyfold.tables.table import DataTable, joined
 
 __all__ = ["batch_job"]
+
+# So many outlines are in memory at once, however many rows a part has.
+_ROWS_AT_ONCE = 10_000
 
 
 def batch_job(files: Sequence[str], columns: Sequence[str] = DEFAULT_COLUMNS, time_limit: float | None = None) -> Job:
@@ -37,19 +41,25 @@ def batch_job(files: Sequence[str], columns: Sequence[str] = DEFAULT_COLUMNS, ti
     chunks = chunks_of(files)
     found = [[path, Path(path).stat().st_size, Path(path).stat().st_mtime_ns] for path in files]
     what = {"batch": found, "columns": list(columns), "time_limit": time_limit}
-    return Job(what, len(chunks), partial(_made, chunks, tuple(columns), time_limit))
+    return Job(what, chunks, partial(_made, tuple(columns), time_limit))
 
 
-def _made(
-    chunks: Sequence[Chunk], columns: Sequence[str], time_limit: float | None, number: int
-) -> tuple[DataTable, dict[str, Any]]:
-    found = list(outlines_in(chunks[number]))
+def _made(columns: Sequence[str], time_limit: float | None, chunk: Chunk) -> tuple[DataTable, dict[str, Any]]:
     asked = tuple(dict.fromkeys((*columns, "verdict")))
-    told = verdicts([outline for *_, outline in found], asked, time_limit=time_limit)
+    found, tables = outlines_in(chunk), [_judged([], asked, time_limit)]
+    while some := list(islice(found, _ROWS_AT_ONCE)):
+        tables.append(_judged(some, asked, time_limit))
+    told = joined(tables)
+    counts = Counter(verdict or "error" for verdict in told["verdict"].tolist())
+    kept = {name: column for name, column in told.columns.items() if name != "verdict" or name in columns}
+    return DataTable(kept), dict(counts)
+
+
+def _judged(found: Sequence[FoundOutline], asked: Sequence[str], time_limit: float | None) -> DataTable:
     named = {
         "file": np.array([row.file for row in found], dtype=object),
         "index": np.array([row.number for row in found], dtype=np.int64),
         "id": np.array([row.id for row in found], dtype=object),
     }
-    kept = {name: column for name, column in told.columns.items() if name in columns or name.startswith("place")}
-    return DataTable(named | kept), dict(Counter(verdict or "error" for verdict in told["verdict"].tolist()))
+    told = verdicts([outline for *_, outline in found], asked, time_limit=time_limit)
+    return DataTable({**named, **told.columns})

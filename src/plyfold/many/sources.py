@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from plyfold.errors import FileFormatError, InputError, PlyfoldError
-from plyfold.io.json_points import shapes_in_json
-from plyfold.io.reading import SIZE_LIMIT, read_contents
+from plyfold.errors import InputError, PlyfoldError
+from plyfold.io.json_points import parsed_json, shapes_of_value
+from plyfold.io.reading import SIZE_LIMIT, Contents, naming_the_file, read_contents
 from plyfold.io.shapes import outline_of_shapes
 
 __all__ = ["Chunk", "FoundOutline", "chunks_of", "files_in", "outlines_in"]
@@ -17,6 +17,8 @@ _LINES, _PARQUET = (".jsonl", ".ndjson", ".geojsonl", ".geojsons"), ".parquet"
 _DRAWINGS = (".svg", ".json", ".geojson", ".wkt", ".csv", ".npy", ".gpx", ".obj", ".ply", ".txt")
 _FILES_AT_ONCE, _BYTES_AT_ONCE, _LINES_AT_ONCE = 200, 2**22, 10_000
 _GEOMETRY_COLUMNS = ("geometry", "wkb", "geom")
+# Sequences of GeoJSON begin each record with the first of these.
+_AROUND_RECORDS = b"\x1e \t\r\n"
 
 
 class Chunk(NamedTuple):
@@ -162,16 +164,33 @@ def outlines_in(chunk: Chunk) -> Iterator[FoundOutline]:
 
 def _in_file(path: str) -> Iterator[FoundOutline]:
     try:
-        contents = read_contents(path)
+        features = _features(path)
+        contents = read_contents(path) if features is None else None
     except PlyfoldError as error:
         yield FoundOutline(path, -1, None, error)
         return
-    for index in range(len(contents)):
-        try:
-            row: Any = contents.outline(index)
-        except PlyfoldError as error:
-            row = error
-        yield FoundOutline(path, index, contents.name(index) or None, row)
+    for index, feature in enumerate(features or ()):
+        yield FoundOutline(path, index, *_drawn_by(feature))
+    if contents is not None:
+        for index in range(len(contents)):
+            yield FoundOutline(path, index, contents.name(index) or None, _outline_or_error(contents, index))
+
+
+def _features(path: str) -> list[Any] | None:
+    """Return the features of a collection, each of which may be bad for itself; None of all other files."""
+    if Path(path).suffix.lower() not in (".json", ".geojson") or Path(path).stat().st_size > SIZE_LIMIT:
+        return None
+    with naming_the_file(Path(path).name):
+        value = parsed_json(Path(path).read_bytes())
+    features = value.get("features") if isinstance(value, dict) else None
+    return features if isinstance(features, list) and features else None
+
+
+def _outline_or_error(contents: Contents, index: int) -> Any:
+    try:
+        return contents.outline(index)
+    except PlyfoldError as error:
+        return error
 
 
 def _on_lines(chunk: Chunk) -> Iterator[FoundOutline]:
@@ -182,21 +201,26 @@ def _on_lines(chunk: Chunk) -> Iterator[FoundOutline]:
         index = chunk.first
         while file.tell() < chunk.stop:
             line = file.readline(SIZE_LIMIT)
-            if line.strip():
+            if line.strip(_AROUND_RECORDS):
                 yield FoundOutline(path, index, *_on_line(line))
             index += 1
 
 
 def _on_line(line: bytes) -> tuple[str | None, Any]:
-    name = None
     try:
-        shapes = shapes_in_json(line.decode("utf-8"))
-        name = shapes[0].name or None
-        return name, outline_of_shapes(shapes)
-    except UnicodeDecodeError as error:
-        return name, FileFormatError(f"it is not text in UTF-8: byte {error.start} is not")
+        return _drawn_by(parsed_json(line.strip(_AROUND_RECORDS)))
     except PlyfoldError as error:
-        return name, error
+        return None, error
+
+
+def _drawn_by(value: Any) -> tuple[str | None, Any]:
+    """Return the id of what parsed JSON draws, and the outline, or the error."""
+    name = value.get("id") if isinstance(value, dict) else None
+    try:
+        shapes = shapes_of_value(value)
+        return shapes[0].name or None, outline_of_shapes(shapes)
+    except PlyfoldError as error:
+        return None if name is None else str(name), error
 
 
 def _in_group(chunk: Chunk) -> Iterator[FoundOutline]:
