@@ -37,6 +37,7 @@ the object that --json prints; with --each one on a line for each shape, of seve
   layerable                 whether an immersion can be lifted; null: unknown, the time limit (if immersible)
   examined, levels          immersions of a disk tried until one could be lifted, and the layers of that one
   reason, sentence, where   why not, in a word, in a sentence and at which places (if not immersible or layerable)
+  branch_points             how many the disk has that it bounds (if not immersible, and it bounds a disk with some)
   offers                    list of what makes it one, as far as it is found in half a second (if not immersible): each
                             has kind, sentence and command. Kind "repair": changes (list of {kind, where, size, region,
                             layers}), region_change, layer_change, surface; "cusps": cusps (list as above), surface;

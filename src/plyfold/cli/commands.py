@@ -15,6 +15,7 @@ from plyfold.cli.draw import add_draw_command
 from plyfold.cli.each import each_file, each_shape
 from plyfold.cli.flat import add_flat_commands
 from plyfold.cli.gallery import add_gallery_command
+from plyfold.cli.homotopy import add_homotopy_command
 from plyfold.cli.inputs import BAD_INPUT, NO_DISK, UNKNOWN
 from plyfold.cli.lift import add_lift_command
 from plyfold.cli.progress import clear_progress
@@ -33,6 +34,7 @@ _COMMANDS = (
     add_draw_command,
     add_flat_commands,
     add_repair_command,
+    add_homotopy_command,
     add_convert_command,
     add_gallery_command,
     add_batch_command,
@@ -52,6 +54,7 @@ examples:
   plyfold lift loop.csv -o - --format stl    to standard output
   plyfold draw loop.svg -o loop.png          cells, disk layout, layers and surface in one picture
   plyfold repair stroke.svg -o disk.svg      without its tiny loops, where these keep it from being a disk
+  plyfold homotopy loop.svg -o loop.html     how it contracts and sweeps the least area, as a film
   plyfold split loop.svg -o pieces.geojson   simple polygons that cover the disk once
   plyfold unwrap loop.svg -o loop.obj        texture coordinates: the disk one-to-one onto the round one
   plyfold convert letter.svg -o letter.json  the outline in another format, with its holes and cusps

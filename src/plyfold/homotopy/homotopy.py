@@ -154,6 +154,10 @@ class Homotopy:
         """The crossings where the curve is cut into the loops, in the order of these."""
         return tuple(loop.crossing for loop in self.loops[1:])
 
+    def area_of(self, loop: Loop) -> float:
+        """Return what one of the loops sweeps."""
+        return fsum((self.weights * np.abs(loop.winding)).tolist())
+
     def check(self) -> None:
         """Check that the loops are what they are said to be, without the search that found them.
 
