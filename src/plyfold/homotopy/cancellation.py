@@ -134,7 +134,7 @@ class _Shorter:
         self.code, self.number = code[:left], number[:left]
 
     def _merge_labels(self) -> None:
-        """Make one label of two that always run together, of each chain of such the first and second, and so on."""
+        """Make one label of two that always run together."""
         second = _second_labels(self.code, len(self.weight))
         kept = np.flatnonzero(second[self.code // 2] >= 0)
         gone = _behind(self.code, kept)
@@ -187,17 +187,20 @@ def _second_labels(code: Ints, labels: int) -> Ints:
     first = np.flatnonzero((least == most) & (count > 0) & (count == count[np.minimum(least, 2 * labels - 1) // 2]))
     following[first] = least[first] // 2
     following[following == np.arange(labels)] = _NONE
-    return _every_other(following)
+    return _in_pairs(following)
 
 
-def _every_other(following: Ints) -> Ints:
-    """Return which labels become part of the one before: in each chain the second, the fourth, and so on."""
-    ahead, second = following.tolist(), np.full(len(following), _NONE)
-    for label in set(np.flatnonzero(following >= 0).tolist()).difference(ahead):
-        first = label
-        while first >= 0 and ahead[first] >= 0:
-            second[first] = ahead[first]
-            first = ahead[ahead[first]]
+def _in_pairs(following: Ints) -> Ints:
+    """Return what follows labels, for some of them: no label is in two of these pairs.
+
+    Labels can follow each other in a circle, and one label two others.
+    """
+    second, is_taken = np.full(len(following), _NONE), np.zeros(len(following), dtype=bool)
+    for first in np.flatnonzero(following >= 0).tolist():
+        after = following[first]
+        if not (is_taken[first] or is_taken[after]):
+            second[first] = after
+            is_taken[[first, after]] = True
     return second
 
 
