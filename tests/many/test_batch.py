@@ -106,16 +106,17 @@ def test_parquet_without_geometries(tmp_path):
     ]
 
 
-def test_long_files_of_lines_are_cut_between_lines(tmp_path):
+def test_long_files_of_lines_are_cut_between_lines(tmp_path, monkeypatch):
+    monkeypatch.setattr("plyfold.many.sources._LINES_AT_ONCE", 1000)
     path = tmp_path / "many.ndjson"
-    path.write_text("".join(f"[[0, 0], [{number + 1}, 0], [0, 1]]\n" for number in range(25_000)))
+    path.write_text("".join(f"[[0, 0], [{number + 1}, 0], [0, 1]]\n" for number in range(2500)))
     chunks = chunks_of([str(path)])
-    assert [chunk.first for chunk in chunks] == [0, 10_000, 20_000]
+    assert [chunk.first for chunk in chunks] == [0, 1000, 2000]
     for chunk in chunks:
         first = next(outlines_in(chunk))
         assert first.number == chunk.first
         assert first.outline.points[1, 0] == chunk.first + 1
-    assert sum(1 for chunk in chunks for _ in outlines_in(chunk)) == 25_000
+    assert sum(1 for chunk in chunks for _ in outlines_in(chunk)) == 2500
 
 
 def test_features_are_bad_each_for_itself(tmp_path):
