@@ -186,18 +186,18 @@ def _second_labels(code: Ints, labels: int) -> Ints:
     np.maximum.at(most, code // 2, behind)
     first = np.flatnonzero((least == most) & (count > 0) & (count == count[np.minimum(least, 2 * labels - 1) // 2]))
     following[first] = least[first] // 2
-    following[following == np.arange(labels)] = _NONE
-    return _every_other(following)
+    return _matched(following)
 
 
-def _every_other(following: Ints) -> Ints:
-    """Return which labels become part of the one before: in each chain the second, the fourth, and so on."""
-    ahead, second = following.tolist(), np.full(len(following), _NONE)
-    for label in set(np.flatnonzero(following >= 0).tolist()).difference(ahead):
-        first = label
-        while first >= 0 and ahead[first] >= 0:
-            second[first] = ahead[first]
-            first = ahead[ahead[first]]
+def _matched(following: Ints) -> Ints:
+    """Return partners of labels so that none has two: letters may run with others on both sides, and in circles."""
+    second = np.full(len(following), _NONE)
+    taken: set[int] = set()
+    for label in np.flatnonzero(following >= 0).tolist():
+        other = int(following[label])
+        if other != label and not taken & {label, other}:
+            taken |= {label, other}
+            second[label] = other
     return second
 
 
