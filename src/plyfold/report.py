@@ -29,6 +29,7 @@ from plyfold.outline.curve import Outline
 __all__ = [
     "A_DISK",
     "Words",
+    "branch_points_of",
     "branched_in_words",
     "cut_in_words",
     "describe",
@@ -255,14 +256,23 @@ def _no_surface(arrangement: Arrangement, drawing: str) -> dict[str, Any]:
 
 
 def _branched(arrangement: Arrangement) -> dict[str, Any]:
-    """Return how many branch points the disk has that a curve bounds, if it bounds one and that is found soon."""
+    branch_points = branch_points_of(arrangement, _SECONDS_FOR_OFFERS)
+    return {"branch_points": branch_points} if branch_points else {}
+
+
+def branch_points_of(arrangement: Arrangement, time_limit: float) -> int:
+    """Return how many branch points the disk has that a curve bounds; 0 if it has none or is not found soon.
+
+    Examples
+    --------
+    >>> from plyfold import GaussCode, arrange
+    >>> branch_points_of(arrange(GaussCode.parse("1+ 1- / outer 1")), 1.0)
+    1
+    """
     may_be = arrangement.n_loops == 1 and not arrangement.cusp_index.any() and arrangement.winding.min() >= 0
     if not may_be or arrangement.turning_number < 2 or arrangement.n_crossings > _MOST_CROSSINGS_TO_CONTRACT:
-        return {}
-    found = least_homotopy(arrangement, _SECONDS_FOR_OFFERS)
-    if found.branch_points is None:
-        return {}
-    return {"branch_points": found.branch_points}
+        return 0
+    return least_homotopy(arrangement, time_limit).branch_points or 0
 
 
 def branched_in_words(branch_points: int) -> str:
@@ -487,7 +497,7 @@ def _headline(figures: dict[str, Any]) -> str:
     plain = figures["loops"] == 1 and not figures["cusps"]
     said = words(0, figures["sentence"], surface=A_DISK if plain else "a surface")
     places = "".join(f"\n  at ({x:.6g}, {y:.6g})" for x, y in figures["where"])
-    branched = f"\n  It bounds {branched_in_words(figures['branch_points'])}." if "branch_points" in figures else ""
+    branched = f"\n  It bounds {branched_in_words(points)}." if (points := figures.get("branch_points")) else ""
     return f"{said.headline}. {said.sentence}{places}{branched}{_offer_lines(figures)}"
 
 

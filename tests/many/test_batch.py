@@ -78,6 +78,14 @@ def test_what_is_written_is_not_read(tmp_path):
     assert len(rows(out)) == 1
 
 
+def test_what_is_read_is_never_written(tmp_path, capsys):
+    source = tmp_path / "many.jsonl"
+    source.write_text(json.dumps(TRIANGLE))
+    assert main(["batch", str(source), "-o", str(source), "--force"]) == 2
+    assert source.read_text() == json.dumps(TRIANGLE)
+    assert "is read" in capsys.readouterr().err
+
+
 def test_wkb_in_parquet(tmp_path):
     pyarrow, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
     wkb = [shapely.to_wkb(shapely.Polygon(points)) for points in (TRIANGLE, EIGHT)]

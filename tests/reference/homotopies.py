@@ -5,7 +5,7 @@ cell as often as it winds round it, without sign. Weights are those of cells, nu
 """
 
 from collections.abc import Iterator, Sequence
-from functools import cache
+from functools import cache, lru_cache
 from itertools import combinations
 
 from reference.gluings import immersions
@@ -21,6 +21,9 @@ from reference.planar_maps import (
 )
 
 Cut = tuple[int, int]
+
+
+sides_of = lru_cache(maxsize=10)(left_and_right)
 
 
 def interleave(one: Cut, other: Cut) -> bool:
@@ -55,9 +58,9 @@ def loops(code: GaussCode, cuts: Sequence[Cut]) -> list[list[int]]:
 
 def loop_windings(code: GaussCode, borders: Sequence[int]) -> list[int]:
     """How often a loop winds round each cell: one more on the left of its borders than on their right."""
-    sides = left_and_right(code)
+    sides = sides_of(code)
     winding = {outer_cell(code): 0}
-    while len(winding) < len(windings(code)):
+    while len(winding) < len(code.partner) // 2 + 2:
         for border, (left, right) in enumerate(sides):
             step = int(border in borders)
             if right in winding:
@@ -73,7 +76,7 @@ def outside(code: GaussCode, borders: Sequence[int]) -> set[int]:
     while True:
         more = {
             cell
-            for border, sides in enumerate(left_and_right(code))
+            for border, sides in enumerate(sides_of(code))
             if border not in borders and reached & set(sides)
             for cell in sides
         }
@@ -93,7 +96,7 @@ def code_of_loop(code: GaussCode, borders: Sequence[int]) -> GaussCode:
     passed = 0
     for border in borders:
         own = (passed - 1) % max(len(kept), 1)
-        left, right = left_and_right(code)[border]
+        left, right = sides_of(code)[border]
         darts += [2 * own] * (left in far) + [2 * own + 1] * (right in far)
         passed += (border + 1) % n in kept if code.partner else 0
     if not kept:

@@ -239,6 +239,12 @@ def test_a_curve_that_turns_twice_is_a_disk_with_a_cusp_where_two_sheets_lie():
     assert (answer["gauss"], answer["word"]) == (None, None)
 
 
+def test_a_branched_disk_is_named():
+    said = asked(LIMACON)["verdict"]
+    assert said["reason"] == "turning number"
+    assert said["sentence"].endswith("It bounds a disk of cloth with a branch point.")
+
+
 def test_a_point_that_cannot_be_a_cusp_is_refused_with_the_reason():
     outer = max(range(len(LIMACON)), key=lambda i: np.hypot(*LIMACON[i]))
     verdict = marked(LIMACON, **{f"p{outer}": 1})["verdict"]

@@ -64,24 +64,30 @@ def files_in(inputs: Iterable[str], without: Path | None = None) -> list[str]:
     Raises
     ------
     InputError
-        If there is no such file or folder, or nothing in it.
+        If there is no such file or folder, or nothing in it, or what is written is named itself.
     """
     files: list[str] = []
+    written = None if without is None else without.resolve()
     for name in inputs:
         if not Path(name).exists():
             raise InputError(f"there is no file or folder {name}")
-        files += [name] if Path(name).is_file() else map(str, sorted(_drawings_in(Path(name), without)))
+        if Path(name).resolve() == written:
+            raise InputError(f"{name} is read", hint="write to another file")
+        files += [name] if Path(name).is_file() else map(str, sorted(_drawings_in(Path(name), written)))
     if not files:
         endings = " ".join((*_DRAWINGS, *_LINES, _PARQUET))
         raise InputError("there is no drawing in it", hint=f"drawings end in {endings}")
     return list(dict.fromkeys(files))
 
 
-def _drawings_in(folder: Path, without: Path | None) -> Iterator[Path]:
-    kept = None if without is None else without.resolve()
+def _drawings_in(folder: Path, written: Path | None) -> Iterator[Path]:
     for path in folder.rglob("*"):
         parts = [parent.suffix for parent in path.parents]
-        if path.suffix.lower() in (*_DRAWINGS, *_LINES, _PARQUET) and ".parts" not in parts and path.resolve() != kept:
+        if (
+            path.suffix.lower() in (*_DRAWINGS, *_LINES, _PARQUET)
+            and ".parts" not in parts
+            and path.resolve() != written
+        ):
             yield path
 
 

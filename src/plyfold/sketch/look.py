@@ -21,6 +21,8 @@ from plyfold.outline.direction import even_odd_directions, sense
 from plyfold.report import (
     A_DISK,
     Words,
+    branch_points_of,
+    branched_in_words,
     cut_in_words,
     surface_in_words,
     touches_of,
@@ -33,6 +35,7 @@ from plyfold.sketch.schema import VERSION, Look
 __all__ = ["look_at"]
 
 _LONGEST_WORD = 60
+_SECONDS_TO_CONTRACT = 0.05
 _LABEL_TOLERANCE = 0.02
 _NOTHING_WRONG: dict[str, Any] = {"reason": None, "where": [], "touches": [], "cut": None}
 
@@ -151,11 +154,14 @@ def _immersed(question: Look, found: Immersion) -> dict[str, Any]:
 
 
 def _obstructed(drawn: Arrangement, obstruction: Obstruction) -> dict[str, Any]:
+    sentence, branch_points = obstruction.sentence, branch_points_of(drawn, _SECONDS_TO_CONTRACT)
+    if branch_points:
+        sentence += f" It bounds {branched_in_words(branch_points)}."
     return {
         "immersible": False,
         "immersions": "0",
         "reason": obstruction.reason,
-        **asdict(words(0, obstruction.sentence, surface=A_DISK if _is_plain(drawn) else "a surface")),
+        **asdict(words(0, sentence, surface=A_DISK if _is_plain(drawn) else "a surface")),
         "where": [list(place) for place in obstruction.where],
     }
 
