@@ -23,6 +23,8 @@ from .flat.fills import winding_at as winding_at
 from .flat.limit import Limit as Limit
 from .flat.limit import limit_of as limit_of
 from .flat.triangulate import triangulate as triangulate
+from .homotopy.homotopy import Homotopy as Homotopy
+from .homotopy.homotopy import least_homotopy as least_homotopy
 from .immersion.blank_word import BlankWord as BlankWord
 from .immersion.blank_word import blank_word as blank_word
 from .immersion.compare import changed_borders as changed_borders
@@ -49,6 +51,10 @@ from .layering.orders.intersections import least_intersecting_layering as least_
 from .layering.orders.listing import layerings as layerings
 from .layering.orders.nicest import nicest_layering as nicest_layering
 from .layering.orders.search import find_layering as find_layering
+from .many.answers import ManyAnswers as ManyAnswers
+from .many.pieces import decompose_many as decompose_many
+from .many.pieces import triangulate_many as triangulate_many
+from .many.verdicts import verdicts as verdicts
 from .obstruction import Obstruction as Obstruction
 from .obstruction import Unknown as Unknown
 from .offers.cusps import SuggestedCusps as SuggestedCusps
@@ -61,5 +67,6 @@ from .outline.curve import Outline as Outline
 from .outline.ribbons.ribbon import ribbon as ribbon
 from .surface.lift import Surface as Surface
 from .surface.lift import lift as lift
+from .tables.table import DataTable as DataTable
 
 __version__: str

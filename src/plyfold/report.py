@@ -13,6 +13,7 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.as_given import contacts_of, crossings_as_given, given_windings
 from plyfold.errors import TimeLimitError
+from plyfold.homotopy.homotopy import least_homotopy
 from plyfold.immersion.immersion import Immersion, Piece
 from plyfold.immersion.obstructions import may_bound_disk
 from plyfold.immersion.solve import bounds_strictly, count_immersions, find_immersion, immersions
@@ -28,6 +29,7 @@ from plyfold.outline.curve import Outline
 __all__ = [
     "A_DISK",
     "Words",
+    "branched_in_words",
     "cut_in_words",
     "describe",
     "in_words",
@@ -45,6 +47,7 @@ A_DISK = "a disk of cloth"
 """What one curve without cusps bounds, if it bounds a surface without handles."""
 
 _SECONDS_FOR_OFFERS = 0.5
+_MOST_CROSSINGS_TO_CONTRACT = 3_000
 # What does what is offered, given how commands name the drawing.
 _COMMANDS = {
     "repair": "plyfold repair {} -o OUT",
@@ -206,7 +209,8 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None, drawing: 
         (in words), ``touches`` (where it touches itself; no places if the outline bounds one that does not), ``pieces``
         and ``euler_characteristic`` (of the first, cut where it touches itself), ``sheets`` (over all cells),
         ``layerable``, and if so ``levels``, and, for a disk, ``examined`` (immersions), otherwise ``reason``,
-        ``sentence`` and ``where``; and for a drawing ``offers``, what can be done: each has a ``kind``, ``"repair"``,
+        ``sentence`` and ``where``, and ``branch_points`` if it bounds a disk with so many; and for a drawing
+        ``offers``, what can be done: each has a ``kind``, ``"repair"``,
         ``"cusps"`` or ``"fill"``, a ``sentence`` and a ``command``, and the first two what they change and the
         ``surface`` that it would bound.
 
@@ -237,12 +241,40 @@ def verdict(arrangement: Arrangement, time_limit: float | None = None, drawing: 
     if isinstance(found, Unknown):
         return figures | {"immersible": None, "immersions": None}
     if isinstance(found, Obstruction):
-        return figures | {"immersible": False, "immersions": 0} | _obstructed(found) | _offers(arrangement, drawing)
+        return figures | {"immersible": False, "immersions": 0} | _obstructed(found) | _no_surface(arrangement, drawing)
     count = count_immersions(arrangement, time_limit=limit)
     figures |= {"immersible": True, "immersions": None if isinstance(count, Unknown) else count}
     figures |= _surface(found) | {"sheets": int(windings.sum())}
     figures |= (_layerable if may_bound_disk(arrangement) else _embeddable)(arrangement, time_limit)
     return figures | ({"levels": int(windings.max())} if figures["layerable"] else {})
+
+
+def _no_surface(arrangement: Arrangement, drawing: str) -> dict[str, Any]:
+    """Return what an outline bounds that bounds no surface, and what can be done about it."""
+    return _branched(arrangement) | _offers(arrangement, drawing)
+
+
+def _branched(arrangement: Arrangement) -> dict[str, Any]:
+    """Return how many branch points the disk has that a curve bounds, if it bounds one and that is found soon."""
+    may_be = arrangement.n_loops == 1 and not arrangement.cusp_index.any() and arrangement.winding.min() >= 0
+    if not may_be or arrangement.turning_number < 2 or arrangement.n_crossings > _MOST_CROSSINGS_TO_CONTRACT:
+        return {}
+    found = least_homotopy(arrangement, _SECONDS_FOR_OFFERS)
+    if found.branch_points is None:
+        return {}
+    return {"branch_points": found.branch_points}
+
+
+def branched_in_words(branch_points: int) -> str:
+    """Say what a curve bounds that bounds a disk with branch points.
+
+    Examples
+    --------
+    >>> branched_in_words(0), branched_in_words(1), branched_in_words(2)
+    ('a disk of cloth', 'a disk of cloth with a branch point', 'a disk of cloth with 2 branch points')
+    """
+    many = {0: "", 1: " with a branch point"}
+    return A_DISK + many.get(branch_points, f" with {branch_points} branch points")
 
 
 def _offers(arrangement: Arrangement, drawing: str) -> dict[str, Any]:
@@ -455,7 +487,8 @@ def _headline(figures: dict[str, Any]) -> str:
     plain = figures["loops"] == 1 and not figures["cusps"]
     said = words(0, figures["sentence"], surface=A_DISK if plain else "a surface")
     places = "".join(f"\n  at ({x:.6g}, {y:.6g})" for x, y in figures["where"])
-    return f"{said.headline}. {said.sentence}{places}{_offer_lines(figures)}"
+    branched = f"\n  It bounds {branched_in_words(figures['branch_points'])}." if "branch_points" in figures else ""
+    return f"{said.headline}. {said.sentence}{places}{branched}{_offer_lines(figures)}"
 
 
 def _offer_lines(figures: dict[str, Any]) -> str:

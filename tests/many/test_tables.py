@@ -49,7 +49,7 @@ def expected(n):
 @pytest.mark.parametrize("ending", TABLE_ENDINGS)
 @pytest.mark.parametrize("workers", [1, 2])
 def test_parts_are_joined_in_order(tmp_path, ending, workers):
-    job, out = Job({"what": "numbers"}, 4, partial(make_part, str(tmp_path))), tmp_path / f"out{ending}"
+    job, out = Job({"what": "numbers"}, range(4), partial(make_part, str(tmp_path))), tmp_path / f"out{ending}"
     told = []
     notes = write_table(job, out, workers, progress=lambda *done: told.append(done))
     assert notes == [{"first": 3 * number} for number in range(4)]
@@ -60,7 +60,7 @@ def test_parts_are_joined_in_order(tmp_path, ending, workers):
 
 
 def test_what_is_done_is_not_done_again(tmp_path):
-    job, out = Job({"what": "numbers"}, 4, partial(failing_part, str(tmp_path))), tmp_path / "out.jsonl"
+    job, out = Job({"what": "numbers"}, range(4), partial(failing_part, str(tmp_path))), tmp_path / "out.jsonl"
     with pytest.raises(ValueError, match="no part 2"):
         write_table(job, out, workers=1)
     assert not out.exists()
@@ -73,14 +73,14 @@ def test_what_is_done_is_not_done_again(tmp_path):
 def test_parts_of_something_else_are_not_taken(tmp_path):
     out = tmp_path / "out.jsonl"
     with pytest.raises(ValueError, match="no part 2"):
-        write_table(Job({"what": "numbers"}, 4, partial(failing_part, str(tmp_path))), out, workers=1)
-    for other in (Job({"what": "others"}, 4, make_part), Job({"what": "numbers"}, 5, make_part)):
+        write_table(Job({"what": "numbers"}, range(4), partial(failing_part, str(tmp_path))), out, workers=1)
+    for other in (Job({"what": "others"}, range(4), make_part), Job({"what": "numbers"}, range(5), make_part)):
         with pytest.raises(InputError, match="something else"):
             write_table(other, out, workers=1)
 
 
 def test_existing_files_are_not_overwritten(tmp_path):
-    job, out = Job({}, 1, partial(make_part, str(tmp_path))), tmp_path / "out.csv"
+    job, out = Job({}, range(1), partial(make_part, str(tmp_path))), tmp_path / "out.csv"
     out.write_text("mine")
     with pytest.raises(FileExistsError):
         write_table(job, out)
@@ -90,7 +90,7 @@ def test_existing_files_are_not_overwritten(tmp_path):
 
 
 def test_notes_alone(tmp_path):
-    job = Job({}, 3, partial(make_part, str(tmp_path)))
+    job = Job({}, range(3), partial(make_part, str(tmp_path)))
     assert count_parts(job, workers=1) == [{"first": 0}, {"first": 3}, {"first": 6}]
 
 
@@ -102,7 +102,7 @@ sys.path.insert(0, {tests!r})
 from numbered import slow_part
 from plyfold.tables.parts import Job, write_table
 if __name__ == "__main__":
-    job = Job({{"what": "numbers"}}, 8, partial(slow_part, {folder!r}))
+    job = Job({{"what": "numbers"}}, range(8), partial(slow_part, {folder!r}))
     write_table(job, {out!r}, workers=2, progress=lambda *_: print("part", flush=True))
 """
 

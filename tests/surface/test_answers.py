@@ -85,7 +85,7 @@ def differences(mesh):
 
 @pytest.mark.parametrize("dissected", [False, True])
 @pytest.mark.parametrize("held", [False, True])
-@pytest.mark.parametrize(("stiffness", "precision"), [(0.5, 1e-10), (10.0, 3e-9), (1000.0, 1e-5)])
+@pytest.mark.parametrize(("stiffness", "precision"), [(0.5, 1e-10), (10.0, 5e-8), (1000.0, 1e-5)])
 def test_answers_of_cloth(held, stiffness, precision, dissected, monkeypatch):
     """Against the dense inverse, or the pseudo-inverse, of the cloth's whole matrix."""
     if dissected:

@@ -14,7 +14,8 @@ from plyfold.loading import FOR_LAYERINGS, load_libraries
 __all__ = ["add_check_command"]
 
 _JSON_GUIDE = """\
-the object that --json prints, with --each one on a line for each shape:
+the object that --json prints; with --each one on a line for each shape, of several files for each file:
+  file                      which file it is in (of several)
   index, id                 which shape it is (with --each)
   points, loops             how many
   crossings                 how often two edges cross inside both
@@ -36,6 +37,7 @@ the object that --json prints, with --each one on a line for each shape:
   layerable                 whether an immersion can be lifted; null: unknown, the time limit (if immersible)
   examined, levels          immersions of a disk tried until one could be lifted, and the layers of that one
   reason, sentence, where   why not, in a word, in a sentence and at which places (if not immersible or layerable)
+  branch_points             how many the disk has that it bounds (if not immersible, and it bounds a disk with some)
   offers                    list of what makes it one, as far as it is found in half a second (if not immersible): each
                             has kind, sentence and command. Kind "repair": changes (list of {kind, where, size, region,
                             layers}), region_change, layer_change, surface; "cusps": cusps (list as above), surface;
@@ -50,6 +52,7 @@ def add_check_command(commands: Any) -> None:
     check = add_command(commands, "check", _check, "say what surface an outline bounds, with all figures")
     add_time_limit(check)
     add_repair(check)
+    check.add_argument("more", nargs="*", metavar="FILE", help="further drawings: a line of JSON for each")
     check.add_argument("--json", action="store_true", help="print one JSON object and nothing else (see below)")
     check.epilog, check.formatter_class = _JSON_GUIDE, argparse.RawDescriptionHelpFormatter
 

@@ -7,13 +7,15 @@ import importlib
 import json
 
 from plyfold import __version__
+from plyfold.cli.batch import add_batch_command
 from plyfold.cli.census import add_census_command
 from plyfold.cli.check import add_check_command
 from plyfold.cli.convert import add_convert_command
 from plyfold.cli.draw import add_draw_command
-from plyfold.cli.each import each_shape
+from plyfold.cli.each import each_file, each_shape
 from plyfold.cli.flat import add_flat_commands
 from plyfold.cli.gallery import add_gallery_command
+from plyfold.cli.homotopy import add_homotopy_command
 from plyfold.cli.inputs import BAD_INPUT, NO_DISK, UNKNOWN
 from plyfold.cli.lift import add_lift_command
 from plyfold.cli.progress import clear_progress
@@ -32,8 +34,10 @@ _COMMANDS = (
     add_draw_command,
     add_flat_commands,
     add_repair_command,
+    add_homotopy_command,
     add_convert_command,
     add_gallery_command,
+    add_batch_command,
     add_census_command,
     add_sketch_command,
 )
@@ -43,17 +47,20 @@ examples:
   plyfold check loop.svg                     is it the outline of a disk of cloth? in how many ways?
   plyfold check loop.svg --json              the same for a program
   plyfold check map.geojson --each           of every shape in it
+  plyfold check a.svg b.svg c.svg            of several files, a line of JSON for each
   plyfold check contour.json --cusp 0:12x2   with a point where the surface turns further than one sees
   plyfold lift loop.svg -o loop.html         the layered surface, as a 3D page for any browser
   plyfold lift loop.csv -o a.glb -o a.obj    as meshes; the ending chooses the format
   plyfold lift loop.csv -o - --format stl    to standard output
   plyfold draw loop.svg -o loop.png          cells, disk layout, layers and surface in one picture
   plyfold repair stroke.svg -o disk.svg      without its tiny loops, where these keep it from being a disk
+  plyfold homotopy loop.svg -o loop.html     how it contracts and sweeps the least area, as a film
   plyfold split loop.svg -o pieces.geojson   simple polygons that cover the disk once
   plyfold unwrap loop.svg -o loop.obj        texture coordinates: the disk one-to-one onto the round one
   plyfold convert letter.svg -o letter.json  the outline in another format, with its holes and cusps
   plyfold word loop.svg                      Blank's word and its groupings
   plyfold gallery                            named curves to begin with
+  plyfold batch outlines/ -o verdicts.csv    a table for any number of files, by all cores
   plyfold census 8 --page census.html        all plane curves with 8 crossings
   plyfold sketch                             draw in the browser, and see at once how it lies
   plyfold lift gallery:exit-ramp -o ramp.glb
@@ -62,7 +69,7 @@ FILE is an SVG, CSV, TXT, NPY, JSON, WKT or GeoJSON file, a flat mesh as OBJ or 
 gallery:NAME. All that it holds is one outline, unless --id, --index or --each say otherwise.
 
 exit codes: 0 a disk or another surface (or written), 1 none or not to be lifted, 2 bad input,
-3 unknown whether it can be lifted (time limit), 130 interrupted; of --each: 2, 3 or 1 if one of them ends so
+3 unknown whether it can be lifted (time limit), 130 interrupted; of several: 2, 3 or 1 if one of them ends so
 """
 
 
@@ -86,6 +93,10 @@ def main(arguments: list[str] | None = None) -> int:
     2
     """
     options = _parser().parse_args(arguments)
+    return each_file(options, _each)
+
+
+def _each(options: argparse.Namespace) -> int:
     return each_shape(options, _answer) if getattr(options, "each", False) else _answer(options)
 
 

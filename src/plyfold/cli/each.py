@@ -1,9 +1,9 @@
-"""``--each``: a command for every shape of a file, one after the other."""
+"""A command for several drawings, one after the other: ``--each`` shape of a file, and several files."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,10 +17,34 @@ from plyfold_command import INTERRUPTED
 if TYPE_CHECKING:
     from plyfold.io.reading import Contents
 
-__all__ = ["each_shape"]
+__all__ = ["each_file", "each_shape"]
 
 # Of several exit codes the first one here is that of all together.
 _WORST_FIRST = (BAD_INPUT, UNKNOWN, NO_DISK, DISK)
+
+
+def each_file(options: argparse.Namespace, answer: Callable[[argparse.Namespace], int]) -> int:
+    """Run a command for its file, and for each of several, if there are more; parameters as for :func:`each_shape`.
+
+    Of several, the answer is a line of JSON for each, which names the file.
+    """
+    if not getattr(options, "more", None):
+        return answer(options)
+    return _worst(answer, (_of_one_file(options, file) for file in (options.file, *options.more)))
+
+
+def _of_one_file(options: argparse.Namespace, file: str) -> argparse.Namespace:
+    return argparse.Namespace(**vars(options) | {"file": file, "more": [], "json": True, "shape": {"file": file}})
+
+
+def _worst(answer: Callable[[argparse.Namespace], int], several: Iterable[argparse.Namespace]) -> int:
+    """Run a command several times, until it is interrupted, and return the exit code of all together."""
+    codes = set()
+    for options in several:
+        codes.add(code := answer(options))
+        if code == INTERRUPTED:
+            return code
+    return next(code for code in _WORST_FIRST if code in codes)
 
 
 def each_shape(options: argparse.Namespace, answer: Callable[[argparse.Namespace], int]) -> int:
@@ -41,12 +65,7 @@ def each_shape(options: argparse.Namespace, answer: Callable[[argparse.Namespace
     code = answer(argparse.Namespace(**vars(options) | {"run": partial(_open, found)}))
     if code != DISK:
         return code
-    codes = set()
-    for number in range(len(found[0])):
-        codes.add(code := answer(_of_one_shape(options, found[0], number)))
-        if code == INTERRUPTED:
-            return code
-    return next(code for code in _WORST_FIRST if code in codes)
+    return _worst(answer, (_of_one_shape(options, found[0], number) for number in range(len(found[0]))))
 
 
 def _open(found: list[Contents], options: argparse.Namespace) -> int:
@@ -64,7 +83,10 @@ def _open(found: list[Contents], options: argparse.Namespace) -> int:
 def _of_one_shape(options: argparse.Namespace, contents: Contents, number: int) -> argparse.Namespace:
     """Return the options for one of the shapes; unless JSON is asked for, say which one it is."""
     name = contents.name(number)
-    changed = {"read_shape": partial(contents.outline_and_ribbon, number), "shape": {"index": number, "id": name}}
+    changed = {
+        "read_shape": partial(contents.outline_and_ribbon, number),
+        "shape": options.shape | {"index": number, "id": name},
+    }
     if getattr(options, "output", None):
         changed["output"] = [_numbered(path, number) for path in options.output]
     if not getattr(options, "json", False):

@@ -150,13 +150,14 @@ def read_drawing(options: argparse.Namespace, watch: Stopwatch, clock: Clock | N
     return found.outline
 
 
-def add_outputs(command: argparse.ArgumentParser, endings: str) -> None:
-    """Give a subcommand the options ``-o``, of which there must be one, and ``--force``."""
+def add_outputs(command: argparse.ArgumentParser, endings: str, required: bool = True) -> None:
+    """Give a subcommand the options ``-o``, of which there must be one unless that is said, and ``--force``."""
     command.add_argument(
         "-o",
         "--output",
         action="append",
-        required=True,
+        required=required,
+        default=None if required else [],
         metavar="OUT",
         help=f"one of {endings}; or - for standard output, in the format that --format names",
     )

@@ -4,7 +4,7 @@ from libc.stdint cimport int64_t
 
 from plyfold.core.verdict cimport PlainCurve
 
-cdef int _NO, _NOT_TOLD
+cdef int _NO, _YES, _NOT_TOLD
 
 @cython.locals(curve=PlainCurve)
 cpdef int decide_each(

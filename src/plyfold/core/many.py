@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from plyfold.core.buffers import RealBuffer, WholeBuffer
-from plyfold.core.verdict import NO, NOT_TOLD, PlainCurve
+from plyfold.core.verdict import NO, NOT_TOLD, YES, PlainCurve
 
 __all__ = ["decide_each"]
 
-_NO, _NOT_TOLD = NO, NOT_TOLD
+_NO, _YES, _NOT_TOLD = NO, YES, NOT_TOLD
 
 
 def decide_each(
@@ -50,7 +50,10 @@ def decide_each(
         figures[3 * row + 1], figures[3 * row + 2] = curve.direction.turning, curve.direction.lowest
         if curve.direction.turning != 1 or curve.direction.lowest < 1:
             told[row] = _NO
-            continue
-        curve.find_cells()
-        curve.write_word()
-        told[row] = curve.has_grouping()
+        elif curve.k == 0:
+            # A curve that does not cross itself bounds a disk, without a word.
+            told[row] = _YES
+        else:
+            curve.find_cells()
+            curve.write_word()
+            told[row] = curve.has_grouping()

@@ -5,6 +5,8 @@ from .collapsed_plot import plot_marked_cell as plot_marked_cell
 from .figures import overview as overview
 from .figures import save as save
 from .film import save_film as save_film
+from .homotopy_plot import plot_homotopy as plot_homotopy
+from .homotopy_plot import save_contraction as save_contraction
 from .immersion_plot import plot_immersion as plot_immersion
 from .immersion_plot import plot_immersions as plot_immersions
 from .layers_plot import plot_casing as plot_casing

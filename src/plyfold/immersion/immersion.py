@@ -134,7 +134,10 @@ class Immersion:
 
     @property
     def n_sheets(self) -> int:
-        """Number of sheets: the winding numbers of all cells added up."""
+        """Number of sheets: the winding numbers of all cells of the arrangement added up.
+
+        Where an outline touches itself, that counts cells which only its moves have opened; ``repr`` does not.
+        """
         return int(self.arrangement.winding.sum())
 
     @cached_property

@@ -20,6 +20,7 @@ __all__ = [
     "impossible_cusp",
     "impossible_turning",
     "is_visibly_no_disk",
+    "is_visibly_no_surface",
     "loops_apart",
     "may_bound_disk",
     "negative_winding",
@@ -69,6 +70,16 @@ def visible_obstruction(arranged: Arrangement, connected: bool = False) -> Obstr
     found = impossible_turning(arranged, connected) if found is None else found
     found = negative_winding(arranged) if found is None else found
     return loops_apart(arranged) if found is None and connected else found
+
+
+def is_visibly_no_surface(arranged: Arrangement, connected: bool = False) -> bool:
+    """Tell whether numbers alone show that an outline bounds no surface, or none in one piece, without the place."""
+    return (
+        len(_impossible_cusps(arranged)) > 0
+        or _cluster_that_turns_wrong(arranged, connected) is not None
+        or bool(arranged.winding.min() < 0)
+        or (connected and loops_apart(arranged) is not None)
+    )
 
 
 def _impossible_cusps(arranged: Arrangement) -> Ints:
@@ -123,14 +134,20 @@ def impossible_turning(arranged: Arrangement, connected: bool = False) -> Obstru
     The outline of a connected surface that lies flat turns 2 times less 2 for each handle and 1 for each of its loops.
     So c loops bound something only if they turn c times, or less by an even number; one piece, if 2 − c times, or less.
     """
-    turns, cluster = arranged.loop_characteristics, clusters_of_loops(arranged)
-    loops, chi = np.bincount(cluster), np.zeros(int(cluster.max()) + 1, dtype=np.int64)
-    np.add.at(chi, cluster, turns)
-    wrong = np.flatnonzero((chi > (2 - loops if connected else loops)) | ((loops - chi) % 2 == 1))
-    if not len(wrong):
+    members = _cluster_that_turns_wrong(arranged, connected)
+    if members is None:
         return None
-    sentence = _turning_in_words(arranged, np.flatnonzero(cluster == wrong[0]), connected)
-    return Obstruction("turning number", sentence, place_of_turning(arranged), int(chi[wrong[0]]), arranged)
+    sentence, chi = _turning_in_words(arranged, members, connected), int(arranged.loop_characteristics[members].sum())
+    return Obstruction("turning number", sentence, place_of_turning(arranged), chi, arranged)
+
+
+def _cluster_that_turns_wrong(arranged: Arrangement, connected: bool) -> Ints | None:
+    """Return the first loops that have to do with each other and cannot bound anything, as often as they turn."""
+    cluster = clusters_of_loops(arranged)
+    loops, chi = np.bincount(cluster), np.zeros(int(cluster.max()) + 1, dtype=np.int64)
+    np.add.at(chi, cluster, arranged.loop_characteristics)
+    wrong = np.flatnonzero((chi > (2 - loops if connected else loops)) | ((loops - chi) % 2 == 1))
+    return np.flatnonzero(cluster == wrong[0]) if len(wrong) else None
 
 
 def _turning_in_words(arranged: Arrangement, members: Ints, connected: bool) -> str:

@@ -23,6 +23,7 @@ from plyfold.immersion.disks import bounds_disks, count_disks, find_disks, list_
 from plyfold.immersion.immersion import Immersion
 from plyfold.immersion.obstructions import (
     is_visibly_no_disk,
+    is_visibly_no_surface,
     may_bound_disk,
     touches_as_no_disk,
     visible_obstruction,
@@ -176,7 +177,7 @@ def _listed(arranged: Arrangement, watch: Watch, connected: bool = False) -> Ite
         disks = None if is_visibly_no_disk(arranged) else find_disks(arranged, watch)
         if disks is not None:
             yield from list_disks(disks, watch)
-    elif visible_obstruction(arranged, connected) is None:
+    elif not is_visibly_no_surface(arranged, connected):
         surfaces = find_surfaces(arranged)
         if surfaces is not None:
             yield from list_surfaces(surfaces, connected, watch)
@@ -243,7 +244,7 @@ def _count(arranged: Arrangement, connected: bool, watch: Watch) -> int:
     if may_bound_disk(arranged):
         disks = None if is_visibly_no_disk(arranged) else find_disks(arranged)
         return 0 if disks is None else count_disks(disks)
-    if visible_obstruction(arranged, connected) is not None:
+    if is_visibly_no_surface(arranged, connected):
         return 0
     surfaces = find_surfaces(arranged)
     return 0 if surfaces is None else count_surfaces(surfaces, connected, watch.begin("counting the immersions"))
@@ -338,7 +339,7 @@ def _sampled(arranged: Arrangement, dice: np.random.Generator) -> Immersion | No
     if may_bound_disk(arranged):
         disks = None if is_visibly_no_disk(arranged) else find_disks(arranged)
         return None if disks is None else nth_disk(disks, _random_below(count_disks(disks), dice))
-    surfaces = None if visible_obstruction(arranged) is not None else find_surfaces(arranged)
+    surfaces = None if is_visibly_no_surface(arranged) else find_surfaces(arranged)
     return None if surfaces is None else random_surface(surfaces, dice)
 
 

@@ -15,7 +15,7 @@ from plyfold.io.shapes import Line, Shape, outline_of_shapes, shape_of_strokes
 from plyfold.io.vector import shapes_in_geojson
 from plyfold.mistaken import mistaken_code
 
-__all__ = ["shapes_in_json"]
+__all__ = ["parsed_json", "shapes_in_json", "shapes_of_value"]
 
 _HINT = 'write [[x, y], ...], {"loops": [[[x, y], ...], ...]} or {"strokes": [[[x, y], ...], ...]}'
 
@@ -52,7 +52,11 @@ def shapes_in_json(text: str) -> list[Shape]:
     >>> shape.loops[0].cusps
     {2: 1}
     """
-    value = _parsed(text)
+    return shapes_of_value(parsed_json(text))
+
+
+def shapes_of_value(value: Any) -> list[Shape]:
+    """Return the same of parsed JSON."""
     if isinstance(value, list):
         return [shape_of_strokes(_lines(value, "strokes")) if any(map(_is_line, value)) else _points(value)]
     if not isinstance(value, dict):
@@ -71,7 +75,8 @@ def shapes_in_json(text: str) -> list[Shape]:
     raise _error("it has neither loops nor points nor strokes")
 
 
-def _parsed(text: str) -> Any:
+def parsed_json(text: str | bytes) -> Any:
+    """Return what a text says; broken JSON is an error that names the line."""
     try:
         return json.loads(text)
     except json.JSONDecodeError as error:

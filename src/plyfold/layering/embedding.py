@@ -26,7 +26,7 @@ from plyfold.arrangement.base_visit import borders_numbered_back
 from plyfold.arrays import Ints
 from plyfold.clock import Clock, Watch
 from plyfold.errors import TimeLimitError
-from plyfold.immersion.obstructions import may_bound_disk, visible_obstruction
+from plyfold.immersion.obstructions import is_visibly_no_surface, may_bound_disk, visible_obstruction
 from plyfold.immersion.outlines import find_surfaces, list_surfaces
 from plyfold.immersion.solve import (
     count_immersions,
@@ -229,7 +229,7 @@ def embeddings(curve: OutlineLike, over: npt.ArrayLike | None = None, connected:
     """
     arranged = in_best_way(arrange(curve))
     casing = None if over is None else casing_of_visits(arranged, over)
-    if visible_obstruction(arranged, connected) is not None or (may_bound_disk(arranged) and not bounds_disk(arranged)):
+    if is_visibly_no_surface(arranged, connected) or (may_bound_disk(arranged) and not bounds_disk(arranged)):
         return
     if casing is None and _has_few_immersions(arranged):
         for immersion in immersions(arranged):
@@ -289,7 +289,7 @@ def count_embeddings(curve: OutlineLike, time_limit: float | None = None, connec
 
 def _count(arranged: Arrangement, clock: Clock, connected: bool) -> int | Unknown:
     """Return the number of embeddings. May raise TimeLimitError."""
-    if visible_obstruction(arranged, connected) is not None or (may_bound_disk(arranged) and not bounds_disk(arranged)):
+    if is_visibly_no_surface(arranged, connected) or (may_bound_disk(arranged) and not bounds_disk(arranged)):
         return 0
     if connected and arranged.n_loops > 1:
         return _count_in_one_piece(arranged, clock)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeVar
@@ -13,7 +14,9 @@ if TYPE_CHECKING:
 
 _Answer = TypeVar("_Answer")
 
-__all__ = ["connected", "on_cluster"]
+_Given = TypeVar("_Given")
+
+__all__ = ["connected", "in_order", "on_cluster"]
 
 # How often a part is begun again if the machine that makes it is lost.
 _RETRIES = 3
@@ -37,11 +40,21 @@ def connected(address: str | None) -> Iterator[Client | None]:
         yield client
 
 
-def on_cluster(client: Client, call: Callable[[int], _Answer], numbers: Iterable[int]) -> Iterator[_Answer]:
-    """Call a function for all numbers, and yield what comes back as it comes."""
+def on_cluster(client: Client, call: Callable[[_Given], _Answer], given: Iterable[_Given]) -> Iterator[_Answer]:
+    """Call a function for all that is given, and yield what comes back as it comes."""
     from distributed import as_completed
 
     # The function is not pure: what counts is the file that it writes.
-    futures = client.map(call, list(numbers), pure=False, retries=_RETRIES)
+    futures = client.map(call, list(given), pure=False, retries=_RETRIES)
     for future in as_completed(futures):
         yield future.result()
+
+
+def in_order(client: Client, call: Callable[[_Given], _Answer], given: Iterable[_Given]) -> Iterator[_Answer]:
+    """Call a function for all that is given, and yield what comes back in the same order.
+
+    What is given goes with each call, so that nothing is lost with a machine.
+    """
+    waiting = deque(client.submit(call, one, pure=False, retries=_RETRIES) for one in given)
+    while waiting:
+        yield waiting.popleft().result()

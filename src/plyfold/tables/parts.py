@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import partial
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Hands", "Job", "Note", "count_parts", "write_table"]
 
+_Given = TypeVar("_Given")
 _Answer = TypeVar("_Answer")
 Hands: TypeAlias = "int | Client | None"
 Note: TypeAlias = dict[str, Any]
@@ -44,14 +45,15 @@ class Job:
     ----------
     what : dict
         All that the rows depend on, for JSON: parts made for something else are not taken.
-    n_parts : int
+    parts : sequence
+        What each part is made of: its number, or more.
     make : callable
-        Makes a part, given its number: a table, and a note about it for JSON. Other processes call it, too.
+        Makes a part, given what it is made of: a table, and a note about it for JSON. Other processes call it, too.
     """
 
     what: Note
-    n_parts: int
-    make: Callable[[int], tuple[DataTable, Note]]
+    parts: Sequence[Any]
+    make: Callable[[Any], tuple[DataTable, Note]]
 
 
 def write_table(
@@ -92,7 +94,7 @@ def write_table(
     folder = target.with_name(target.name + ".parts")
     notes = _make_parts(job, folder, target.suffix.lower(), workers, progress)
     with draft_in(target.absolute().parent) as draft:
-        join_tables([_part(folder, number, target.suffix) for number in range(job.n_parts)], draft, target.suffix)
+        join_tables([_part(folder, number, target.suffix) for number in range(len(job.parts))], draft, target.suffix)
         draft.replace(target)
     shutil.rmtree(folder)
     return notes
@@ -100,26 +102,28 @@ def write_table(
 
 def count_parts(job: Job, workers: Hands = None, progress: Progress | None = None) -> list[Note]:
     """Make all parts of a table for their notes alone; parameters as in :func:`write_table`."""
-    notes = dict(_calls(partial(_noted, job), list(range(job.n_parts)), workers, progress))
-    return [notes[number] for number in range(job.n_parts)]
+    notes = dict(_calls(partial(_noted, job.make), list(enumerate(job.parts)), workers, progress))
+    return [notes[number] for number in range(len(job.parts))]
 
 
-def _noted(job: Job, number: int) -> tuple[int, Note]:
-    return number, job.make(number)[1]
+def _noted(make: Callable[[Any], tuple[DataTable, Note]], numbered: tuple[int, Any]) -> tuple[int, Note]:
+    number, part = numbered
+    return number, make(part)[1]
 
 
 def _make_parts(job: Job, folder: Path, ending: str, workers: Hands, progress: Progress | None) -> list[Note]:
     """Make the parts that a folder does not hold yet, and return the notes of all."""
     _begin(job, folder)
-    missing = [number for number in range(job.n_parts) if not _note(folder, number).exists()]
-    for _ in _calls(partial(_make_part, job, folder, ending), missing, workers, progress):
+    missing = [(number, part) for number, part in enumerate(job.parts) if not _note(folder, number).exists()]
+    # Other processes are sent a part at a time, and not all of them with each.
+    for _ in _calls(partial(_make_part, job.make, folder, ending), missing, workers, progress):
         pass
-    return [json.loads(_note(folder, number).read_text()) for number in range(job.n_parts)]
+    return [json.loads(_note(folder, number).read_text()) for number in range(len(job.parts))]
 
 
 def _begin(job: Job, folder: Path) -> None:
     """Make the folder, or see that what is in it belongs to this job."""
-    what = {**job.what, "parts": job.n_parts}
+    what = {**job.what, "parts": len(job.parts)}
     folder.mkdir(exist_ok=True)
     if not (folder / _WHAT).exists():
         save_bytes(folder / _WHAT, json.dumps(what).encode())
@@ -127,9 +131,12 @@ def _begin(job: Job, folder: Path) -> None:
         raise InputError(f"{folder} holds parts of something else", hint="remove that folder, or choose another output")
 
 
-def _make_part(job: Job, folder: Path, ending: str, number: int) -> int:
+def _make_part(
+    make: Callable[[Any], tuple[DataTable, Note]], folder: Path, ending: str, numbered: tuple[int, Any]
+) -> int:
     """Write a part, and then the note, which says that it is whole."""
-    table, note = job.make(number)
+    number, part = numbered
+    table, note = make(part)
     save_bytes(_part(folder, number, ending), table_bytes(table, ending), force=True)
     save_bytes(_note(folder, number), json.dumps(note).encode(), force=True)
     return number
@@ -144,29 +151,29 @@ def _note(folder: Path, number: int) -> Path:
 
 
 def _calls(
-    call: Callable[[int], _Answer], numbers: list[int], workers: Hands, progress: Progress | None
+    call: Callable[[_Given], _Answer], given: list[_Given], workers: Hands, progress: Progress | None
 ) -> Iterator[_Answer]:
-    """Call a function for all numbers, and yield what comes back as it comes."""
-    for done, answer in enumerate(_answers(call, numbers, workers), start=1):
+    """Call a function for all that is given, and yield what comes back as it comes."""
+    for done, answer in enumerate(_answers(call, given, workers), start=1):
         yield answer
         if progress is not None:
-            progress("parts", done / len(numbers))
+            progress("parts", done / len(given))
 
 
-def _answers(call: Callable[[int], _Answer], numbers: list[int], workers: Hands) -> Iterator[_Answer]:
+def _answers(call: Callable[[_Given], _Answer], given: list[_Given], workers: Hands) -> Iterator[_Answer]:
     if workers is not None and not isinstance(workers, int):
         from plyfold.tables.cluster import on_cluster
 
-        yield from on_cluster(workers, call, numbers)
+        yield from on_cluster(workers, call, given)
         return
-    workers = min(workers or os.cpu_count() or 1, len(numbers))
+    workers = min(workers or os.cpu_count() or 1, len(given))
     if workers <= 1:
-        yield from map(call, numbers)
+        yield from map(call, given)
         return
     # Processes that are forked would take the locks of other threads with them.
     with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
         try:
-            for future in as_completed([pool.submit(call, number) for number in numbers]):
+            for future in as_completed([pool.submit(call, one) for one in given]):
                 yield future.result()
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)

@@ -25,11 +25,11 @@ Column: TypeAlias = npt.NDArray[Any]
 class DataTable:
     """Columns of the same length, by their names.
 
-    Attributes
+    Parameters
     ----------
     columns : dict of str to (n,) arrays
-        Numbers and truth values as numpy has them; text, whole numbers of any size and missing values (None) as
-        objects.
+        Numbers and truth values as numpy has them, in masked arrays if some are missing; text and whole numbers of any
+        size as objects, None where they are missing.
 
     Examples
     --------
@@ -67,7 +67,7 @@ class DataTable:
         """Return a data frame, for which pandas must be installed."""
         import pandas
 
-        return pandas.DataFrame(dict(self.columns))
+        return pandas.DataFrame({name: _for_pandas(column) for name, column in self.columns.items()})
 
     def to_arrow(self) -> pyarrow.Table:
         """Return an Arrow table, for which pyarrow must be installed: extra ``tables``.
@@ -79,6 +79,8 @@ class DataTable:
         def array(column: Column) -> pyarrow.Array:
             if column.dtype == object:
                 return pyarrow.array([None if value is None else str(value) for value in column], pyarrow.string())
+            if isinstance(column, np.ma.MaskedArray):
+                return pyarrow.array(column.data, mask=np.ma.getmaskarray(column))
             return pyarrow.array(column.astype(str) if column.dtype.kind == "S" else column)
 
         return pyarrow.table({name: array(column) for name, column in self.columns.items()})
@@ -86,4 +88,25 @@ class DataTable:
 
 def joined(tables: Sequence[DataTable]) -> DataTable:
     """Return the rows of tables with the same columns, one table after the other."""
-    return DataTable({name: np.concatenate([table[name] for table in tables]) for name in tables[0].columns})
+    return DataTable({name: _together([table[name] for table in tables]) for name in tables[0].columns})
+
+
+def _together(columns: Sequence[Column]) -> Column:
+    # numpy's own would forget what is missing.
+    if not isinstance(columns[0], np.ma.MaskedArray):
+        return np.concatenate(columns)
+    found: Column = np.ma.concatenate(columns)  # type: ignore[no-untyped-call]
+    return found
+
+
+def _for_pandas(column: Column) -> Any:
+    """Return a column as pandas takes it: whole numbers and truth values of which some are missing as such."""
+    import pandas
+
+    if not isinstance(column, np.ma.MaskedArray):
+        return column
+    missing = np.ma.getmaskarray(column)
+    if column.dtype.kind == "f":
+        return column.filled(np.nan)
+    kind = pandas.arrays.BooleanArray if column.dtype.kind == "b" else pandas.arrays.IntegerArray
+    return kind(np.array(column.data), missing)

@@ -15,6 +15,7 @@ stretch without a first border runs all round its cell, and is the only one: at 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -68,11 +69,15 @@ class PairGraph:
 
     def pair_of(self, lower: Ints, upper: Ints) -> Ints:
         """Return the indices of the pairs that stand for pairs of sheets, each two over one cell."""
-        lower, upper = self.stand_in[lower], self.stand_in[upper]
-        cell = self.immersion.sheet_cell[lower]
+        return np.asarray(self._row[lower] + self.stand_in[upper])
+
+    @cached_property
+    def _row(self) -> Ints:
+        """What the number of the upper sheet is added to, for each lower sheet."""
+        cell = self.immersion.sheet_cell[self.stand_in]
         first = self.immersion.first_sheet[cell]
         winding = self.immersion.arrangement.winding[cell]
-        return np.asarray(self.first_pair[cell] + (lower - first) * winding + upper - first)
+        return np.asarray(self.first_pair[cell] + (self.stand_in - first) * winding - first)
 
     def cells(self) -> Ints:
         """Return the cells of which all pairs are here, and each by itself."""

@@ -20,7 +20,7 @@ from typing import Literal, TypeAlias, cast
 import numpy as np
 
 from plyfold.arrangement.places import place_in_cell
-from plyfold.arrays import Ints, freeze
+from plyfold.arrays import Bools, Ints, freeze
 from plyfold.clock import NO_LIMIT, Clock, Progress
 from plyfold.errors import InputError, TimeLimitError
 from plyfold.graphs import components
@@ -414,12 +414,12 @@ def _triples(immersion: Immersion, graph: PairGraph, literal: Ints, clock: Clock
     waiting = [(nothing, nothing)]
     for more in _all_triples(immersion, graph, literal):
         clock.check()
-        waiting.append(_in_standard_form(*more))
+        waiting.append(more)
         number = sum(len(some) for some, _ in waiting)
         _require_memory_for_triples(immersion, number)
         if number > max(_TRIPLES_AT_A_TIME, 2 * len(waiting[0][0])):
-            waiting = [_each_once(waiting)]
-    return _each_once(waiting) if len(waiting) > 1 else waiting[0]
+            waiting = [_together(waiting)]
+    return _together(waiting)
 
 
 def _require_memory_for_triples(immersion: Immersion, number: int) -> None:
@@ -432,50 +432,65 @@ def _require_memory_for_triples(immersion: Immersion, number: int) -> None:
 
 
 def _all_triples(immersion: Immersion, graph: PairGraph, literal: Ints) -> Iterator[tuple[Ints, Ints]]:
-    """Yield the literals of three sheets in a circle, and the sheets, of some cells at a time, the lowest first."""
+    """Yield the constraints on three sheets, and the sheets, of some cells at a time, the lowest first."""
     with_pairs = graph.cells()
     winding = immersion.arrangement.winding[with_pairs]
     for w in np.unique(winding[winding >= 3]).tolist():
         three = np.array(list(combinations(range(w), 3)))
         pair = three * w + three[:, [1, 2, 0]]
         cells, step = with_pairs[winding == w], max(1, _TRIPLES_AT_A_TIME // len(three))
-        for some in (cells[start : start + step, None, None] for start in range(0, len(cells), step)):
-            of_circles = literal[graph.first_pair[some] + pair]
-            yield of_circles.reshape(-1, 3), (immersion.first_sheet[some] + three).reshape(-1, 3)
+        for some in (cells[start : start + step] for start in range(0, len(cells), step)):
+            x, y, z = (literal[graph.first_pair[some, None] + column].ravel() for column in pair.T)
+            cycles, rows = _in_standard_form(x, y, z)
+            kept = _each_once(cycles)
+            cell, which = np.divmod(rows[kept], len(three))
+            yield cycles[kept], immersion.first_sheet[some[cell], None] + three[which]
 
 
-def _in_standard_form(cycles: Ints, sheets: Ints) -> tuple[Ints, Ints]:
-    """Bring equal constraints into the same form, and leave out those that have a literal and its opposite."""
-    x, y, z = cycles.T
-    holds_always = (x == -y) | (y == -z) | (z == -x)
-    cycles, sheets = cycles[~holds_always], sheets[~holds_always]
-    cycles = np.take_along_axis(cycles, np.argsort(np.abs(cycles), axis=1), axis=1)
-    cycles = np.where(cycles[:, :1] < 0, -cycles, cycles)
-    cycles[:, 1] = np.where(cycles[:, 0] == cycles[:, 1], cycles[:, 2], cycles[:, 1])
-    return cycles, sheets
+def _in_standard_form(x: Ints, y: Ints, z: Ints) -> tuple[Ints, Ints]:
+    """Bring equal constraints into the same form; return also which rows they are of.
 
-
-def _each_once(parts: list[tuple[Ints, Ints]]) -> tuple[Ints, Ints]:
-    """Put constraints in order, leaving out repeated ones; of these the first one stays.
-
-    The order is that of their literals, so it belongs to the drawing, as these do, and not to how cells are numbered.
+    Those that have a literal and its opposite are left out, for they always hold.
     """
+    rows = np.flatnonzero((x != -y) & (y != -z) & (z != -x))
+    # Variables with their signs behind them are in order if they are as whole numbers.
+    x, y, z = (2 * np.abs(literal[rows]) + (literal[rows] < 0) for literal in (x, y, z))
+    x, y = np.minimum(x, y), np.maximum(x, y)
+    y, z = np.minimum(y, z), np.maximum(y, z)
+    x, y = np.minimum(x, y), np.maximum(x, y)
+    is_reversed = x & 1
+    first, middle, last = ((a >> 1) * (1 - 2 * ((a & 1) ^ is_reversed)) for a in (x, y, z))
+    return np.stack([first, np.where(first == middle, last, middle), last], axis=1), rows
+
+
+def _together(parts: list[tuple[Ints, Ints]]) -> tuple[Ints, Ints]:
+    """Put constraints of several parts in order, each once, with their sheets."""
     cycles, sheets = (np.concatenate(columns) for columns in zip(*parts, strict=True))
-    order = _in_order(cycles)
-    repeats = np.zeros(len(order), dtype=bool)
-    repeats[1:] = (cycles[order[1:]] == cycles[order[:-1]]).all(axis=1)
-    kept = order[~repeats]
+    kept = _each_once(cycles)
     return cycles[kept], sheets[kept]
 
 
-def _in_order(cycles: Ints) -> Ints:
-    """Return the order of constraints by their last literals, then by those in the middle; equal ones as they come."""
+def _each_once(cycles: Ints) -> Ints:
+    """Return constraints in order, by their last literals, then by those in the middle; of equal ones the first.
+
+    That order belongs to the drawing, as literals do, and not to how cells are numbered.
+    """
     highest = int(np.abs(cycles).max(initial=0))
     if highest >= _SMALL:
-        return np.lexsort(cycles.T)
+        order = np.lexsort(cycles.T)
+        return order[_begins((cycles[order[1:]] != cycles[order[:-1]]).any(axis=1))]
     first, middle, last = cycles.T
     base = 2 * highest + 1
-    return np.argsort((last * base + middle) * base + first, kind="stable")
+    key = (last * base + middle) * base + first
+    # Not stable, which is faster; the first of equal ones is the least.
+    order = np.argsort(key)
+    begins = np.flatnonzero(_begins(np.diff(key[order]) != 0))
+    return np.minimum.reduceat(order, begins) if len(order) else order
+
+
+def _begins(differs: Bools) -> Bools:
+    """Tell which of some values in order differ from the one before; the first one does."""
+    return np.append(True, differs)
 
 
 def _reversed_pair(graph: PairGraph, clock: Clock) -> Obstruction:

@@ -1,0 +1,1 @@
+"""Least homotopies: every closed curve contracts, in loops that each bound a disk."""
