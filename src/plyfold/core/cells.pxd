@@ -5,9 +5,11 @@ from libc.stdint cimport int64_t, uint8_t
 cpdef Py_ssize_t walk_cells(
     const int64_t[::1] following, int64_t outer, int64_t[::1] darts, int64_t[::1] start, int64_t[::1] cell
 ) except -1
-cpdef int join_lakes(
-    const int64_t[::1] lake, const int64_t[::1] other, int64_t[::1] joined, int64_t[::1] joins
+cpdef int number_components(
+    const int64_t[::1] start, const int64_t[::1] end, int64_t[::1] joined, int64_t[::1] number
 ) except -1
+cpdef int join(int64_t[::1] joined, int64_t one, int64_t other) except -1
+cpdef int number_joined(int64_t[::1] joined, int64_t[::1] number) except -1
 cpdef int64_t root_of(int64_t[::1] joined, int64_t member) except -1
 @cython.locals(before=int64_t[::1], after=int64_t[::1])
 cpdef int follow_darts(

@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from plyfold.core.buffers import WholeBuffer, whole_room
 
-__all__ = ["follow_darts", "join_lakes", "list_darts", "root_of", "walk_cells", "walk_joined_cells"]
+__all__ = [
+    "follow_darts",
+    "join",
+    "list_darts",
+    "number_components",
+    "number_joined",
+    "root_of",
+    "walk_cells",
+    "walk_joined_cells",
+]
 
 
 def walk_cells(following: WholeBuffer, outer: int, darts: WholeBuffer, start: WholeBuffer, cell: WholeBuffer) -> int:
@@ -188,23 +197,41 @@ def list_darts(following: WholeBuffer, cell: WholeBuffer, cells: int, darts: Who
             dart = following[dart]
 
 
-def join_lakes(lake: WholeBuffer, other: WholeBuffer, joined: WholeBuffer, joins: WholeBuffer) -> None:
-    """Join the lakes on both sides of each border, one after another, unless they are joined already (Kruskal).
+def number_components(start: WholeBuffer, end: WholeBuffer, joined: WholeBuffer, number: WholeBuffer) -> None:
+    """Give numbers to the connected components of a graph in the order of their first nodes.
 
     Parameters
     ----------
-    lake, other : buffer of int
-        The lakes on both sides of some borders.
-    joined : buffer of int
-        A lake that each lake has been joined to: at first itself.
-    joins : buffer of int
-        1 will be written for each border that joins two lakes.
+    start, end : buffer of int
+        The nodes at both ends of each edge.
+    joined, number : buffer of int
+        Room for each node: one that stands for its component, and the number of that.
     """
-    for border in range(len(lake)):
-        here, there = root_of(joined, lake[border]), root_of(joined, other[border])
-        if here != there:
-            joined[here] = there
-            joins[border] = 1
+    for node in range(len(joined)):
+        joined[node] = node
+    for edge in range(len(start)):
+        join(joined, start[edge], end[edge])
+    number_joined(joined, number)
+
+
+def join(joined: WholeBuffer, one: int, other: int) -> None:
+    """Join the components of two nodes; the lowest node of each stands for it."""
+    here, there = root_of(joined, one), root_of(joined, other)
+    if here < there:
+        joined[there] = here
+    else:
+        joined[here] = there
+
+
+def number_joined(joined: WholeBuffer, number: WholeBuffer) -> None:
+    """Give numbers to components in the order of their lowest nodes, which stand for them."""
+    count = 0
+    for node in range(len(joined)):
+        if joined[node] == node:
+            number[node] = count
+            count += 1
+        else:
+            number[node] = number[root_of(joined, node)]
 
 
 def root_of(joined: WholeBuffer, member: int) -> int:

@@ -1,6 +1,9 @@
 # C types of `gluing.py`.
 cimport cython
-from libc.stdint cimport int32_t, int64_t
+from libc.stdint cimport int32_t, int64_t, uint8_t
+from plyfold.core.cells cimport join, number_joined
+
+cdef int _NO_SEAM
 
 @cython.final
 cdef class Gluing:
@@ -18,3 +21,31 @@ cpdef int wind_round(
 ) except -1
 cdef int64_t _sheet_below(Gluing gluing, Py_ssize_t border, int64_t upper) except? -2
 cdef int64_t _count_differing(Gluing gluing, Py_ssize_t before, Py_ssize_t after) except -1
+cpdef int number_pieces(Gluing gluing, int64_t[::1] joined, int64_t[::1] piece) except -1
+cpdef int add_characteristics(
+    Gluing gluing,
+    const int64_t[::1] around,
+    const int64_t[::1] index,
+    const int64_t[::1] after,
+    const int64_t[::1] piece,
+    int64_t[::1] total,
+) except -1
+cdef int _add_on_left(
+    Gluing gluing, int64_t seam, const int64_t[::1] piece, int64_t[::1] total, int64_t number
+) except -1
+cpdef int find_corners(
+    const int64_t[::1] partner,
+    const uint8_t[::1] ccw,
+    const int64_t[::1] before,
+    const int64_t[::1] after,
+    int64_t[::1] around,
+) except -1
+@cython.locals(upper=int64_t, lower=int64_t, sets_out=bint, on_left=bint)
+cpdef int find_corners_at_feet(
+    const int64_t[::1] foot,
+    const int64_t[::1] dart,
+    const int64_t[::1] before,
+    const int64_t[::1] after,
+    int64_t borders,
+    int64_t[::1] around,
+) except -1

@@ -3,8 +3,23 @@
 from __future__ import annotations
 
 from plyfold.core.buffers import WholeBuffer
+from plyfold.core.cells import join, number_joined
 
-__all__ = ["APART", "NOT_ONCE", "Gluing", "agree_around", "first_wrong_seam", "wind_round"]
+__all__ = [
+    "APART",
+    "NOT_ONCE",
+    "Gluing",
+    "add_characteristics",
+    "agree_around",
+    "find_corners",
+    "find_corners_at_feet",
+    "first_wrong_seam",
+    "number_pieces",
+    "wind_round",
+]
+
+# In place of the half of a bridge that is not there.
+_NO_SEAM = -1
 
 APART, NOT_ONCE = 1, 2
 """What is wrong along a seam: a sheet is glued to one that does not lie on the left; one on the left is glued twice,
@@ -157,3 +172,94 @@ def _count_differing(gluing: Gluing, before: int, after: int) -> int:
         if _up(gluing, before, sheet) != _up(gluing, after, sheet):
             count += 1
     return count
+
+
+def number_pieces(gluing: Gluing, joined: WholeBuffer, piece: WholeBuffer) -> None:
+    """Give numbers to the connected pieces of glued sheets in the order of their first sheets.
+
+    ``joined`` is room for a number, and ``piece`` for that of the piece, for each sheet.
+    """
+    for sheet in range(len(joined)):
+        joined[sheet] = sheet
+    for seam in range(len(gluing.left_sheet)):
+        shift = gluing.right_sheet[seam] - gluing.start[seam]
+        for pair in range(gluing.start[seam], gluing.start[seam + 1]):
+            join(joined, pair + shift, gluing.glued_to[pair])
+    number_joined(joined, piece)
+
+
+def add_characteristics(
+    gluing: Gluing,
+    around: WholeBuffer,
+    index: WholeBuffer,
+    after: WholeBuffer,
+    piece: WholeBuffer,
+    total: WholeBuffer,
+) -> None:
+    """Add up the Euler characteristic of each piece.
+
+    Cells cut open along bridges are disks, so a sheet counts 1, and a bridge −1 on each sheet over its cell. A crossing
+    counts 1 on each sheet over its top cell, and the borders that leave it −1 on each sheet on their left. At a mark
+    there would be a point and a border more for each of these sheets, which is nothing; but the sheets that wind round
+    a cusp have one point there together.
+
+    Parameters
+    ----------
+    gluing : Gluing
+    around : buffer of int
+        The seams around each crossing, see `agree_around`.
+    index, after : buffer of int
+        The index of each cusp, and the border after it.
+    piece : buffer of int
+        The piece of each sheet.
+    total : buffer of int
+        A zero for each piece.
+    """
+    for sheet in range(len(piece)):
+        total[piece[sheet]] += 1
+    for bridge in range(len(gluing.own), len(gluing.left_sheet)):
+        _add_on_left(gluing, bridge, piece, total, -1)
+    for at in range(len(around) // 4):
+        _add_on_left(gluing, around[4 * at], piece, total, 1)
+        _add_on_left(gluing, around[4 * at + 1], piece, total, -1)
+        _add_on_left(gluing, around[4 * at + 2], piece, total, -1)
+    for cusp in range(len(index)):
+        total[piece[gluing.own[after[cusp]]]] -= index[cusp]
+
+
+def _add_on_left(gluing: Gluing, seam: int, piece: WholeBuffer, total: WholeBuffer, number: int) -> None:
+    """Add a number for each sheet on the left of a seam."""
+    first = gluing.left_sheet[seam]
+    for sheet in range(first, first + gluing.left_sheets[seam]):
+        total[piece[sheet]] += number
+
+
+def find_corners(
+    partner: WholeBuffer, ccw: WholeBuffer, before: WholeBuffer, after: WholeBuffer, around: WholeBuffer
+) -> None:
+    """Write down the borders around each crossing, see `immersion.corners.corners`, given those at each visit."""
+    at = 0
+    for visit in range(len(partner)):
+        if ccw[visit]:
+            other = partner[visit]
+            around[at], around[at + 1] = before[visit], after[visit]
+            around[at + 2], around[at + 3] = after[other], before[other]
+            at += 4
+
+
+def find_corners_at_feet(
+    foot: WholeBuffer, dart: WholeBuffer, before: WholeBuffer, after: WholeBuffer, borders: int, around: WholeBuffer
+) -> None:
+    """Write down the same for the feet of bridges, given their visits and darts: first feet, then second ones."""
+    bridges = len(foot) // 2
+    for number in range(len(foot)):
+        visit, bridge, sets_out = foot[number], borders + number % bridges, number < bridges
+        on_left = dart[number] % 2 == 0
+        upper, lower = bridge if on_left else _NO_SEAM, _NO_SEAM if on_left else bridge
+        here = 4 * number
+        if sets_out == on_left:
+            around[here], around[here + 1] = before[visit], after[visit]
+            around[here + 2], around[here + 3] = upper, lower
+        else:
+            around[here], around[here + 1] = upper, lower
+            around[here + 2], around[here + 3] = after[visit], before[visit]

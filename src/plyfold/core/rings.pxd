@@ -2,11 +2,16 @@
 cimport cython
 from libc.stdint cimport int64_t
 
-cdef int _LEFT_OVER
+cdef int _LEFT_OVER, _NO_OWN
 
 @cython.final
 cdef class Rings:
-    cdef readonly const int64_t[::1] around, bottom, own_a, own_b, at, place
+    cdef readonly const int64_t[::1] corners, bottom, size
+    cdef readonly int64_t[::1] around, own_a, own_b, at, place
+    cdef int64_t borders
+    cpdef int fill(self) except -1
+    cpdef int64_t own_port(self, int64_t top, int64_t bottom) except -10
+    cpdef int note_end(self, int64_t seam, int64_t at, int64_t place) except -1
 
 @cython.final
 cdef class Work:
@@ -14,6 +19,7 @@ cdef class Work:
     cdef int64_t[::1] missing, sum_port, sum_upper, open_around, ready, stack
     cdef Py_ssize_t top
     cdef int64_t reason
+    cpdef int count(self) except -1
 
 @cython.final
 cdef class Found:

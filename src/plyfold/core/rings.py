@@ -6,32 +6,54 @@ all there is to do for most outlines. Where several seams around a crossing stay
 
 from __future__ import annotations
 
-from plyfold.core.buffers import WholeBuffer, whole_room
+from plyfold.core.buffers import WholeBuffer, rough_room, whole_room
 
 __all__ = ["Found", "Rings", "State", "Work", "close_rings", "step"]
 
 # Among reasons: the other pairs of the seam. See `immersion.peeling`.
 _LEFT_OVER = -2
+# Equal to no port and no sheet: the own sheet of a bridge.
+_NO_OWN = -9
 
 
 class Rings:
     """The seams around each crossing in the order of the ring: b to top, a to bottom, b to bottom, a to top.
 
     ``own_a`` is the port of a's own sheet in the seam a to top, and ``own_b`` of b's; −9 for a bridge. ``at`` has for
-    each seam the crossings at both ends, and ``place`` its places in their rings.
+    each seam the crossings at both ends, and ``place`` its places in their rings; −1 where there is none. They are made
+    from ``corners``, rows (a to top, a to bottom, b to top, b to bottom), the sheets over the ``bottom`` cells, and the
+    ``size`` of each seam, borders before bridges.
     """
 
-    def __init__(
-        self,
-        around: WholeBuffer,
-        bottom: WholeBuffer,
-        own_a: WholeBuffer,
-        own_b: WholeBuffer,
-        at: WholeBuffer,
-        place: WholeBuffer,
-    ) -> None:
-        self.around, self.bottom, self.own_a, self.own_b = around, bottom, own_a, own_b
-        self.at, self.place = at, place
+    def __init__(self, corners: WholeBuffer, bottom: WholeBuffer, size: WholeBuffer, borders: int) -> None:
+        self.corners, self.bottom, self.size, self.borders = corners, bottom, size, borders
+        self.around = rough_room(len(corners))
+        self.own_a, self.own_b = rough_room(len(bottom)), rough_room(len(bottom))
+        self.at, self.place = rough_room(2 * len(size)), rough_room(2 * len(size))
+        self.fill()
+
+    def fill(self) -> None:
+        """Make all that follows from the corners."""
+        for end in range(len(self.at)):
+            self.at[end] = self.place[end] = -1
+        for at in range(len(self.bottom)):
+            first = 4 * at
+            self.own_a[at] = self.own_port(self.corners[first], self.corners[first + 1])
+            self.own_b[at] = self.own_port(self.corners[first + 2], self.corners[first + 3])
+            self.around[first], self.around[first + 1] = self.corners[first + 2], self.corners[first + 1]
+            self.around[first + 2], self.around[first + 3] = self.corners[first + 3], self.corners[first]
+            for place in range(4):
+                self.note_end(self.around[first + place], at, place)
+
+    def own_port(self, top: int, bottom: int) -> int:
+        """Return the port of a strand's own sheet in its seam to the top."""
+        return self.size[top] - 1 if max(top, bottom) < self.borders else _NO_OWN
+
+    def note_end(self, seam: int, at: int, place: int) -> None:
+        """Note that a seam ends at a crossing."""
+        if seam >= 0:
+            end = 2 * seam if self.at[2 * seam] < 0 else 2 * seam + 1
+            self.at[end], self.place[end] = at, place
 
 
 class Work:
@@ -46,20 +68,24 @@ class Work:
         self,
         rings: Rings,
         start: WholeBuffer,
-        size: WholeBuffer,
         seam: WholeBuffer,
         in_tree: WholeBuffer,
         own: WholeBuffer,
     ) -> None:
-        self.start, self.size, self.seam, self.in_tree, self.own = start, size, seam, in_tree, own
-        crossings, seams = len(rings.bottom), len(size)
+        self.start, self.size, self.seam, self.in_tree, self.own = start, rings.size, seam, in_tree, own
+        crossings, seams = len(rings.bottom), len(rings.size)
         self.missing, self.sum_port, self.sum_upper = whole_room(seams), whole_room(seams), whole_room(seams)
-        for number in range(seams):
-            self.missing[number] = size[number]
-            self.sum_port[number] = self.sum_upper[number] = size[number] * (size[number] - 1) // 2
         self.open_around, self.ready = whole_room(crossings), whole_room(5 * crossings)
         self.stack = whole_room(len(seam))
         self.top, self.reason = 0, -1
+        self.count()
+
+    def count(self) -> None:
+        """Count all ports as open."""
+        for number in range(len(self.size)):
+            size = self.size[number]
+            self.missing[number] = size
+            self.sum_port[number] = self.sum_upper[number] = size * (size - 1) // 2
 
 
 class Found:

@@ -16,6 +16,8 @@ import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
+from plyfold.core.buffers import all_flat, flat
+from plyfold.core.gluing import find_corners, find_corners_at_feet
 
 __all__ = ["NO_SEAM", "corners", "corners_at_feet", "feet", "sides"]
 
@@ -34,10 +36,10 @@ def sides(arrangement: Arrangement) -> tuple[Ints, Ints]:
 
 def corners(arrangement: Arrangement) -> Ints:
     """Return for each crossing its borders: rows (a to top, a to bottom, b to top, b to bottom), shape (k, 4)."""
-    a = np.flatnonzero(arrangement.ccw)
-    b = arrangement.partner[a]
+    around = np.empty((arrangement.n_crossings, 4), dtype=np.int64)
     before, after = arrangement.border_before, arrangement.border_after
-    return np.stack([before[a], after[a], after[b], before[b]], axis=1)
+    find_corners(*all_flat(arrangement.partner, arrangement.ccw.view(np.uint8), before, after, around))
+    return around
 
 
 def feet(arrangement: Arrangement) -> Ints:
@@ -53,10 +55,8 @@ def corners_at_feet(arrangement: Arrangement) -> Ints:
     A bridge that sets out to the left of a loop, or comes to it from the right, crosses it as strand b; the other way
     round it is strand a.
     """
-    visits, bridges = feet(arrangement), len(arrangement.bridges)
-    before, after = arrangement.border_before[visits], arrangement.border_after[visits]
-    bridge, nothing = arrangement.n_borders + np.tile(np.arange(bridges), 2), np.full(2 * bridges, NO_SEAM)
-    sets_out, on_left = np.arange(2 * bridges) < bridges, arrangement.bridges.T.ravel() % 2 == 0
-    upper, lower = np.where(on_left, bridge, nothing), np.where(on_left, nothing, bridge)
-    as_b, as_a = np.stack([before, after, upper, lower], axis=1), np.stack([upper, lower, after, before], axis=1)
-    return np.where((sets_out == on_left)[:, None], as_b, as_a)
+    around = np.empty((2 * len(arrangement.bridges), 4), dtype=np.int64)
+    foot, dart = all_flat(feet(arrangement), arrangement.bridges.T)
+    before, after = all_flat(arrangement.border_before, arrangement.border_after)
+    find_corners_at_feet(foot, dart, before, after, arrangement.n_borders, flat(around))
+    return around

@@ -14,9 +14,11 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrangement.as_given import given_windings
 from plyfold.arrays import Ints, Shorts, freeze, read_only
+from plyfold.core.buffers import all_flat
+from plyfold.core.gluing import number_pieces
 from plyfold.errors import InputError, NotImmersibleError, PlyfoldError
-from plyfold.graphs import components, members_of
-from plyfold.immersion.checks import conditions
+from plyfold.graphs import members_of
+from plyfold.immersion.checks import as_glued, conditions
 from plyfold.immersion.corners import sides
 from plyfold.memory import require_memory
 from plyfold.obstruction import Obstruction
@@ -234,7 +236,9 @@ class Immersion:
     @cached_property
     def piece_of_sheet(self) -> Ints:
         """The number of the connected piece that each sheet belongs to."""
-        return components(self.n_sheets, *self.gluing[:, 1:].T)
+        joined, piece = np.empty((2, self.n_sheets), dtype=np.int64)
+        number_pieces(as_glued(self), *all_flat(joined, piece))
+        return piece
 
     @property
     def touches(self) -> tuple[tuple[float, float], ...]:

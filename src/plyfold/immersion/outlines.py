@@ -20,7 +20,6 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints
 from plyfold.clock import NO_LIMIT, UNWATCHED, Clock, Watch
 from plyfold.errors import InputError
-from plyfold.graphs import components
 from plyfold.immersion.gluings import OpenPart, open_parts, open_whole
 from plyfold.immersion.immersion import Immersion, require_memory_for_gluing
 from plyfold.immersion.peeling import OutlineSeams, Peeled, immersion_of, outline_seams, peel
@@ -204,5 +203,4 @@ def _missing_link(whole: OpenPart, model: list[int]) -> list[int] | None:
 
 
 def _piece_of_sheet(seams: OutlineSeams, upper: Ints) -> Ints:
-    immersion = immersion_of(seams, upper)
-    return components(immersion.n_sheets, *immersion.gluing[:, 1:].T)
+    return immersion_of(seams, upper).piece_of_sheet

@@ -33,8 +33,6 @@ __all__ = ["UNKNOWN", "OutlineSeams", "Peeled", "immersion_of", "outline_seams",
 UNKNOWN = -1
 # Among reasons: the other pairs of the seam.
 LEFT_OVER = -2
-# Equal to no port and no sheet: the own sheet of a bridge.
-NO_OWN = -9
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,26 +153,10 @@ def peel(seams: OutlineSeams, chosen: Mapping[int, int] | None = None) -> Peeled
 
 
 def _state(seams: OutlineSeams, own: Ints, found: Found) -> State:
-    at, place = _ends(seams)
-    a, b = seams.around[:, [0, 1]].max(axis=1, initial=NO_SEAM), seams.around[:, [2, 3]].max(axis=1, initial=NO_SEAM)
-    own_a = np.where(seams.is_border[a], seams.size[seams.around[:, 0]] - 1, NO_OWN)
-    own_b = np.where(seams.is_border[b], seams.size[seams.around[:, 2]] - 1, NO_OWN)
-    rings = Rings(*all_flat(seams.around[:, [2, 1, 3, 0]], seams.bottom, own_a, own_b, at, place))
+    around, bottom, size = all_flat(seams.around, seams.bottom, seams.size)
+    rings = Rings(around, bottom, size, seams.arrangement.n_borders)
     seam = np.repeat(np.arange(len(seams.size)), seams.size)
-    work = Work(rings, *all_flat(seams.start, seams.size, seam, seams.in_tree.astype(np.int64), own))
-    return State(rings, work, found)
-
-
-def _ends(seams: OutlineSeams) -> tuple[Ints, Ints]:
-    """Return the crossings at both ends of each seam, and its places in their rings; −1 where there is none."""
-    rings = seams.around[:, [2, 1, 3, 0]].ravel()
-    slots = np.flatnonzero(rings >= 0)
-    slots = slots[np.argsort(rings[slots], kind="stable")]
-    seam = rings[slots]
-    second = np.append(False, seam[1:] == seam[:-1]).astype(np.int64)
-    at, place = np.full((2, len(seams.size), 2), -1)
-    at[seam, second], place[seam, second] = slots // 4, slots % 4
-    return at, place
+    return State(rings, Work(rings, *all_flat(seams.start, seam, seams.in_tree.astype(np.int64), own)), found)
 
 
 def reasons(seams: OutlineSeams, known: Peeled, meetings: Iterable[int]) -> Ints:
