@@ -37,6 +37,7 @@ nightly: $(READY)  ## 100,000 random curves, lists of curves and outlines that t
 	PYTHONPATH=tests $(BIN)/python -m nightly.outlines
 	PYTHONPATH=tests $(BIN)/python -m nightly.fills
 	PYTHONPATH=tests $(BIN)/python -m nightly.repairs
+	PYTHONPATH=tests $(BIN)/python -m nightly.homotopies
 	PYTHONPATH=tests $(BIN)/python -m nightly.contacts
 	PYTHONPATH=tests $(BIN)/python -m nightly.solids
 	PYTHONPATH=tests $(BIN)/python -m nightly.heaps_of_outlines

@@ -47,6 +47,7 @@ A_DISK = "a disk of cloth"
 """What one curve without cusps bounds, if it bounds a surface without handles."""
 
 _SECONDS_FOR_OFFERS = 0.5
+_MOST_CROSSINGS_TO_CONTRACT = 3_000
 # What does what is offered, given how commands name the drawing.
 _COMMANDS = {
     "repair": "plyfold repair {} -o OUT",
@@ -256,7 +257,7 @@ def _no_surface(arrangement: Arrangement, drawing: str) -> dict[str, Any]:
 def _branched(arrangement: Arrangement) -> dict[str, Any]:
     """Return how many branch points the disk has that a curve bounds, if it bounds one and that is found soon."""
     may_be = arrangement.n_loops == 1 and not arrangement.cusp_index.any() and arrangement.winding.min() >= 0
-    if not may_be or arrangement.turning_number < 2:
+    if not may_be or arrangement.turning_number < 2 or arrangement.n_crossings > _MOST_CROSSINGS_TO_CONTRACT:
         return {}
     found = least_homotopy(arrangement, _SECONDS_FOR_OFFERS)
     if found.branch_points is None:

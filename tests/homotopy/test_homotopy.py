@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plyfold as pf
-from plyfold.errors import InputError
+from plyfold.errors import InputError, MemoryLimitError
 from plyfold.homotopy.cancellation import _in_pairs
 from plyfold.offers.areas import areas_of
 from reference.homotopies import least_area
@@ -145,6 +145,15 @@ def test_the_end_of_time_says_where_bounds_meet():
     found = pf.least_homotopy(pf.arrange(EIGHT), time_limit=0)
     assert found.optimal
     assert found.area == found.lower == 2
+
+
+def test_bounds_instead_of_memory(monkeypatch):
+    points = random_polygon(np.random.default_rng(1), 60)
+    monkeypatch.setattr("plyfold.memory._SURELY_THERE", 1000)
+    monkeypatch.setattr("plyfold.memory.available_memory", lambda: 5_000_000)
+    with pytest.raises(MemoryLimitError, match="costs of all stretches"):
+        pf.least_homotopy(points)
+    assert not pf.least_homotopy(points, time_limit=60).optimal
 
 
 def test_cusps_are_left_out_of_account():

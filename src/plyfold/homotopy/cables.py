@@ -14,6 +14,7 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -33,6 +34,8 @@ class Cables:
 
     Parameters
     ----------
+    n_borders : int
+        How many the curve has.
     walk : (cells,) int
         The cells in this order; the unbounded one is the first.
     link : (cells,) int
@@ -50,6 +53,7 @@ class Cables:
         Whether the curve has that cell on its left.
     """
 
+    n_borders: int
     walk: Ints
     link: Ints
     behind: Ints
@@ -60,6 +64,13 @@ class Cables:
 
     def __post_init__(self) -> None:
         freeze(self)
+
+    @cached_property
+    def places_of_borders(self) -> Ints:
+        """The place in the order of the cell that each border leads from to its parent; −1 for those off the tree."""
+        places = np.full(self.n_borders, -1)
+        places[self.link[1:]] = np.arange(1, len(self.link))
+        return places
 
     @property
     def n_letters(self) -> int:
@@ -99,7 +110,7 @@ def _laid_along(arranged: Arrangement, link: list[int]) -> Cables:
     order = np.array(walk)
     links = np.array(link)[order]
     is_left = (links >= 0) & (arranged.left_cell[links] == order)
-    return Cables(order, links, behind, is_left, *_letters(links, behind, is_left))
+    return Cables(arranged.n_borders, order, links, behind, is_left, *_letters(links, behind, is_left))
 
 
 def _walked(arranged: Arrangement, link: list[int]) -> tuple[list[int], Ints]:

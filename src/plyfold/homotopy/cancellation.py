@@ -21,7 +21,7 @@ from plyfold.core.buffers import all_flat, flat
 from plyfold.core.cancelling import Costs, cancel_neighbours
 from plyfold.memory import require_memory
 
-__all__ = ["PricedWord", "cancelled", "is_rare"]
+__all__ = ["PricedWord", "cancelled"]
 
 _NONE = -1
 # Sums of whole numbers are exact up to this one.
@@ -46,12 +46,6 @@ class PricedWord:
     is_plus: Bools
     weight: Floats
     tie: Floats
-
-
-def is_rare(word: PricedWord) -> Bools:
-    """Tell of each letter whether its label has fewer letters of this sign than of the other one."""
-    plus, minus = _counts(_codes(word), len(word.weight))
-    return np.asarray(word.is_plus == (plus < minus)[word.label])
 
 
 def cancelled(word: PricedWord, watch: Watch) -> Ints:
@@ -88,6 +82,12 @@ def cancelled(word: PricedWord, watch: Watch) -> Ints:
     return shorter.with_merged()
 
 
+def _is_rare(word: PricedWord) -> Bools:
+    """Tell of each letter whether its label has fewer letters of this sign than of the other one."""
+    plus, minus = _counts(_codes(word), len(word.weight))
+    return np.asarray(word.is_plus == (plus < minus)[word.label])
+
+
 def _codes(word: PricedWord) -> Ints:
     """Return 2 a for a plus letter of label a, and 2 a + 1 for a minus letter."""
     return np.asarray(2 * word.label + ~word.is_plus)
@@ -106,7 +106,7 @@ class _Shorter:
     """
 
     def __init__(self, word: PricedWord) -> None:
-        self.rare = is_rare(word)
+        self.rare = _is_rare(word)
         self.weight, self.tie = word.weight.copy(), word.tie.copy()
         self.code, self.number = _codes(word), np.arange(len(word.label))
         self.mate = np.full(len(self.code), _NONE)

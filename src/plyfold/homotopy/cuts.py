@@ -13,55 +13,38 @@ References
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from plyfold.arrangement.arrangement import Arrangement
-from plyfold.arrays import Floats, Ints
+from plyfold.arrays import Bools, Floats, Ints
 from plyfold.clock import Watch
 from plyfold.core.buffers import all_flat
 from plyfold.core.cancelling import find_faces
 from plyfold.homotopy.cables import Cables
-from plyfold.homotopy.cancellation import PricedWord, cancelled, is_rare
-from plyfold.homotopy.parts import Part, parts_between
+from plyfold.homotopy.cancellation import PricedWord, cancelled
+from plyfold.homotopy.parts import CutVisits, Part, parts_between
 from plyfold.immersion.verdict import bounds_disk
+from plyfold.ragged import starts_of
 
-__all__ = ["Cutting", "cut_into_disks", "cut_into_simple_loops"]
+__all__ = ["cut_into_disks", "cut_into_simple_loops"]
 
 
-@dataclass(frozen=True, eq=False)
-class Cutting:
-    """Where a curve is cut, and whether it bounds a disk with branch points.
+def cut_into_disks(arranged: Arrangement, cables: Cables, weights: Floats, watch: Watch) -> list[CutVisits]:
+    """Return cuts between loops that bound disks and sweep least. May raise TimeLimitError and MemoryLimitError.
 
-    Parameters
-    ----------
-    cuts : tuple of (int, int)
-        The two visits to each crossing where it is cut, the earlier first.
-    keeps_sign : bool
-        Whether all rare letters cancel: with winding numbers from 0 up, no place is swept more often than the curve
-        winds round it, and the loops are one disk with branch points.
+    First come crossings whose cuts cross no letters that cancel; then, of loops that do not bound disks yet, as many as
+    there can be.
     """
-
-    cuts: tuple[tuple[int, int], ...]
-    keeps_sign: bool
-
-
-def cut_into_disks(arranged: Arrangement, cables: Cables, weights: Floats, watch: Watch) -> Cutting:
-    """Cut a curve where its contraction sweeps least. May raise TimeLimitError and MemoryLimitError."""
-    if bounds_disk(arranged):
-        return Cutting((), True)
+    watch = watch.begin("finding the least homotopy")
     weight = weights[cables.walk]
     word = PricedWord(cables.label, cables.is_plus, weight, _is_free(weight))
-    watch = watch.begin("finding the least homotopy")
-    mate = cancelled(word, watch)
-    watch.step()
-    start = np.searchsorted(cables.border, np.arange(arranged.n_borders + 1))
-    cuts = list(_lossless(arranged, mate, start))
-    for part in parts_between(arranged, cables, cuts):
-        if not bounds_disk(part.arrangement):
-            cuts += _cuts_of_part(arranged, part, word, start, watch)
-    return Cutting(tuple(sorted(cuts)), not (is_rare(word) & (mate < 0)).any())
+    cuts: list[CutVisits] = []
+    for further in (_free_cuts, _most_cuts):
+        for part in parts_between(arranged, cables, cuts):
+            watch.step()
+            if not bounds_disk(part.arrangement):
+                cuts += further(arranged, part, *_word_of_part(cables, part, word), watch)
+    return sorted(cuts)
 
 
 def _is_free(weight: Floats) -> Floats:
@@ -69,56 +52,61 @@ def _is_free(weight: Floats) -> Floats:
     return np.asarray(weight == 0, dtype=np.float64)
 
 
-def _lossless(arranged: Arrangement, mate: Ints, start: Ints) -> list[tuple[int, int]]:
-    """Return cuts that cross no chords of letters, nor each other; as many as fit beside each other in some order."""
+def _word_of_part(cables: Cables, part: Part, word: PricedWord) -> tuple[PricedWord, Ints]:
+    """Return what a loop reads, and how many letters it has read at each visit to its own crossings."""
+    low, high = np.searchsorted(cables.border, [part.borders, part.borders + 1])
+    count = high - low
+    which = (low - starts_of(count)).repeat(count) + np.arange(count.sum())
+    own = PricedWord(word.label[which], word.is_plus[which], word.weight, word.tie)
+    return own, np.cumsum(count)[part.border_before]
+
+
+def _free_cuts(arranged: Arrangement, part: Part, word: PricedWord, gaps: Ints, watch: Watch) -> list[CutVisits]:
+    """Return cuts of a loop that cross no chords of letters which cancel, nor each other."""
+    mate = cancelled(word, watch)
     face = np.empty(len(mate) + 1, dtype=np.int64)
     find_faces(*all_flat(mate, face))
-    first = arranged.first_visits
-    second = arranged.partner[first]
-    here = face[start[first]]
-    fits = here == face[start[second]]
-    order = np.lexsort((second - first, here))
-    cuts: dict[int, list[tuple[int, int]]] = {}
-    for crossing in order[fits[order]].tolist():
-        among = cuts.setdefault(int(here[crossing]), [])
-        low, high = int(first[crossing]), int(second[crossing])
-        if not any((low < one < high) != (low < other < high) for one, other in among):
+    here = dict(zip(part.visits.tolist(), face[gaps].tolist(), strict=True))
+    cuts: dict[int, list[CutVisits]] = {}
+    for low, high in sorted(_crossings(arranged, part), key=lambda cut: cut[1] - cut[0]):
+        among = cuts.setdefault(here[low], [])
+        if here[low] == here[high] and not any((low < one < high) != (low < other < high) for one, other in among):
             among.append((low, high))
     return [cut for among in cuts.values() for cut in among]
 
 
-def _cuts_of_part(
-    arranged: Arrangement, part: Part, word: PricedWord, start: Ints, watch: Watch
-) -> list[tuple[int, int]]:
+def _crossings(arranged: Arrangement, part: Part) -> list[CutVisits]:
+    """Return the visits of a loop to each of its own crossings."""
+    first = part.visits[part.visits < arranged.partner[part.visits]]
+    return list(zip(first.tolist(), arranged.partner[first].tolist(), strict=True))
+
+
+def _most_cuts(arranged: Arrangement, part: Part, word: PricedWord, gaps: Ints, watch: Watch) -> list[CutVisits]:
     """Return cuts of a loop that bounds no disk, as many as there can be without loss.
 
     Its crossings are written into the word, as labels that cost nothing but ties: each that cancels is a cut.
     """
-    visits, borders = part.visits, part.borders
-    count = start[borders + 1] - start[borders]
-    which = np.repeat(start[borders] - (np.cumsum(count) - count), count) + np.arange(count.sum())
-    before = np.cumsum(count)[part.border_before]
-    crossing = arranged.crossing_of_visit[visits]
-    _, number = np.unique(crossing, return_inverse=True)
+    visits = part.visits
+    number = np.unique(arranged.crossing_of_visit[visits], return_inverse=True)[1]
     cells, marks = len(word.weight), len(visits) // 2
-    label = np.insert(word.label[which], before, cells + number)
-    is_plus = np.insert(word.is_plus[which], before, arranged.ccw[visits])
-    tie = np.append(_is_free(word.weight) * (marks + 1), np.ones(marks))
-    marked = PricedWord(label, is_plus, np.append(word.weight, np.zeros(marks)), tie)
-    mate = cancelled(marked, watch)
-    places = np.flatnonzero(label >= cells)
-    paired = visits[mate[places] >= 0]
-    return [(visit, other) for visit in paired.tolist() if visit < (other := int(arranged.partner[visit]))]
+    marked = PricedWord(
+        label=np.insert(word.label, gaps, cells + number),
+        is_plus=np.insert(word.is_plus, gaps, arranged.ccw[visits]),
+        weight=np.append(word.weight, np.zeros(marks)),
+        tie=np.append(word.tie * (marks + 1), np.ones(marks)),
+    )
+    is_cut: Bools = cancelled(marked, watch)[marked.label >= cells] >= 0
+    cut = set(visits[is_cut].tolist())
+    return [(low, high) for low, high in _crossings(arranged, part) if low in cut]
 
 
-def cut_into_simple_loops(arranged: Arrangement) -> Cutting:
-    """Cut a curve wherever it comes back to a crossing on its way. This is quick, and sweeps more than needed."""
-    partner = arranged.partner.tolist()
+def cut_into_simple_loops(arranged: Arrangement) -> list[CutVisits]:
+    """Return cuts wherever a curve comes back to a crossing on its way. This is quick, and sweeps more than needed."""
     way: list[int] = []
     on_way: set[int] = set()
     cuts = []
-    for visit, other in enumerate(partner):
-        if other in on_way and other != visit:
+    for visit, other in enumerate(arranged.partner.tolist()):
+        if other in on_way:
             cuts.append((other, visit))
             while way[-1] != other:
                 on_way.discard(way.pop())
@@ -126,4 +114,4 @@ def cut_into_simple_loops(arranged: Arrangement) -> Cutting:
         else:
             way.append(visit)
             on_way.add(visit)
-    return Cutting(tuple(sorted(cuts)), False)
+    return sorted(cuts)

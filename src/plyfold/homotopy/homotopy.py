@@ -14,10 +14,10 @@ from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange, req
 from plyfold.arrangement.gauss import GaussCode
 from plyfold.arrays import Floats, Ints, freeze
 from plyfold.clock import Clock, Watch
-from plyfold.errors import CurveError, InputError, PlyfoldError, TimeLimitError
+from plyfold.errors import CurveError, InputError, MemoryLimitError, PlyfoldError, TimeLimitError
 from plyfold.homotopy.cables import Cables, lay_cables
-from plyfold.homotopy.cuts import Cutting, cut_into_disks, cut_into_simple_loops
-from plyfold.homotopy.parts import Part, parts_between
+from plyfold.homotopy.cuts import cut_into_disks, cut_into_simple_loops
+from plyfold.homotopy.parts import CutVisits, Part, parts_between
 from plyfold.immersion.immersion import Immersion
 from plyfold.immersion.solve import find_immersion
 from plyfold.offers.areas import areas_of
@@ -183,7 +183,7 @@ def least_homotopy(curve: CurveLike, time_limit: float | None = None, weights: n
         Any closed curve. Cusps are left out of account.
     time_limit : float, optional
         Seconds after which the search ends; none by default. The contraction that is returned then is any one, with
-        bounds: the least area is between ``lower`` and ``area``, and ``optimal`` is false.
+        bounds: the least area is between ``lower`` and ``area``, and ``optimal`` is false unless these are the same.
     weights : array_like of float, shape (cells,), optional
         What it costs to sweep each cell of the arrangement once, numbers from 0 on; that of cell 0 is not used. By
         default its area, and 1 where only the code is known.
@@ -199,7 +199,8 @@ def least_homotopy(curve: CurveLike, time_limit: float | None = None, weights: n
     TimeLimitError
         If the time ends before the crossings are known.
     MemoryLimitError
-        If the costs of all stretches of the word would not fit into memory.
+        If the costs of all stretches of the word would not fit into memory, and no time limit asks for bounds; or if
+        the winding numbers of all loops would not.
 
     Notes
     -----
@@ -207,7 +208,8 @@ def least_homotopy(curve: CurveLike, time_limit: float | None = None, weights: n
     contracts one after the other [FKW17]_. What it costs is a question of which letters cancel in a word [Nie14]_, and
     an exact program answers it: O(L² m) time and up to 4 L² bytes for L letters that are left when the word has been
     shortened, of which each may cancel m others. Areas are doubles, and compared as multiples of a unit some 10⁻¹² of
-    the whole: contractions that differ by less count as equal.
+    the whole: contractions that differ by less count as equal. Of a drawing that touches itself they are those of the
+    cells that it has when points in contact have moved apart, as ``arrangement.outline.repairs`` says.
 
     References
     ----------
@@ -231,10 +233,12 @@ def least_homotopy(curve: CurveLike, time_limit: float | None = None, weights: n
     costs = _weights(arranged, weights)
     cables = lay_cables(arranged)
     try:
-        cutting, optimal = cut_into_disks(arranged, cables, costs, watch), True
-    except TimeLimitError:
-        cutting, optimal = cut_into_simple_loops(arranged), False
-    return _homotopy(arranged, cables, costs, cutting, optimal)
+        cuts, optimal = cut_into_disks(arranged, cables, costs, watch), True
+    except (TimeLimitError, MemoryLimitError):
+        if time_limit is None:
+            raise
+        cuts, optimal = cut_into_simple_loops(arranged), False
+    return _homotopy(arranged, cables, costs, cuts, optimal)
 
 
 def _as_one_curve(arranged: Arrangement) -> Arrangement:
@@ -263,13 +267,13 @@ def _cell_areas(arranged: Arrangement) -> Floats:
     return np.asarray(np.maximum(np.ldexp(np.array(areas.rounded), -2 * areas.unit), 0))
 
 
-def _homotopy(arranged: Arrangement, cables: Cables, weights: Floats, cutting: Cutting, optimal: bool) -> Homotopy:
-    parts = parts_between(arranged, cables, cutting.cuts)
+def _homotopy(arranged: Arrangement, cables: Cables, weights: Floats, cuts: list[CutVisits], optimal: bool) -> Homotopy:
+    parts = parts_between(arranged, cables, cuts)
     loops = _loops(arranged, parts)
     swept = np.abs([loop.winding for loop in loops]).sum(axis=0)
     winds = np.abs(arranged.winding)
     area, winding_area = (fsum((weights * times).tolist()) for times in (swept, winds))
-    keeps_sign = cutting.keeps_sign or bool((swept == winds).all())
+    keeps_sign = bool((swept == winds).all())
     return Homotopy(
         arrangement=arranged,
         weights=weights,

@@ -11,11 +11,12 @@ import numpy as np
 from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Ints, freeze
 from plyfold.homotopy.cables import Cables
+from plyfold.memory import require_memory
 
-__all__ = ["Part", "parts_between"]
+__all__ = ["CutVisits", "Part", "parts_between"]
 
-# The two visits to a crossing at which the curve is cut, the earlier first.
-_Cut: TypeAlias = tuple[int, int]
+CutVisits: TypeAlias = tuple[int, int]
+"""The two visits to a crossing at which the curve is cut, the earlier first."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +43,7 @@ class Part:
     borders: Ints
     visits: Ints
     border_before: Ints
-    cut: _Cut | None
+    cut: CutVisits | None
     winding: Ints
     arrangement: Arrangement
 
@@ -50,19 +51,20 @@ class Part:
         freeze(self)
 
 
-def parts_between(arranged: Arrangement, cables: Cables, cuts: Sequence[_Cut]) -> list[Part]:
+def parts_between(arranged: Arrangement, cables: Cables, cuts: Sequence[CutVisits]) -> list[Part]:
     """Return the loops between cuts, which do not interleave: first that with the start of the curve, then by cuts.
 
     Cost: O(k) for each.
     """
+    size = 8 * (len(cuts) + 1) * arranged.n_cells
+    require_memory(size, "the winding numbers of all loops", arranged, "give a curve with fewer crossings")
     loops, loop_of_border = _loops(arranged, dict(cuts))
     visits = len(arranged.partner)
     # A visit stays if the loop that arrives there comes back to it: then it goes on straight.
     arriving = np.roll(loop_of_border, 1)[:visits]
     stays = arriving == arriving[arranged.partner]
     stays[[visit for cut in cuts for visit in cut]] = False
-    place_of_link = np.full(arranged.n_borders, -1)
-    place_of_link[cables.link[1:]] = np.arange(1, arranged.n_cells)
+    place_of_link = cables.places_of_borders
     parts = []
     for cut, borders in loops:
         end, places = (borders + 1) % arranged.n_borders, place_of_link[borders]
@@ -72,13 +74,13 @@ def parts_between(arranged: Arrangement, cables: Cables, cuts: Sequence[_Cut]) -
     return parts
 
 
-def _loops(arranged: Arrangement, partner_of_cut: dict[int, int]) -> tuple[list[tuple[_Cut | None, Ints]], Ints]:
+def _loops(arranged: Arrangement, partner_of_cut: dict[int, int]) -> tuple[list[tuple[CutVisits | None, Ints]], Ints]:
     """Return the cut and the borders of each loop, and the number of each border's loop."""
     n = arranged.n_borders
     jump = partner_of_cut | {high: low for low, high in partner_of_cut.items()}
     loop_of_border = np.full(n, -1)
-    loops: list[tuple[_Cut | None, Ints]] = []
-    starts: list[tuple[_Cut | None, int]] = [(None, n - 1)]
+    loops: list[tuple[CutVisits | None, Ints]] = []
+    starts: list[tuple[CutVisits | None, int]] = [(None, n - 1)]
     starts += [(cut, cut[0]) for cut in sorted(partner_of_cut.items())]
     for cut, start in starts:
         borders = []
