@@ -349,6 +349,21 @@ def _smallest_unliftable(a_turn: int) -> Points:
     return _finely_rounded(corners, a_turn)
 
 
+def _never_lifts(a_turn: int) -> Points:
+    """Return the curve a-a+b-b+c-d-e+c+f-f+g-h-h+e-i-j-j+i+d+g+ of the census, drawn from its code."""
+    corners = [
+        (12, 42), (2, 63), (-10, 70), (-38, 56), (-80, 2), (-71, -26), (-36, -61), (-1, -76), (29, -75),
+        (55, -58), (75, -29), (88, 36), (83, 54), (33, 78), (-26, 84), (-70, 69), (-96, 39), (-98, 3),
+        (-78, -33), (-37, -70), (2, -84), (37, -79), (66, -57), (93, -15), (99, 18), (52, 58), (12, 75),
+        (-31, 75), (-66, 55), (-72, 30), (-49, -30), (-22, -58), (12, -71), (33, -62), (44, -27), (47, 22),
+        (56, 30), (64, 24), (58, 12), (34, 10), (-12, 22), (-24, 32), (-26, 42), (-16, 47), (-13, 40),
+        (-21, 20), (-39, -11), (-38, -32), (-16, -52), (22, -57), (53, -49), (69, -21), (71, 18), (54, 47),
+        (13, 63), (-16, 56), (-38, 40), (-45, 23), (-43, 2), (1, -37), (3, -47), (-6, -50), (-12, -36),
+        (0, -18), (26, -12), (32, -20), (30, -25), (22, -26), (13, -8),
+    ]  # fmt: skip
+    return _finely_rounded(corners, a_turn)
+
+
 def _seven_flaps(_: int) -> Points:
     from plyfold.hard.flaps import PALEY, flap_disk
 
@@ -458,6 +473,7 @@ CURVES: Mapping[str, NamedCurve] = {
         NamedCurve("milnor", "Milnor's doodle: two immersions (figure 3)", _milnor, 6, 1, 2, 2),
         NamedCurve("ten-gon", "a polygon of ten points with two immersions", _ten_gon, 10, 1, 2, 2),
         NamedCurve("smallest-unliftable", "one of two immersions cannot be lifted", _smallest_unliftable, 8, 1, 2, 1),
+        NamedCurve("never-lifts", "two immersions, and neither can be lifted", _never_lifts, 10, 1, 2, 0),
         NamedCurve(
             "bennequin", "five immersions, of which two cannot be lifted (figure 12, right)", _bennequin, 12, 1, 5, 3
         ),

@@ -1,9 +1,12 @@
 """The census against the reference, which compares curves by all their names, and against published counts."""
 
+import json
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from plyfold import GaussCode, bounds_disk, count_immersions, count_layerings, immersions
+from plyfold import GaussCode, bounds_disk, count_immersions, count_layerings, immersions, least_homotopy
 from plyfold.census import Summary, census_table, plane_curves
 from plyfold.census.summary import PLANE_CURVES, disagreements
 from plyfold.errors import InputError
@@ -82,6 +85,21 @@ def test_summaries_survive_json_and_add_up():
     tables = [census_table(batch) for part in range(4) for batch in plane_curves(7, part, 4)]
     notes = [Summary.of(7, table).note() for table in tables]
     assert Summary.together(map(Summary.from_note, notes)) == Summary.of(7, joined(tables))
+
+
+@pytest.mark.parametrize("n_crossings", [0, 1, 4])
+def test_least_homotopies_are_columns(n_crossings):
+    table = joined([census_table(batch, homotopies=True) for batch in plane_curves(n_crossings)])
+    for row in list(table.rows())[::7]:
+        found = least_homotopy(GaussCode.parse(row["code"].decode()))
+        assert (row["swept"], row["unavoidable"]) == (found.area, found.winding_area)
+        assert row["branch_points"] == found.branch_points
+    summary = Summary.of(n_crossings, table)
+    assert not list(disagreements(summary))
+    assert Summary.from_note(json.loads(json.dumps(summary.note()))) == summary
+    assert summary.swept >= summary.unavoidable > 0
+    wrong = replace(summary, disks=summary.disks + 1, swept=summary.unavoidable - 1)
+    assert len(list(disagreements(wrong))) == 2
 
 
 @pytest.mark.parametrize(("n_crossings", "part", "of"), [(-1, 0, 1), (21, 0, 1), (3, 2, 2), (3, -1, 2), (3, 0, 0)])

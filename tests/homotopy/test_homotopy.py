@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import plyfold as pf
 from plyfold.errors import InputError, MemoryLimitError
+from plyfold.homotopy.cancellation import _in_pairs
 from plyfold.offers.areas import areas_of
 from reference.homotopies import least_area
 from reference.planar_maps import cell_of_dart, census, gauss_code, reversed_code
@@ -194,3 +195,9 @@ def test_checks_refuse_what_is_spoiled(spoiled, message):
     found = pf.least_homotopy(PUBLISHED[2][0])
     with pytest.raises(pf.errors.PlyfoldError, match=message):
         replace(found, **{name: spoil(found) for name, spoil in spoiled.items()}).check()
+
+
+def test_labels_in_a_circle_become_pairs():
+    """Labels can follow each other in a circle, and one label two others: none is in two pairs."""
+    assert _in_pairs(np.array([1, 2, 1, -1, 3])).tolist() == [1, -1, -1, -1, 3]
+    assert _in_pairs(np.array([1, 0])).tolist() == [1, -1]

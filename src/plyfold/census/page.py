@@ -35,6 +35,11 @@ def summary_lines(summary: Summary) -> Iterator[tuple[str, str]]:
     yield "disks of which only some lift", f"{summary.partly:,}"
     yield "most immersions of one curve", f"{summary.most_immersions.most:,}"
     yield "most layerings of one curve", f"{summary.most_layerings.most:,}"
+    if summary.swept:
+        yield "cells swept by least homotopies", f"{summary.swept:,}"
+        yield "of these unavoidable", f"{summary.unavoidable:,}"
+    for points, curves in summary.branched.items():
+        yield f"bound a disk with {points} branch points", f"{curves:,}"
     for turns, curves in summary.turning.items():
         yield f"turning number {turns}", f"{curves:,}"
 

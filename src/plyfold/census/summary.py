@@ -56,6 +56,10 @@ class Summary:
         Among the curves that bound disks.
     partly_codes, never_codes : tuple of str, optional
         The first ones of them.
+    swept, unavoidable : int, optional
+        How many cells the least homotopies of all curves sweep together, and how many winding numbers make unavoidable.
+    branched : dict of int to int, optional
+        How many curves bound a disk with so many branch points. These three are 0 and empty if that was not asked for.
 
     Examples
     --------
@@ -81,6 +85,9 @@ class Summary:
     most_symmetries: Record = Record()
     partly_codes: tuple[str, ...] = ()
     never_codes: tuple[str, ...] = ()
+    swept: int = 0
+    unavoidable: int = 0
+    branched: dict[int, int] = field(default_factory=dict)
 
     @classmethod
     def of(cls, n_crossings: int, table: DataTable) -> Summary:
@@ -106,6 +113,7 @@ class Summary:
             most_symmetries=_record(table, table["symmetries"] * is_disk),
             partly_codes=_codes(table, partly),
             never_codes=_codes(table, never),
+            **_contractions(table),
         )
 
     def note(self) -> dict[str, Any]:
@@ -116,9 +124,10 @@ class Summary:
     def from_note(cls, note: dict[str, Any]) -> Summary:
         """Read what :meth:`note` gave, through JSON or not."""
         read = dict(note)
-        read["turning"] = {int(turns): number for turns, number in note["turning"].items()}
         for name, value in note.items():
-            if isinstance(value, dict) and name != "turning":
+            if name in ("turning", "branched"):
+                read[name] = {int(key): number for key, number in value.items()}
+            elif isinstance(value, dict):
                 read[name] = Record(**value)
             elif isinstance(value, list | tuple):
                 read[name] = tuple(value)
@@ -143,6 +152,18 @@ class Summary:
         return cls(**joined)
 
 
+def _contractions(table: DataTable) -> dict[str, Any]:
+    """Count what least homotopies sweep, if the table has them."""
+    if "swept" not in table.columns:
+        return {}
+    points, how_many = np.unique(np.ma.compressed(table["branch_points"]), return_counts=True)
+    return {
+        "swept": int(table["swept"].sum()),
+        "unavoidable": int(table["unavoidable"].sum()),
+        "branched": dict(zip(points.tolist(), how_many.tolist(), strict=True)),
+    }
+
+
 def _record(table: DataTable, figures: Ints) -> Record:
     if not len(table) or figures.max() == 0:
         return Record()
@@ -155,13 +176,18 @@ def _codes(table: DataTable, rows: Bools) -> tuple[str, ...]:
 
 
 def disagreements(summary: Summary) -> Iterator[str]:
-    """Yield what contradicts the counts that others published, as far as these go."""
+    """Yield what contradicts the counts that others published, as far as these go, or itself."""
     k = summary.n_crossings
     if k < len(PLANE_CURVES) and summary.curves != PLANE_CURVES[k]:
         yield f"{summary.curves} curves, but A008983 has {PLANE_CURVES[k]}"
     # Curves on the sphere with start and direction, and any of the k + 2 cells as the unbounded one.
     if 0 < k < len(POINTED_CURVES) and summary.names != (k + 2) * POINTED_CURVES[k]:
         yield f"{summary.names} named curves, but the mass formula has {(k + 2) * POINTED_CURVES[k]}"
+    # A curve sweeps no less than it winds, and disks without branch points are those that are immersed.
+    if summary.swept < summary.unavoidable:
+        yield f"{summary.swept} cells are swept, but {summary.unavoidable} is the least"
+    if summary.unavoidable and summary.branched.get(0, 0) != summary.disks:
+        yield f"{summary.branched.get(0, 0)} disks without branch points, but {summary.disks} that are immersed"
 
 
 def number_of_plane_curves(n_crossings: int) -> int:

@@ -18,7 +18,8 @@ __all__ = ["add_census_command"]
 
 _GUIDE = """\
 columns: code (which `plyfold.GaussCode.parse` reads), turning (without its sign), lowest and highest winding number,
-symmetries, immersions, lifting (how many of these), layerings (of all of them together)
+symmetries, immersions, lifting (how many of these), layerings (of all of them together); with --homotopies also swept
+(how many cells the least homotopy sweeps, each as often as it does) and branch_points
 
 A census that was interrupted goes on where it was when the same command is given again: what is done lies in a folder
 beside OUT, with .parts behind its name, until all is done.
@@ -40,6 +41,9 @@ def add_census_command(commands: Any) -> None:
     census.set_defaults(run=_census)
     census.add_argument("crossings", type=int, metavar="K", help="how many crossings")
     census.add_argument("-o", "--output", metavar="OUT", help="a .parquet, .csv or .jsonl file for all curves")
+    census.add_argument(
+        "--homotopies", action="store_true", help="least homotopies and branch points of all curves, too"
+    )
     census.add_argument("--page", metavar="PAGE", help="an .html file for the summary, with pictures")
     census.add_argument("--cost", action="store_true", help="measure a sample, say what all would cost, and stop")
     census.add_argument("--force", action="store_true", help="replace existing files")
@@ -83,7 +87,7 @@ def _census(options: argparse.Namespace) -> int:
 def _say_cost(options: argparse.Namespace, ending: str) -> None:
     from plyfold.census.job import cost_of_census
 
-    cost = cost_of_census(options.crossings, ending)
+    cost = cost_of_census(options.crossings, ending, options.homotopies)
     size = f", and a file of {cost.size / 1e6:,.0f} MB" if ending else ""
     complain(f"about {cost.curves:,} curves: {_duration(cost.seconds)} of one core{size}")
 
@@ -109,7 +113,7 @@ def _made(options: argparse.Namespace) -> Summary:
     from plyfold.tables.parts import count_parts, write_table
 
     watch = Stopwatch()
-    job = census_job(options.crossings)
+    job = census_job(options.crossings, homotopies=options.homotopies)
     with connected(options.scheduler) as client:
         if options.output:
             refuse_existing(options.output, options.force)
