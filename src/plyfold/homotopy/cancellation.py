@@ -134,7 +134,7 @@ class _Shorter:
         self.code, self.number = code[:left], number[:left]
 
     def _merge_labels(self) -> None:
-        """Make one label of two that always run together, of each chain of such the first and second, and so on."""
+        """Make one label of two that always run together."""
         second = _second_labels(self.code, len(self.weight))
         kept = np.flatnonzero(second[self.code // 2] >= 0)
         gone = _behind(self.code, kept)
@@ -186,18 +186,21 @@ def _second_labels(code: Ints, labels: int) -> Ints:
     np.maximum.at(most, code // 2, behind)
     first = np.flatnonzero((least == most) & (count > 0) & (count == count[np.minimum(least, 2 * labels - 1) // 2]))
     following[first] = least[first] // 2
-    return _matched(following)
+    following[following == np.arange(labels)] = _NONE
+    return _in_pairs(following)
 
 
-def _matched(following: Ints) -> Ints:
-    """Return partners of labels so that none has two: letters may run with others on both sides, and in circles."""
-    second = np.full(len(following), _NONE)
-    taken: set[int] = set()
-    for label in np.flatnonzero(following >= 0).tolist():
-        other = int(following[label])
-        if other != label and not taken & {label, other}:
-            taken |= {label, other}
-            second[label] = other
+def _in_pairs(following: Ints) -> Ints:
+    """Return what follows labels, for some of them: no label is in two of these pairs.
+
+    Labels can follow each other in a circle, and one label two others.
+    """
+    second, is_taken = np.full(len(following), _NONE), np.zeros(len(following), dtype=bool)
+    for first in np.flatnonzero(following >= 0).tolist():
+        after = following[first]
+        if not (is_taken[first] or is_taken[after]):
+            second[first] = after
+            is_taken[[first, after]] = True
     return second
 
 
