@@ -5,6 +5,7 @@ import pytest
 import shapely
 
 from coarse import CURVES
+from plyfold import bounds_disk, least_homotopy
 from plyfold.errors import CurveError
 from plyfold.sketch.answers import answer
 from plyfold.sketch.look import look_at
@@ -17,6 +18,7 @@ CORNER = [(0, 0), (60, 0), (60, 41), (61, 41), (61, 40), (0, 40)]
 WAIST = [(0, 0), (40, 21), (60, 21), (100, 0), (100, 40), (60, 20), (40, 20), (0, 40)]
 LIMACON = [(3, 0), (1, 3), (-2, 0), (1, -3), (3, 0.5), (1, 1), (0.5, 0), (1, -1)]
 EIGHT = [(0, 0), (2, 2), (2, 0), (0, 2)]
+KITE = [(1, 0), (3, 0), (3, 4), (-3, 4), (-3, 0), (-1, 0), (1, 1), (1, 3), (2.2, 2), (-2, 2), (-1, 3), (-1, 1)]
 ROAD = [(0, 0), (9, 0), (9, 6), (4, 6), (4, -5)]
 
 
@@ -72,6 +74,17 @@ def test_pieces_add_up_to_the_winding_numbers(points, direction):
     assert sum(map(area, pieces["areas"])) == pytest.approx(covered)
     assert all(shapely.LinearRing(loop["points"]).is_ccw for loop in pieces["loops"])
     assert looked_at(pieces["loops"])["verdict"]["immersible"]
+
+
+def test_pieces_of_a_curve_are_the_loops_of_its_least_homotopy():
+    """One loop of the kite overlaps itself, and the other runs the other way."""
+    found = least_homotopy(KITE)
+    pieces = offers(KITE)["pieces"]
+    assert pieces["sentence"] == "It can be cut into 2 loops, each the outline of a disk of cloth."
+    winds = [abs(loop.winding) @ found.weights for loop in found.loops]
+    assert [bounds_disk(loop["points"]) for loop in pieces["loops"]] == [True, True]
+    assert sum(winds) == pytest.approx(25.9)
+    assert looked_at(pieces["loops"])["verdict"]["headline"].startswith("2 pieces of cloth: 2 disks")
 
 
 @pytest.mark.parametrize("name", CURVES)

@@ -13,10 +13,13 @@ from plyfold.arrangement.arrangement import Arrangement
 from plyfold.arrays import Floats, Ints
 from plyfold.errors import PrecisionError
 from plyfold.flat.decompose import decompose
+from plyfold.homotopy.homotopy import least_homotopy
+from plyfold.immersion.verdict import bounds_disk
 from plyfold.obstruction import Obstruction
 from plyfold.offers.cusps import SuggestedCusps
 from plyfold.offers.offers import offers
 from plyfold.offers.repair import LENS, LOOP, Repaired
+from plyfold.outline.curve import Curve
 from plyfold.outline.direction import sense
 from plyfold.report import offer_in_words, repair_in_words, surface_with_cusps
 from plyfold.sketch.drawings import arranged, first_immersion
@@ -67,10 +70,10 @@ def offered(question: Offer) -> dict[str, Any]:
 
 def _listed(drawn: Arrangement) -> list[dict[str, Any]]:
     found = offers(drawn, patient(_SECONDS_TO_FIND), _ALLOWED_REGION, _ALLOWED_LAYERS)
-    rings = _pieces(drawn)
+    pieces = _pieces_offer(drawn)
     listed = [] if found.repaired is None else [_repair_offer(found.repaired)]
     listed += [] if found.cusps is None else [_cusps_offer(found.cusps)]
-    return listed + ([_pieces_offer(rings)] if 0 < len(rings) <= _MOST_PIECES else [])
+    return listed + ([] if pieces is None else [pieces])
 
 
 def loop_data(points: Floats, index: Ints | None = None) -> dict[str, Any]:
@@ -134,7 +137,36 @@ def _cusps_offer(found: SuggestedCusps) -> dict[str, Any]:
 # ---- pieces ----------------------------------------------------------------------------------------------------------
 
 
-def _pieces(drawn: Arrangement) -> list[Floats]:
+def _pieces_offer(drawn: Arrangement) -> dict[str, Any] | None:
+    """Offer the loops that a curve is cut into when it contracts, or, where these are not found, simple polygons."""
+    rings, kind = _loops_of_disks(drawn), "loop"
+    if not rings:
+        rings, kind = _polygons(drawn), "simple polygon"
+    if not 0 < len(rings) <= _MOST_PIECES:
+        return None
+    count = f"one {kind}" if len(rings) == 1 else f"{len(rings)} {kind}s"
+    each = ", each the outline of a disk of cloth" if kind == "loop" else ""
+    areas = [ring.tolist() for ring in rings]
+    sentence = f"It can be cut into {count}{each}."
+    return _offer("pieces", "Show the pieces", sentence, areas=areas, loops=list(map(loop_data, rings)))
+
+
+def _loops_of_disks(drawn: Arrangement) -> list[Floats]:
+    """Return the loops of the least homotopy of one curve, each with its disk on the left.
+
+    None if time is short, or if their corners at crossings, which are rounded, make other loops of them.
+    """
+    if drawn.n_loops > 1 or drawn.cusp_index.any() or len(drawn.contacts):
+        return []
+    found = least_homotopy(drawn, time_limit=patient(_SECONDS_TO_FIND))
+    if not found.optimal:
+        return []
+    curves = [loop.curve if loop.sign > 0 else loop.curve.reversed() for loop in found.loops]
+    rings = [curve.points for curve in curves if isinstance(curve, Curve)]
+    return rings if len(rings) == len(curves) and all(map(bounds_disk, rings)) else []
+
+
+def _polygons(drawn: Arrangement) -> list[Floats]:
     """Return simple polygons that add up to the winding numbers, counter-clockwise; none where rounding fails."""
     assert drawn.given is not None
     try:
@@ -142,14 +174,3 @@ def _pieces(drawn: Arrangement) -> list[Floats]:
     except PrecisionError:
         return []
     return [ring if sense(ring) > 0 else ring[::-1] for ring in rings]
-
-
-def _pieces_offer(rings: list[Floats]) -> dict[str, Any]:
-    count = "one simple polygon" if len(rings) == 1 else f"{len(rings)} simple polygons"
-    return _offer(
-        "pieces",
-        "Show the pieces",
-        f"It can be cut into {count}.",
-        areas=[ring.tolist() for ring in rings],
-        loops=list(map(loop_data, rings)),
-    )

@@ -99,7 +99,7 @@ export const ACTIONS = [
   walking("layeringUp", "Next layering", "ArrowUp", "layering", 1),
   offering("repair", "repair", "Leave out small loops", "Shift+K", "Leave out small loops, or undo crossings, that keep it from being an outline"),
   offering("markCusps", "cusps", "Cusps here", "Shift+U", "Mark the cusps that would help, as they are shown"),
-  offering("showPieces", "pieces", "Show the pieces", "Shift+I", "Draw the simple polygons that it can be cut into"),
+  offering("showPieces", "pieces", "Show the pieces", "Shift+I", "Draw the loops that it can be cut into, each the outline of a disk"),
   { name: "ribbon", label: "Make it a ribbon", keys: ["Shift+R"], group: "answers", hint: "Give open strokes a width", preview: "ribbon",
     perform: makeRibbon, enabled: (state) => errorShown(state)?.kind === "unfinished" && lineOf(state) !== null },
   { name: "holes", label: "Make holes", keys: ["Shift+H"], group: "answers", hint: "Turn loops round so that every second one, from outside, is a hole",
