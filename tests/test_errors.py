@@ -56,6 +56,7 @@ OTHERS = {
     ("io/saving", "OSError"): "what the system says, with the name of the file and not that of its draft",
     ("io/flat_meshes", "ValueError"): "as Python raises of words that are no numbers; refused in one place",
     ("io/svg", "ValueError"): "as svgelements raises of other numbers that are none; refused in one place",
+    ("core/lowering", "IndexError"): "within the library: what compiled loops check for each index is checked once",
     ("immersion/grouping", "IndexError"): "within the library: the caller knows how many there are",
     ("layering/orders/search", "ValueError"): "cannot happen",
     ("cli/sketch", "KeyboardInterrupt"): "a signal that asks the server to end is an interrupt",

@@ -99,6 +99,7 @@ LATE = {
     ("plyfold.matrices", "scipy"): _STAGE,
     ("plyfold.offers.cusps", "pysat"): _STAGE,
     ("plyfold.outline.direction", "shapely"): _SMALL,
+    ("plyfold.outline.foreign", "matplotlib"): "whoever has a path of it has loaded it",
     ("plyfold.outline.given", "shapely"): _SMALL,
     ("plyfold.sat", "pysat"): _STAGE,
     ("plyfold.surface.files", "trimesh"): _OPTIONAL,

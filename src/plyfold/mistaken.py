@@ -33,7 +33,7 @@ _SIGNED = Mistake("it is a signed Gauss code", "pf.GaussCode.parse(text) reads i
 _WITHOUT_OUTER = Mistake(
     "it is a signed Gauss code without its unbounded cell", "pf.GaussCode.parse reads '1+ 1- / outer 1'"
 )
-_PD = Mistake("it is a PD code", "no call takes PD codes yet; pf.GaussCode.parse reads signed Gauss codes")
+_PD = Mistake("it is a PD code", "pf.GaussCode.from_pd reads it")
 _UNSIGNED = Mistake(
     "it is a Gauss code that does not say which way the strands cross",
     "no call takes it without signs yet; pf.GaussCode.parse reads codes like '1+ 1- / outer 1'",
@@ -99,11 +99,8 @@ def mistaken_value(value: object) -> Mistake | None:
 
 
 def _mistaken_object(value: object) -> Mistake | None:
-    if hasattr(value, "to_polygons"):
-        hint = "path.to_polygons()[0] is the first outline of a matplotlib Path, with its curves flattened"
-        return Mistake("a Path is not a list of points", hint)
     name, kind = type(value).__name__, getattr(value, "geom_type", "")
-    if hasattr(value, "points") or (isinstance(kind, str) and kind):
+    if any(hasattr(value, word) for word in ("points", "to_polygons", "discrete")) or (isinstance(kind, str) and kind):
         hint = "it can be given as it is wherever a curve can, as in pf.arrange"
         return Mistake(f"a {name} is not a list of points", hint)
     if hasattr(value, "geom_type"):
@@ -136,11 +133,11 @@ def mistaken_array(raw: npt.NDArray[Any]) -> Mistake | None:
     Examples
     --------
     >>> import numpy as np
-    >>> mistaken_array(np.array([0, 1, 1j])).hint
-    'give numpy.column_stack([z.real, z.imag])'
+    >>> mistaken_array(np.array([[0, 1, 1, 0], [0, 0, 1, 1]])).hint
+    'give numpy.transpose(points)'
     """
     if raw.dtype.kind == "c":
-        return Mistake("the points are complex numbers", "give numpy.column_stack([z.real, z.imag])")
+        return Mistake("the points are complex numbers, and not in one row", "give an array of shape (n,)")
     if raw.dtype.kind == "O" and any(hasattr(entry, "geom_type") or hasattr(entry, "points") for entry in raw.flat):
         return Mistake("these are curves, not points", "give one of them; pf.find_embedding takes a list of curves")
     if raw.ndim == 3:

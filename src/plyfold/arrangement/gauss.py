@@ -21,6 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from plyfold.arrangement.arrangement import Arrangement, CurveLike, arrange
+from plyfold.arrangement.planar_diagrams import gauss_of_diagram, largest_cell
 from plyfold.arrangement.planar_map import next_darts, reversed_code, whole_number
 from plyfold.errors import GaussCodeError
 from plyfold.mistaken import mistaken_code
@@ -149,6 +150,68 @@ class GaussCode:
             _refuse("expected '/ outer' and a dart", text, len(visits + slash))
         partner, ccw = _read_visits(visits)
         return cls(tuple(partner), tuple(ccw), int(match[1]))
+
+    @classmethod
+    def from_pd(cls, diagram: str | npt.ArrayLike, outer: int | None = None) -> GaussCode:
+        """Read the shadow of a knot from its planar diagram, as KnotTheory, SnapPy and Spherogram write it.
+
+        Parameters
+        ----------
+        diagram : (k, 4) array_like of int, or str
+            The labels of the edges around each crossing, counter-clockwise, from the strand below that comes in.
+        outer : int, optional
+            A dart of the unbounded cell, which a diagram does not tell; by default one of the cell with most borders.
+
+        Returns
+        -------
+        GaussCode
+            It starts on the edge that is named first.
+
+        Raises
+        ------
+        GaussCodeError
+            If it is no planar diagram, or one of several curves.
+
+        Examples
+        --------
+        >>> print(GaussCode.from_pd([(1, 4, 2, 5), (3, 6, 4, 1), (5, 2, 6, 3)]))
+        1+ 2- 3+ 1- 2+ 3- / outer 1
+        """
+        partner, ccw, _ = gauss_of_diagram(diagram)
+        return cls(tuple(partner), tuple(ccw), largest_cell(partner, ccw) if outer is None else outer)
+
+    def to_pd(self, over: npt.ArrayLike) -> list[tuple[int, int, int, int]]:
+        """Return the planar diagram of the knot that the curve is with strands over and under each other.
+
+        Parameters
+        ----------
+        over : (2k,) bool
+            Whether the strand passes over, by visits, as ``casing`` of a layering.
+
+        Returns
+        -------
+        list of four int
+            For each crossing the labels of the edges around it, counter-clockwise, from the strand below that comes in.
+            Edge i, counted from 1, leads to visit i − 1.
+
+        Raises
+        ------
+        GaussCodeError
+            If there are other than one truth value for each visit, or not one of each two strands passes over.
+
+        Examples
+        --------
+        >>> trefoil = GaussCode.from_pd([(1, 4, 2, 5), (3, 6, 4, 1), (5, 2, 6, 3)])
+        >>> trefoil.to_pd([False, True] * 3)
+        [(1, 4, 2, 5), (3, 6, 4, 1), (5, 2, 6, 3)]
+        """
+        passes, (partner, ccw) = np.asarray(over, dtype=bool), self._arrays()
+        if passes.shape != partner.shape or (passes == passes[partner]).any():
+            raise GaussCodeError("over says of each visit whether its strand passes over, and the other one does not")
+        return [
+            _around(int(visit), int(partner[visit]), bool(ccw[visit]), len(partner))
+            for visit in np.flatnonzero(~passes)
+        ]
 
     def __str__(self) -> str:
         first = [min(visit, other) for visit, other in enumerate(self.partner)]
@@ -315,6 +378,13 @@ class GaussCode:
             ((other - visit) % n, sign, 2 * visit in outer, 2 * visit + 1 in outer)
             for visit, (other, sign) in enumerate(visits)
         )
+
+
+def _around(below: int, above: int, from_right: bool, visits: int) -> tuple[int, int, int, int]:
+    """Return the labels of the edges around a crossing, given its visits and the side from which the upper comes."""
+    incoming, outgoing = above + 1, (above + 1) % visits + 1
+    right, left = (incoming, outgoing) if from_right else (outgoing, incoming)
+    return below + 1, right, (below + 1) % visits + 1, left
 
 
 def _from_word(word: _Word) -> GaussCode:

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from plyfold.errors import CurveError
 from plyfold.outline.curve import Curve, Cusps, Outline, outline_of_points
 from plyfold.outline.direction import sense
+from plyfold.outline.foreign import loops_of_path
 from plyfold.outline.points import Repair, left_out
 from plyfold.outline.strokes import join_strokes
 from plyfold.outline.vertices import naming_the_curve
@@ -151,6 +152,9 @@ def as_outline(value: object) -> Outline:
         return _outline_of_geometry(cast("BaseGeometry", value))
     if hasattr(value, "outline"):
         return as_outline(_outline_of_owner(value.outline))
+    loops = loops_of_path(value)
+    if loops is not None:
+        return _outline_of_several(loops)
     if are_several(value):
         return _outline_of_several(cast("Sequence[object]", value))
     return Curve(cast("npt.ArrayLike", value))
@@ -211,6 +215,8 @@ def are_several(value: object) -> bool:
 
 
 def _is_curve(value: object) -> bool:
+    if isinstance(value, np.ndarray) and value.dtype.kind == "c":
+        return value.ndim == 1
     if isinstance(value, list | tuple | np.ndarray):
         return len(value) > 0 and np.ndim(value[0]) == 1
     return any(hasattr(value, name) for name in ("geom_type", "outline", "partner", "loops"))

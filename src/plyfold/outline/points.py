@@ -140,6 +140,8 @@ def _raw_array(values: npt.ArrayLike) -> npt.NDArray[Any]:
         raise CurveError("the points are not all of the same length", hint="give one x and one y per point") from error
     if raw.size == 0:
         return raw.astype(float).reshape(-1, 2)
+    if raw.dtype.kind == "c" and raw.ndim == 1:
+        return np.column_stack([raw.real, raw.imag])
     refuse_mistake(mistaken_array(raw))
     if raw.dtype.kind not in _NUMERIC_KINDS + "O":
         raise CurveError(f"the points are not real numbers but of type {raw.dtype}", hint="give plain numbers")
