@@ -12,5 +12,8 @@ from .immersion_plot import plot_immersions as plot_immersions
 from .layers_plot import plot_casing as plot_casing
 from .layers_plot import plot_layers as plot_layers
 from .layout_plot import plot_layout as plot_layout
+from .method_plot import plot_dual_tree as plot_dual_tree
+from .method_plot import plot_levels as plot_levels
+from .method_plot import plot_word as plot_word
 from .obstruction_plot import plot_obstruction as plot_obstruction
 from .surface_plot import plot_surface as plot_surface
