@@ -36,7 +36,7 @@ def decide_each(
     >>> from array import array
     >>> told, figures = array("q", [0, 0]), array("q", [0] * 6)
     >>> points = array("d", [0, 0, 1, 0, 0, 1, 0, 0, 2, 2, 2, 0, 0, 2])
-    >>> decide_each(memoryview(points), array("q", [0, 3, 7]), told, figures, lambda: None)
+    >>> decided = decide_each(memoryview(points), array("q", [0, 3, 7]), told, figures, lambda: None)
     >>> told.tolist(), figures.tolist()
     ([1, 0], [0, 1, 1, 1, 0, 0])
     """

@@ -440,6 +440,7 @@ def _all_triples(immersion: Immersion, graph: PairGraph, literal: Ints) -> Itera
         pair = three * w + three[:, [1, 2, 0]]
         cells, step = with_pairs[winding == w], max(1, _TRIPLES_AT_A_TIME // len(three))
         for some in (cells[start : start + step] for start in range(0, len(cells), step)):
+            _require_memory_for_triples(immersion, len(some) * len(three))
             x, y, z = (literal[graph.first_pair[some, None] + column].ravel() for column in pair.T)
             cycles, rows = _in_standard_form(x, y, z)
             kept = _each_once(cycles)
